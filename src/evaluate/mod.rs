@@ -1,0 +1,48 @@
+//! Poses in, components and fitness out: every candidate drawn into every camera and compared with what was seen
+//! (SPEC A6, A7).
+
+mod components;
+mod objective;
+
+use anyhow::Result;
+
+pub use components::Components;
+pub use objective::{Objective, ObjectiveKind};
+
+use crate::features::Observation;
+
+/// Scores candidate poses against the observations of one frame.
+///
+/// A pose is a row of [`crate::body::Body::dof_count`] single-precision values (mm, radians) in state-vector order; a
+/// batch is such rows one after the other.
+pub trait Evaluator: Send {
+    /// Its name as `--backend` takes it.
+    fn name(&self) -> &'static str;
+
+    /// How it does it on this machine: `avx512`, `avx2`, `portable`, …
+    fn variant(&self) -> &'static str;
+
+    /// The number of views.
+    fn view_count(&self) -> usize;
+
+    /// The length of a pose.
+    fn dof_count(&self) -> usize;
+
+    /// Takes the observations of a frame, one a view, in the order of the cameras.
+    ///
+    /// # Errors
+    /// When there are not as many as views, or one's size is not its camera's.
+    fn observe(&mut self, observations: &[Observation]) -> Result<()>;
+
+    /// The components of every candidate in every view: `components[candidate * views + view]`.
+    ///
+    /// # Errors
+    /// When the slices' lengths do not fit each other, or the device fails.
+    fn components(&mut self, poses: &[f32], components: &mut [Components]) -> Result<()>;
+
+    /// The fitness of every candidate, in [0, 1].
+    ///
+    /// # Errors
+    /// As [`Self::components`].
+    fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()>;
+}

@@ -1,0 +1,166 @@
+//! Writing results: to a temporary name first, renamed when complete, so that a reader never sees half a file and a
+//! killed run leaves the previous one whole.
+
+use std::fs;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+
+/// What to do when a result is already there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overwrite {
+    /// Refuse with an error that names the file.
+    Refuse,
+    /// Replace it (`--force`).
+    Replace,
+}
+
+/// Writes a file through `body` under a temporary name beside `path`, then renames it to `path`.
+///
+/// # Errors
+/// When the file is there and `overwrite` is [`Overwrite::Refuse`], or when writing fails (a full disk, say): the message
+/// names the file; the temporary is removed and what was there before stays.
+pub fn write_atomically(
+    path: &Path,
+    overwrite: Overwrite,
+    body: impl FnOnce(&mut dyn Write) -> Result<()>,
+) -> Result<()> {
+    if overwrite == Overwrite::Refuse && path.exists() {
+        bail!("{} exists already: pass --force to replace it, or choose another name", path.display());
+    }
+    let temporary = temporary_name(path);
+    let written = (|| -> Result<()> {
+        let mut writer = BufWriter::new(fs::File::create(&temporary)?);
+        body(&mut writer)?;
+        writer.flush()?;
+        // Without this a crash of the machine after the rename could leave an empty file under the final name.
+        writer.get_ref().sync_data()?;
+        fs::rename(&temporary, path)?;
+        Ok(())
+    })();
+    if written.is_err() {
+        // The temporary is of no use to anyone; failing to remove it must not hide the first error.
+        let _ = fs::remove_file(&temporary);
+    }
+    written.with_context(|| format!("cannot write {}", path.display()))
+}
+
+fn temporary_name(path: &Path) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(".tmp");
+    path.with_file_name(name)
+}
+
+/// A folder that results go into.
+#[derive(Clone, Debug)]
+pub struct OutputFolder {
+    path: PathBuf,
+    overwrite: Overwrite,
+}
+
+impl OutputFolder {
+    /// Creates the folder (and its parents). A folder that already holds something is refused unless `overwrite` says
+    /// otherwise, so that a second run never mixes its results into those of a first.
+    ///
+    /// # Errors
+    /// When the folder holds files and may not be overwritten, when `path` is a file, or when it cannot be made.
+    pub fn create(path: &Path, overwrite: Overwrite) -> Result<Self> {
+        if path.exists() && !path.is_dir() {
+            bail!("{} is a file, expected a folder to write results into", path.display());
+        }
+        let occupied = path.is_dir()
+            && fs::read_dir(path)
+                .with_context(|| format!("cannot read the folder {}", path.display()))?
+                .next()
+                .is_some();
+        if occupied && overwrite == Overwrite::Refuse {
+            bail!(
+                "the folder {} is not empty: pass --force to overwrite its files, or choose another folder",
+                path.display()
+            );
+        }
+        fs::create_dir_all(path).with_context(|| format!("cannot create the folder {}", path.display()))?;
+        // Past this point the folder is ours: files in it are replaced (a resumed run rewrites its own).
+        Ok(Self { path: path.to_path_buf(), overwrite: Overwrite::Replace })
+    }
+
+    /// Creates the folder or opens it with what it holds (a resumed run).
+    ///
+    /// # Errors
+    /// When it cannot be made.
+    pub fn open(path: &Path) -> Result<Self> {
+        Self::create(path, Overwrite::Replace)
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The path of a file in this folder; `name` may hold sub-folders, which are made.
+    ///
+    /// # Errors
+    /// When a sub-folder cannot be made.
+    pub fn file(&self, name: &str) -> Result<PathBuf> {
+        let path = self.path.join(name);
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).with_context(|| format!("cannot create the folder {}", parent.display()))?;
+        }
+        Ok(path)
+    }
+
+    /// Writes one file of the folder, atomically.
+    ///
+    /// # Errors
+    /// As [`write_atomically`].
+    pub fn write(&self, name: &str, body: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+        write_atomically(&self.file(name)?, self.overwrite, body)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failed_write_leaves_the_old_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("poses.csv");
+        write_atomically(&path, Overwrite::Refuse, |w| Ok(w.write_all(b"old")?)).unwrap();
+        let refused = write_atomically(&path, Overwrite::Refuse, |w| Ok(w.write_all(b"new")?)).unwrap_err();
+        assert!(format!("{refused:#}").contains("--force"), "{refused:#}");
+        let failed = write_atomically(&path, Overwrite::Replace, |w| {
+            w.write_all(b"half")?;
+            bail!("no space left on device")
+        })
+        .unwrap_err();
+        assert!(format!("{failed:#}").contains("poses.csv"), "{failed:#}");
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "the temporary is gone");
+    }
+
+    #[test]
+    fn a_full_disk_is_one_sentence() {
+        // Linux offers a device that is always full; elsewhere there is nothing to test with.
+        if !Path::new("/dev/full").exists() {
+            return;
+        }
+        let error = (|| -> Result<()> {
+            let mut writer = BufWriter::new(fs::OpenOptions::new().write(true).open("/dev/full")?);
+            writer.write_all(b"x")?;
+            writer.flush()?;
+            Ok(())
+        })()
+        .unwrap_err();
+        assert!(format!("{error:#}").to_lowercase().contains("no space"), "{error:#}");
+    }
+
+    #[test]
+    fn an_occupied_folder_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        OutputFolder::create(folder.path(), Overwrite::Refuse).unwrap().write("a/b.txt", |_| Ok(())).unwrap();
+        let error = OutputFolder::create(folder.path(), Overwrite::Refuse).unwrap_err();
+        assert!(format!("{error}").contains("not empty"), "{error}");
+    }
+}

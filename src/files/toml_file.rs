@@ -1,0 +1,95 @@
+//! One way to read a TOML file, with one kind of error sentence.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result, anyhow};
+use serde::de::DeserializeOwned;
+
+/// Files a person edits are small; anything larger is a mistake (a video handed over as a body, say) and reading it
+/// whole would only waste memory.
+const LARGEST_TOML: u64 = 16 << 20;
+
+/// Reads a TOML file into `T`. Mark the structures of `T` with `#[serde(deny_unknown_fields)]`.
+///
+/// # Errors
+/// One sentence with the file, the line, what was found and what was expected; an unknown key is named with the
+/// nearest known one.
+pub fn read_toml<T: DeserializeOwned>(path: &Path) -> Result<T> {
+    let size = fs::metadata(path).with_context(|| format!("cannot read {}", path.display()))?.len();
+    if size > LARGEST_TOML {
+        return Err(anyhow!("{} holds {size} bytes, expected a TOML file of at most {LARGEST_TOML}", path.display()));
+    }
+    let bytes = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+    let text = String::from_utf8(bytes)
+        .map_err(|e| anyhow!("{} is not text (byte {} is not UTF-8)", path.display(), e.utf8_error().valid_up_to()))?;
+    parse_toml(&text, &path.display().to_string())
+}
+
+/// [`read_toml`] for text already in memory; `name` stands for the file in messages.
+///
+/// # Errors
+/// As [`read_toml`].
+pub fn parse_toml<T: DeserializeOwned>(text: &str, name: &str) -> Result<T> {
+    toml::from_str(text).map_err(|error| {
+        let line = error.span().map(|span| text[..span.start.min(text.len())].matches('\n').count() + 1);
+        let place = line.map_or_else(|| name.to_string(), |line| format!("{name}, line {line}"));
+        anyhow!("{place}: {}", one_sentence(error.message()))
+    })
+}
+
+/// serde's "unknown field `x`, expected one of `a`, `b`" with the nearest known key put first.
+fn one_sentence(message: &str) -> String {
+    let message = message.trim().replace('\n', ", ");
+    let Some(rest) = message.strip_prefix("unknown field `") else { return message };
+    let mut quoted = rest.split('`');
+    let Some(found) = quoted.next() else { return message };
+    // What follows alternates between text and quoted names.
+    let known: Vec<&str> = quoted.skip(1).step_by(2).collect();
+    let nearest =
+        known.iter().min_by(|a, b| strsim::damerau_levenshtein(found, a).cmp(&strsim::damerau_levenshtein(found, b)));
+    match nearest {
+        Some(nearest) => {
+            format!("unknown key `{found}`, the nearest known key is `{nearest}` (known: {})", known.join(", "))
+        }
+        None => format!("unknown key `{found}`, expected none here"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(serde::Deserialize, Debug)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code)]
+    struct Settings {
+        fps: f64,
+        #[serde(default)]
+        scale: f64,
+    }
+
+    #[test]
+    fn an_unknown_key_names_the_nearest() {
+        let error = parse_toml::<Settings>("fps = 25.0\nscael = 0.5\n", "sequence.toml").unwrap_err().to_string();
+        assert!(error.contains("sequence.toml, line 2"), "{error}");
+        assert!(error.contains("`scael`") && error.contains("nearest known key is `scale`"), "{error}");
+    }
+
+    #[test]
+    fn a_wrong_type_names_the_line() {
+        let error = parse_toml::<Settings>("\nfps = \"fast\"\n", "sequence.toml").unwrap_err().to_string();
+        assert!(error.contains("line 2") && error.contains("string"), "{error}");
+    }
+
+    #[test]
+    fn missing_and_broken_files() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("s.toml");
+        assert!(format!("{:#}", read_toml::<Settings>(&path).unwrap_err()).contains("s.toml"));
+        fs::write(&path, [0xff, 0xfe]).unwrap();
+        assert!(format!("{:#}", read_toml::<Settings>(&path).unwrap_err()).contains("UTF-8"));
+        fs::write(&path, "").unwrap();
+        assert!(format!("{:#}", read_toml::<Settings>(&path).unwrap_err()).contains("missing field `fps`"));
+    }
+}

@@ -1,0 +1,23 @@
+//! Markerless full-body 3D motion from a few calibrated cameras, by analysis through synthesis: hundreds of candidate
+//! poses a frame are drawn into every camera, compared with the observed silhouette and edges, and a particle swarm
+//! climbs to the best one.
+//!
+//! The crate is a house of rooms (see `docs/ARCHITECTURE.md`); an import runs down the floors, never up:
+//! [`command`] → [`track`] → [`search`] → [`evaluate`], [`synth`], [`report`] → [`features`], [`body`], [`sequence`] →
+//! [`motion`], [`geometry`] → [`files`].
+//!
+//! Lengths are millimetres, angles radians (degrees only in files people edit), images row-major with the origin in the
+//! centre of the top-left pixel. The world frame is right-handed with z up.
+
+pub mod body;
+pub mod command;
+pub mod evaluate;
+pub mod features;
+pub mod files;
+pub mod geometry;
+pub mod motion;
+pub mod report;
+pub mod search;
+pub mod sequence;
+pub mod synth;
+pub mod track;

@@ -1,0 +1,1 @@
+//! Sequences: the manifest, video and picture input, calibration files (SPEC A2, INTERFACES).

@@ -1,0 +1,1 @@
+//! Synthetic sequences with exact truth: an actor, a room, cameras, noise.
