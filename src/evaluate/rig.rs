@@ -339,7 +339,8 @@ pub(crate) fn depth_squared(a: [f32; 3], b: [f32; 3], centre: [f32; 3]) -> f32 {
 pub(crate) fn snap(coordinate: f32) -> i32 {
     let scaled = coordinate * 256.0 + 0.5;
     let truncated = scaled as i32;
-    truncated - i32::from(truncated as f32 > scaled)
+    // Wrapping, for a point without an image whose coordinate saturated.
+    truncated.wrapping_sub(i32::from(truncated as f32 > scaled))
 }
 
 #[inline(always)]
