@@ -84,6 +84,8 @@ struct Row {
 }
 
 fn main() {
+    // `cargo bench --bench evaluate -- avx` keeps the rows whose names hold that word.
+    let filter: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
     let measuring = std::env::args().any(|argument| argument == "--bench");
     let count = if measuring { 512 } else { 32 };
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
@@ -121,7 +123,7 @@ fn main() {
             let objective = Objective::default();
             rows.push(Row {
                 name: set.name().into(),
-                rounds_each: 20,
+                rounds_each: 4,
                 run: Box::new(move || {
                     cpu.fitness(&poses, &objective, &mut fitness).unwrap();
                     if out.is_empty() {
@@ -134,12 +136,16 @@ fn main() {
                 ms: Vec::new(),
             });
         }
-        // The first call warms up and shows that all compute the same.
-        let expected = (rows[0].run)();
-        for row in &mut rows[1..] {
-            assert!((row.run)() == expected, "{} gives other integers than zbuffer", row.name);
+        if !filter.is_empty() {
+            rows.retain(|row| filter.iter().any(|word| row.name.contains(word)));
         }
-        for _ in 0..if measuring { 12 } else { 1 } {
+        // The first call warms up and shows that all compute the same.
+        let Some(first) = rows.first_mut() else { continue };
+        let expected = (first.run)();
+        for row in &mut rows[1..] {
+            assert!((row.run)() == expected, "{} gives other integers than the first row", row.name);
+        }
+        for _ in 0..if measuring { 40 } else { 1 } {
             for row in &mut rows {
                 let start = Instant::now();
                 for _ in 0..row.rounds_each {
@@ -162,7 +168,10 @@ fn main() {
                 row.ms[row.ms.len() / 2]
             })
             .collect();
-        for (row, ms) in rows.iter().zip(&medians) {
+        let times = |name: &str, ms: f64| {
+            rows.iter().position(|row| row.name == name).map_or(f64::NAN, |index| medians[index] / ms)
+        };
+        for (row, &ms) in rows.iter().zip(&medians) {
             println!(
                 "{:10} {:9.3} {:9.3} {:9.3} {:10.3} {:10.1} {:10.1}",
                 row.name,
@@ -170,8 +179,8 @@ fn main() {
                 row.ms[0],
                 row.ms[row.ms.len() - 1],
                 ms * 1e3 / (count as f64 * 4.0),
-                medians[1] / ms,
-                medians[0] / ms
+                times("rowspan", ms),
+                times("zbuffer", ms)
             );
         }
     }

@@ -334,13 +334,16 @@ pub(crate) fn depth_squared(a: [f32; 3], b: [f32; 3], centre: [f32; 3]) -> f32 {
     dot(d, d)
 }
 
-/// A pixel coordinate to 1/256 pixel: nearest, halves towards +infinity.
+/// A pixel coordinate to 1/256 pixel: nearest, halves towards +infinity. Any value beyond [`FARTHEST_PIXEL`].
 #[inline(always)]
 pub(crate) fn snap(coordinate: f32) -> i32 {
+    // Adding 1.5 * 2^23 leaves the nearest integer in the low bits, on every instruction set; one less where that is
+    // above the value makes it the floor. Up to 2^22 every step is exact.
+    const ROUND: f32 = 12_582_912.0;
     let scaled = coordinate * 256.0 + 0.5;
-    let truncated = scaled as i32;
-    // Wrapping, for a point without an image whose coordinate saturated.
-    truncated.wrapping_sub(i32::from(truncated as f32 > scaled))
+    let shifted = scaled + ROUND;
+    let nearest = (shifted.to_bits() as i32).wrapping_sub(ROUND.to_bits() as i32);
+    nearest.wrapping_sub(i32::from(shifted - ROUND > scaled))
 }
 
 #[inline(always)]

@@ -36,6 +36,7 @@ type Pair = [__m256i; 2];
 impl Simd for Avx2 {
     type Words = Pair;
     type Rows = [__m256d; 4];
+    type ShortRows = [__m256; 2];
     type Mask = Pair;
     type Sum = __m256i;
 
@@ -65,10 +66,6 @@ impl Simd for Avx2 {
     #[inline(always)]
     fn and_not(self, a: Pair, b: Pair) -> Pair {
         with_token!([_mm256_andnot_si256(b[0], a[0]), _mm256_andnot_si256(b[1], a[1])])
-    }
-    #[inline(always)]
-    fn add(self, a: Pair, b: Pair) -> Pair {
-        with_token!([_mm256_add_epi32(a[0], b[0]), _mm256_add_epi32(a[1], b[1])])
     }
     #[inline(always)]
     fn sub(self, a: Pair, b: Pair) -> Pair {
@@ -136,6 +133,21 @@ impl Simd for Avx2 {
             let c = _mm256_cvttpd_epi32(_mm256_floor_pd(_mm256_fmadd_pd(slope, rows[2], offset)));
             let d = _mm256_cvttpd_epi32(_mm256_floor_pd(_mm256_fmadd_pd(slope, rows[3], offset)));
             [_mm256_set_m128i(b, a), _mm256_set_m128i(d, c)]
+        })
+    }
+    #[inline(always)]
+    fn short_rows(self, first: u32) -> [__m256; 2] {
+        let [low, high] = self.row_words(first);
+        with_token!([_mm256_cvtepi32_ps(low), _mm256_cvtepi32_ps(high)])
+    }
+    #[inline(always)]
+    fn short_line(self, rows: [__m256; 2], slope: f32, offset: f32) -> Pair {
+        with_token!({
+            let (slope, offset) = (_mm256_set1_ps(slope), _mm256_set1_ps(offset));
+            [
+                _mm256_cvttps_epi32(_mm256_floor_ps(_mm256_fmadd_ps(slope, rows[0], offset))),
+                _mm256_cvttps_epi32(_mm256_floor_ps(_mm256_fmadd_ps(slope, rows[1], offset))),
+            ]
         })
     }
     #[inline(always)]

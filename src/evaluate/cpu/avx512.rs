@@ -39,6 +39,7 @@ macro_rules! with_token {
 impl Simd for Avx512 {
     type Words = __m512i;
     type Rows = (__m512d, __m512d);
+    type ShortRows = __m512;
     type Mask = __mmask16;
     type Sum = __m512i;
 
@@ -65,10 +66,6 @@ impl Simd for Avx512 {
     #[inline(always)]
     fn and_not(self, a: __m512i, b: __m512i) -> __m512i {
         with_token!(_mm512_andnot_si512(b, a))
-    }
-    #[inline(always)]
-    fn add(self, a: __m512i, b: __m512i) -> __m512i {
-        with_token!(_mm512_add_epi32(a, b))
     }
     #[inline(always)]
     fn sub(self, a: __m512i, b: __m512i) -> __m512i {
@@ -122,6 +119,19 @@ impl Simd for Avx512 {
             let high = _mm512_cvt_roundpd_epi32::<DOWN>(_mm512_fmadd_pd(slope, high, offset));
             _mm512_inserti64x4::<1>(_mm512_castsi256_si512(low), high)
         })
+    }
+    #[inline(always)]
+    fn short_rows(self, first: u32) -> __m512 {
+        with_token!(_mm512_cvtepi32_ps(self.row_words(first)))
+    }
+    #[inline(always)]
+    fn short_line(self, rows: __m512, slope: f32, offset: f32) -> __m512i {
+        const DOWN: i32 = _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC;
+        with_token!(_mm512_cvt_roundps_epi32::<DOWN>(_mm512_fmadd_ps(
+            _mm512_set1_ps(slope),
+            rows,
+            _mm512_set1_ps(offset)
+        )))
     }
     #[inline(always)]
     fn no_bits(self) -> __m512i {

@@ -42,11 +42,10 @@ impl Canvas {
         for (outline, quad) in self.outlines.iter_mut().zip(quads) {
             outline.build(quad, width, height);
             for lane in 0..LANES {
-                let shown = outline.left[lane] < outline.right[lane] && outline.top[lane] < outline.bottom[lane];
-                left = left.min(if shown { outline.left[lane] } else { width });
-                right = right.max(if shown { outline.right[lane] } else { 0 });
-                top = top.min(if shown { outline.top[lane] } else { height });
-                bottom = bottom.max(if shown { outline.bottom[lane] } else { 0 });
+                left = left.min(outline.left[lane]);
+                right = right.max(outline.right[lane]);
+                top = top.min(outline.top[lane]);
+                bottom = bottom.max(outline.bottom[lane]);
             }
         }
         let mut sums = Components { area_obs: planes.area, ..Components::default() };
@@ -61,7 +60,12 @@ impl Canvas {
         self.sort(quads);
         for key in 0..self.order.len() {
             let part = part_of(self.order[key]);
-            draw_part(simd, &self.outlines[part / LANES], part % LANES, width, planes.columns, &mut self.cells);
+            let outline = &self.outlines[part / LANES];
+            if outline.is_near {
+                draw_part::<S, true>(simd, outline, part % LANES, width, planes.columns, &mut self.cells);
+            } else {
+                draw_part::<S, false>(simd, outline, part % LANES, width, planes.columns, &mut self.cells);
+            }
         }
         self.count(simd, planes, words, blocks, &mut sums);
         sums
@@ -70,6 +74,21 @@ impl Canvas {
     /// Brings the parts into order, nearest first; of two at equal depth the later one in the body is nearer.
     #[inline(always)]
     fn sort(&mut self, quads: &[QuadChunk]) {
+        if let [quad] = quads {
+            // Up to sixteen parts: each one's place is the number of parts nearer than it, counted for all at once. The
+            // bits compare as the depths do, and give every part a place of its own even where a depth is no number.
+            let depths = quad.depth_squared.map(|depth| depth.to_bits() as i32);
+            let mut place = [0_u32; LANES];
+            for (other, &depth) in depths.iter().enumerate().take(self.order.len()) {
+                for lane in 0..LANES {
+                    place[lane] += u32::from((depth < depths[lane]) | ((depth == depths[lane]) & (other > lane)));
+                }
+            }
+            for part in 0..self.order.len() {
+                self.order[place[part] as usize] = key(quad.depth_squared[part], part);
+            }
+            return;
+        }
         for place in 0..self.order.len() {
             let part = part_of(self.order[place]);
             let key = key(quads[part / LANES].depth_squared[part % LANES], part);
@@ -134,7 +153,14 @@ fn part_of(key: u64) -> usize {
 
 /// Draws one part behind what is there: its border where no fill is yet, then its fill.
 #[inline(always)]
-fn draw_part<S: Simd>(simd: S, outline: &OutlineChunk, part: usize, width: i32, columns: usize, cells: &mut [Cell]) {
+fn draw_part<S: Simd, const NEAR: bool>(
+    simd: S,
+    outline: &OutlineChunk,
+    part: usize,
+    width: i32,
+    columns: usize,
+    cells: &mut [Cell],
+) {
     let (left, right) = (outline.left[part], outline.right[part]);
     let (top, bottom) = (outline.top[part], outline.bottom[part]);
     if left >= right || top >= bottom {
@@ -152,6 +178,7 @@ fn draw_part<S: Simd>(simd: S, outline: &OutlineChunk, part: usize, width: i32, 
         let base = block * CELL_ROWS;
         let row_words = simd.row_words(base);
         let rows = simd.rows(base);
+        let short_rows = simd.short_rows(base);
         let meets = |first: i32, count: i32| first < (base + CELL_ROWS) as i32 && first + count > base as i32;
 
         let mut fill_from = limit;
@@ -176,15 +203,22 @@ fn draw_part<S: Simd>(simd: S, outline: &OutlineChunk, part: usize, width: i32, 
             let (first, count) = (outline.line_first[edge][part], outline.line_rows[edge][part]);
             if count > 0 && meets(first, count) {
                 let active = simd.below(simd.sub(row_words, simd.splat(first as u32)), simd.splat(count as u32));
-                let slope = outline.line_slope[edge][part];
-                let from = simd.line(rows, slope, outline.line_from[edge][part]);
+                let from = if NEAR {
+                    simd.short_line(short_rows, outline.short_slope[edge][part], outline.short_from[edge][part])
+                } else {
+                    simd.line(rows, outline.line_slope[edge][part], outline.line_from[edge][part])
+                };
                 if outline.line_is_steep[edge][part] != 0 {
                     // Past the picture's width a dot could still lie in the last word.
                     let inside = simd.select(simd.below(from, limit), from, nowhere);
                     dots[dot_count] = simd.select(active, inside, nowhere);
                     dot_count += 1;
                 } else {
-                    let to = simd.line(rows, slope, outline.line_to[edge][part]);
+                    let to = if NEAR {
+                        simd.short_line(short_rows, outline.short_slope[edge][part], outline.short_to[edge][part])
+                    } else {
+                        simd.line(rows, outline.line_slope[edge][part], outline.line_to[edge][part])
+                    };
                     let from = simd.max(from, simd.splat(outline.line_left[edge][part].max(0) as u32));
                     let to = simd.min(to, simd.splat(outline.line_right[edge][part].min(width) as u32));
                     spans[span_count] = (from, simd.select(active, to, zero));

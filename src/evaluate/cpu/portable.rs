@@ -18,6 +18,7 @@ fn zip(a: Lanes, b: Lanes, f: impl Fn(u32, u32) -> u32) -> Lanes {
 impl Simd for Portable {
     type Words = Lanes;
     type Rows = [f64; 16];
+    type ShortRows = [f32; 16];
     type Mask = Lanes;
     type Sum = u32;
 
@@ -44,10 +45,6 @@ impl Simd for Portable {
     #[inline(always)]
     fn and_not(self, a: Lanes, b: Lanes) -> Lanes {
         zip(a, b, |a, b| a & !b)
-    }
-    #[inline(always)]
-    fn add(self, a: Lanes, b: Lanes) -> Lanes {
-        zip(a, b, u32::wrapping_add)
     }
     #[inline(always)]
     fn sub(self, a: Lanes, b: Lanes) -> Lanes {
@@ -96,6 +93,20 @@ impl Simd for Portable {
             let exact = slope * rows[lane] + offset;
             let truncated = exact as i32;
             result.0[lane] = truncated.wrapping_sub(i32::from(f64::from(truncated) > exact)) as u32;
+        }
+        result
+    }
+    #[inline(always)]
+    fn short_rows(self, first: u32) -> [f32; 16] {
+        std::array::from_fn(|lane| first as f32 + lane as f32)
+    }
+    #[inline(always)]
+    fn short_line(self, rows: [f32; 16], slope: f32, offset: f32) -> Lanes {
+        let mut result = Lanes::default();
+        for lane in 0..16 {
+            let exact = slope * rows[lane] + offset;
+            let truncated = exact as i32;
+            result.0[lane] = truncated.wrapping_sub(i32::from(truncated as f32 > exact)) as u32;
         }
         result
     }

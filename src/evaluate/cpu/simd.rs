@@ -14,6 +14,8 @@ pub(super) trait Simd: Copy + Send + Sync + 'static {
     type Words: Copy;
     /// Sixteen row numbers in double precision.
     type Rows: Copy;
+    /// Sixteen row numbers in single precision.
+    type ShortRows: Copy;
     /// Sixteen truth values.
     type Mask: Copy;
     /// A running sum of bit counts.
@@ -26,7 +28,6 @@ pub(super) trait Simd: Copy + Send + Sync + 'static {
     fn or(self, a: Self::Words, b: Self::Words) -> Self::Words;
     /// `a & !b`
     fn and_not(self, a: Self::Words, b: Self::Words) -> Self::Words;
-    fn add(self, a: Self::Words, b: Self::Words) -> Self::Words;
     fn sub(self, a: Self::Words, b: Self::Words) -> Self::Words;
     /// Signed.
     fn min(self, a: Self::Words, b: Self::Words) -> Self::Words;
@@ -46,6 +47,10 @@ pub(super) trait Simd: Copy + Send + Sync + 'static {
     fn rows(self, first: u32) -> Self::Rows;
     /// floor(slope * row + offset) as signed words; any value where that does not fit 32 bits.
     fn line(self, rows: Self::Rows, slope: f64, offset: f64) -> Self::Words;
+    /// The row numbers `first, first + 1, …` in single precision.
+    fn short_rows(self, first: u32) -> Self::ShortRows;
+    /// [`Self::line`] in single precision.
+    fn short_line(self, rows: Self::ShortRows, slope: f32, offset: f32) -> Self::Words;
     fn no_bits(self) -> Self::Sum;
     /// The sum plus the number of bits set in `words`.
     fn count(self, sum: Self::Sum, words: Self::Words) -> Self::Sum;
