@@ -41,8 +41,12 @@ impl Evaluator {
                         for (view, sums) in out.iter_mut().enumerate() {
                             let quads = self.projector.quads(pose, view);
                             *sums = match self.kind {
-                                Yardstick::ZBuffer => zbuffer(&quads, self.sizes[view], &observations[view], &mut picture),
-                                Yardstick::RowSpan => row_span(&quads, self.sizes[view], &observations[view], &mut picture),
+                                Yardstick::ZBuffer => {
+                                    zbuffer(&quads, self.sizes[view], &observations[view], &mut picture)
+                                }
+                                Yardstick::RowSpan => {
+                                    row_span(&quads, self.sizes[view], &observations[view], &mut picture)
+                                }
                             };
                         }
                     }
@@ -60,7 +64,12 @@ fn ranks(quads: &[PartQuad]) -> Vec<(usize, u8)> {
 }
 
 /// One byte a pixel: 2 x rank + edge, the larger wins. The whole picture is cleared and compared.
-fn zbuffer(quads: &[PartQuad], [width, height]: [usize; 2], observation: &Observation, picture: &mut [u8]) -> Components {
+fn zbuffer(
+    quads: &[PartQuad],
+    [width, height]: [usize; 2],
+    observation: &Observation,
+    picture: &mut [u8],
+) -> Components {
     let picture = &mut picture[..width * height];
     picture.fill(0);
     for (part, rank) in ranks(quads) {
@@ -94,7 +103,12 @@ fn zbuffer(quads: &[PartQuad], [width, height]: [usize; 2], observation: &Observ
 }
 
 /// Far to near, spans filled whole; only the bounding box is cleared and compared, row by row without branches.
-fn row_span(quads: &[PartQuad], [width, height]: [usize; 2], observation: &Observation, picture: &mut [u8]) -> Components {
+fn row_span(
+    quads: &[PartQuad],
+    [width, height]: [usize; 2],
+    observation: &Observation,
+    picture: &mut [u8],
+) -> Components {
     let mut sums = Components { area_obs: observation.area(), ..Components::default() };
     let (mut left, mut right, mut top, mut bottom) = (width as i32, 0, height as i32, 0);
     for corner in quads.iter().filter(|q| q.drawn).flat_map(|q| q.corners) {
