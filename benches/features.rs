@@ -70,7 +70,7 @@ fn stages(criterion: &mut Criterion) {
     criterion.bench_function("blobs", |b| {
         b.iter(|| {
             cleaned.clone_from(black_box(&silhouette));
-            components.keep_largest(&mut cleaned, 4, 60);
+            components.keep_largest(&mut cleaned, 4, 60, 0.03);
             components.fill_holes(&mut cleaned, 60);
         });
     });

@@ -148,6 +148,11 @@ impl BitImage {
         self.words.resize(self.stride * height as usize, 0);
     }
 
+    /// Sets what is set in either.
+    pub(super) fn or(&mut self, other: &Self) {
+        self.words.iter_mut().zip(&other.words).for_each(|(a, b)| *a |= b);
+    }
+
     /// Keeps what is set in both.
     pub(super) fn and(&mut self, other: &Self) {
         self.words.iter_mut().zip(&other.words).for_each(|(a, b)| *a &= b);

@@ -99,9 +99,12 @@ impl Components {
         &self.blobs
     }
 
-    /// Leaves only the `count` largest blobs (8-connected) of at least `min_area` pixels.
-    pub fn keep_largest(&mut self, image: &mut BitImage, count: usize, min_area: u32) {
+    /// Leaves only the `count` largest blobs (8-connected) of at least `min_area` pixels and at least `min_share` of the
+    /// largest one's area.
+    pub fn keep_largest(&mut self, image: &mut BitImage, count: usize, min_area: u32, min_share: f32) {
         self.find(image, Connectivity::Eight);
+        let largest = self.blobs.iter().map(|blob| blob.area).max().unwrap_or(0);
+        let min_area = min_area.max((largest as f32 * min_share).ceil() as u32);
         self.order.clear();
         self.order.extend((0..self.blobs.len()).filter(|&at| self.blobs[at].area >= min_area));
         // Equal areas keep their reading order: the same picture always gives the same blobs.
@@ -222,13 +225,15 @@ mod tests {
         }
 
         #[test]
-        fn largest_blobs_match_flood_fill(image in any_bit_image(), count in 0_usize..5, min_area in 0_u32..30) {
+        fn largest_blobs_match_flood_fill(image in any_bit_image(), count in 0_usize..5, min_area in 0_u32..30, share in 0_u8..5) {
+            let share = f32::from(share) / 4.0;
             let mut expected = flooded(&image, Connectivity::Eight);
-            expected.retain(|pixels| pixels.len() as u32 >= min_area);
+            let largest = expected.iter().map(Vec::len).max().unwrap_or(0) as f32;
+            expected.retain(|pixels| pixels.len() as u32 >= min_area && pixels.len() as f32 >= largest * share);
             expected.sort_by_key(|pixels| std::cmp::Reverse(pixels.len()));
             expected.truncate(count);
             let mut kept = image.clone();
-            Components::default().keep_largest(&mut kept, count, min_area);
+            Components::default().keep_largest(&mut kept, count, min_area, share);
             prop_assert_eq!(kept, drawn(&image, &expected));
         }
 

@@ -13,21 +13,48 @@ pub struct PlateSettings {
     pub weak: f32,
     /// … when its blob holds a pixel at least this far from it.
     pub strong: f32,
+    /// In a narrow gap between foreground pixels, one this far from the plate is foreground too, and so is one where plate
+    /// and picture are both dark: black clothes before black furniture.
+    pub faint: f32,
+    /// Size of the gaps that are bridged so, pixels, odd; 1 for none.
+    pub bridge: u32,
     /// Whether each picture's brightness is first fitted to the plate's, channel by channel.
     pub gain: bool,
 }
 
 impl Default for PlateSettings {
     fn default() -> Self {
-        Self { weak: 26.0, strong: 60.0, gain: true }
+        Self { weak: 26.0, strong: 60.0, faint: 8.0, bridge: 15, gain: true }
     }
 }
 
 /// Gains outside this range are no mild change of the lighting but another scene, and are not believed.
 const GAINS: (f32, f32) = (0.5, 2.0);
 
+/// The sum of the channels below which a pixel is so dark that it says nothing when the plate is as dark: black clothes
+/// before black furniture may not differ at all.
+const DARK: f32 = 192.0;
+
 /// The steps a ratio is counted in.
 const STEPS: usize = 128;
+
+/// What differs from the plate in one row, one flag (0 or 1) a pixel.
+#[derive(Clone, Debug)]
+pub(super) struct DifferenceRow {
+    /// Different enough to be foreground, and not the plate in another light.
+    pub weak: Vec<u8>,
+    /// Likewise, and beyond doubt.
+    pub strong: Vec<u8>,
+    /// Different at all, or too dark to tell.
+    pub faint: Vec<u8>,
+}
+
+impl DifferenceRow {
+    /// A row without differences.
+    pub fn new(width: usize) -> Self {
+        Self { weak: vec![0; width], strong: vec![0; width], faint: vec![0; width] }
+    }
+}
 
 /// A background plate, one plane a channel.
 #[derive(Clone, Debug)]
@@ -72,8 +99,7 @@ impl Plate {
         counts.map(|counts| median(&counts).clamp(GAINS.0, GAINS.1))
     }
 
-    /// Flags in one row of a picture what differs weakly and what strongly from the plate times `gain` and is not its
-    /// shadow. Each flag is 0 or 1.
+    /// Flags in one row of a picture what differs from the plate times `gain`.
     pub(super) fn compare_row(
         &mut self,
         y: usize,
@@ -81,22 +107,25 @@ impl Plate {
         gain: [f32; 3],
         settings: &PlateSettings,
         shadow: &ShadowSettings,
-        weak: &mut [u8],
-        strong: &mut [u8],
+        flags: &mut DifferenceRow,
     ) {
         split_row(rgb, &mut self.seen);
         let row = y * self.width..(y + 1) * self.width;
         let [pr, pg, pb] = &self.planes;
         let plate = pr[row.clone()].iter().zip(&pg[row.clone()]).zip(&pb[row]);
         let seen = self.seen[0].iter().zip(&self.seen[1]).zip(&self.seen[2]);
-        let (weak_squared, strong_squared) = (settings.weak * settings.weak, settings.strong * settings.strong);
-        for ((((&pr, &pg), &pb), ((&r, &g), &b)), (weak, strong)) in plate.zip(seen).zip(weak.iter_mut().zip(strong)) {
+        let flags = flags.weak.iter_mut().zip(&mut flags.strong).zip(&mut flags.faint);
+        let [least_weak, least_strong, least_faint] =
+            [settings.weak, settings.strong, settings.faint].map(|distance| distance * distance);
+        for ((((&pr, &pg), &pb), ((&r, &g), &b)), ((weak, strong), faint)) in plate.zip(seen).zip(flags) {
             let background = [pr * gain[0], pg * gain[1], pb * gain[2]];
             let (dr, dg, db) = (r - background[0], g - background[1], b - background[2]);
             let distance = dr * dr + dg * dg + db * db;
-            let lit = !shadow.covers([r, g, b], background);
-            *weak = u8::from(lit & (distance >= weak_squared));
-            *strong = u8::from(lit & (distance >= strong_squared));
+            let differs = !shadow.covers([r, g, b], background);
+            let both_dark = (background[0] + background[1] + background[2]).max(r + g + b) < DARK;
+            *weak = u8::from(differs & (distance >= least_weak));
+            *strong = u8::from(differs & (distance >= least_strong));
+            *faint = u8::from(both_dark | differs & (distance >= least_faint));
         }
     }
 }
@@ -138,8 +167,10 @@ mod tests {
         let width = picture.width() as usize;
         let (mut weak, mut strong) = (vec![0; width * 60], vec![0; width * 60]);
         for (y, rgb) in picture.as_raw().chunks_exact(width * 3).enumerate() {
-            let (weak, strong) = (&mut weak[y * width..][..width], &mut strong[y * width..][..width]);
-            plate.compare_row(y, rgb, gain, &PlateSettings::default(), &ShadowSettings::default(), weak, strong);
+            let mut row = DifferenceRow::new(width);
+            plate.compare_row(y, rgb, gain, &PlateSettings::default(), &ShadowSettings::default(), &mut row);
+            weak[y * width..][..width].copy_from_slice(&row.weak);
+            strong[y * width..][..width].copy_from_slice(&row.strong);
         }
         (weak, strong)
     }
@@ -156,6 +187,20 @@ mod tests {
             let block = (10..20).contains(&(at % 80)) && (10..30).contains(&(at / 80));
             assert_eq!((weak, strong), (u8::from(block), u8::from(block)), "pixel {at}");
         }
+    }
+
+    #[test]
+    fn black_on_black_is_only_faint() {
+        let mut plate = Plate::new(RgbImage::from_pixel(3, 1, Rgb([40, 42, 20])));
+        let mut row = DifferenceRow::new(3);
+        let (settings, shadow) = (PlateSettings::default(), ShadowSettings::default());
+        plate.compare_row(0, &[38, 40, 21, 40, 42, 20, 40, 80, 90], [1.0; 3], &settings, &shadow, &mut row);
+        assert_eq!((row.weak, row.strong, row.faint), (vec![0, 0, 1], vec![0, 0, 1], vec![1, 1, 1]));
+        // A bright wall seen again is nothing at all.
+        let mut wall = Plate::new(RgbImage::from_pixel(1, 1, Rgb([200, 190, 170])));
+        let mut row = DifferenceRow::new(1);
+        wall.compare_row(0, &[196, 188, 171], [1.0; 3], &settings, &shadow, &mut row);
+        assert_eq!((row.weak, row.strong, row.faint), (vec![0], vec![0], vec![0]));
     }
 
     #[test]

@@ -5,22 +5,21 @@ use image::RgbImage;
 use super::blobs::Components;
 use super::mixture::Mixture;
 use super::morphology::Morphology;
-use super::plate::Plate;
-use super::{BitImage, FeatureSettings};
+use super::plate::{DifferenceRow, Plate};
+use super::{BitImage, FeatureSettings, SilhouetteSettings};
 
 /// Where a view's foreground comes from when a frame brings no mask.
 enum Background {
-    Plate(Box<Plate>),
-    Mixture(Mixture),
+    Plate { plate: Box<Plate>, row: DifferenceRow },
+    Mixture { mixture: Mixture, foreground: Vec<u8> },
 }
 
 /// The segmentation of one view: its background model and its buffers.
 pub(super) struct Segmentation {
     background: Background,
-    /// Flags of one row of a plate's view, of the whole picture for a mixture.
-    weak: Vec<u8>,
-    strong: Vec<u8>,
-    strong_bits: BitImage,
+    strong: BitImage,
+    faint: BitImage,
+    bridged: BitImage,
     morphology: Morphology,
     components: Components,
 }
@@ -28,16 +27,20 @@ pub(super) struct Segmentation {
 impl Segmentation {
     /// A segmentation of pictures of `width` × `height` pixels, the size of the plate.
     pub(super) fn new(width: u32, height: u32, plate: Option<RgbImage>, settings: &FeatureSettings) -> Self {
-        let pixels = width as usize * height as usize;
-        let (background, flags) = match plate {
-            Some(plate) => (Background::Plate(Box::new(Plate::new(plate))), width as usize),
-            None => (Background::Mixture(Mixture::new(settings.mixture, width, height)), pixels),
+        let background = match plate {
+            Some(plate) => {
+                Background::Plate { plate: Box::new(Plate::new(plate)), row: DifferenceRow::new(width as usize) }
+            }
+            None => Background::Mixture {
+                mixture: Mixture::new(settings.mixture, width, height),
+                foreground: vec![0; width as usize * height as usize],
+            },
         };
         Self {
             background,
-            weak: vec![0; flags],
-            strong: vec![0; width as usize],
-            strong_bits: BitImage::new(width, height),
+            strong: BitImage::new(width, height),
+            faint: BitImage::new(width, height),
+            bridged: BitImage::new(width, height),
             morphology: Morphology::default(),
             components: Components::default(),
         }
@@ -45,8 +48,8 @@ impl Segmentation {
 
     /// Shows a picture to a background model that learns.
     pub(super) fn learn(&mut self, picture: &RgbImage, settings: &FeatureSettings) {
-        if let Background::Mixture(mixture) = &mut self.background {
-            mixture.update(picture, &settings.shadow, &mut self.weak);
+        if let Background::Mixture { mixture, foreground } = &mut self.background {
+            mixture.update(picture, &settings.shadow, foreground);
         }
     }
 
@@ -60,21 +63,25 @@ impl Segmentation {
     ) {
         let width = picture.width() as usize;
         match &mut self.background {
-            Background::Plate(plate) => {
+            Background::Plate { plate, row } => {
                 let gain = if settings.plate.gain { plate.gain(picture) } else { [1.0; 3] };
                 for (y, rgb) in picture.as_raw().chunks_exact(width * 3).enumerate() {
-                    let (weak, strong) = (&mut self.weak, &mut self.strong);
-                    plate.compare_row(y, rgb, gain, &settings.plate, &settings.shadow, weak, strong);
-                    foreground.pack_row(y, weak);
-                    self.strong_bits.pack_row(y, strong);
+                    plate.compare_row(y, rgb, gain, &settings.plate, &settings.shadow, row);
+                    foreground.pack_row(y, &row.weak);
+                    self.strong.pack_row(y, &row.strong);
+                    self.faint.pack_row(y, &row.faint);
                 }
                 silhouette.copy_from(foreground);
                 self.morphology.open(silhouette, settings.opening());
-                self.components.keep_touched(silhouette, &self.strong_bits);
+                self.components.keep_touched(silhouette, &self.strong);
+                self.bridged.copy_from(silhouette);
+                self.morphology.close(&mut self.bridged, settings.bridge());
+                self.bridged.and(&self.faint);
+                silhouette.or(&self.bridged);
             }
-            Background::Mixture(mixture) => {
-                mixture.update(picture, &settings.shadow, &mut self.weak);
-                for (y, flags) in self.weak.chunks_exact(width).enumerate() {
+            Background::Mixture { mixture, foreground: flags } => {
+                mixture.update(picture, &settings.shadow, flags);
+                for (y, flags) in flags.chunks_exact(width).enumerate() {
                     foreground.pack_row(y, flags);
                 }
                 silhouette.copy_from(foreground);
@@ -82,7 +89,8 @@ impl Segmentation {
             }
         }
         self.morphology.close(silhouette, settings.closing());
-        self.components.keep_largest(silhouette, settings.silhouette.blobs, settings.silhouette.min_area);
-        self.components.fill_holes(silhouette, settings.silhouette.max_hole);
+        let SilhouetteSettings { blobs, min_area, min_share, max_hole, .. } = settings.silhouette;
+        self.components.keep_largest(silhouette, blobs, min_area, min_share);
+        self.components.fill_holes(silhouette, max_hole);
     }
 }

@@ -28,6 +28,8 @@ pub struct SilhouetteSettings {
     pub blobs: usize,
     /// A smaller blob is dropped, pixels.
     pub min_area: u32,
+    /// A blob smaller than this fraction of the largest is dropped too: a reflection, a bystander's hand.
+    pub min_share: f32,
     /// A hole of at most this size is filled, pixels.
     pub max_hole: u32,
     /// By how much the region of interest is larger than the silhouette, pixels: the motion expected in one frame.
@@ -36,7 +38,16 @@ pub struct SilhouetteSettings {
 
 impl Default for SilhouetteSettings {
     fn default() -> Self {
-        Self { element: Shape::Disc, open: 3, close: 5, blobs: 4, min_area: 60, max_hole: 60, motion: 16 }
+        Self {
+            element: Shape::Disc,
+            open: 3,
+            close: 5,
+            blobs: 4,
+            min_area: 60,
+            min_share: 0.03,
+            max_hole: 30,
+            motion: 16,
+        }
     }
 }
 
@@ -103,11 +114,15 @@ impl FeatureSettings {
         ordered("mixture.min_sigma", m.min_sigma, "mixture.initial_sigma", m.initial_sigma)?;
         within("plate.weak", self.plate.weak, 0.0..=442.0)?;
         within("plate.strong", self.plate.strong, 0.0..=442.0)?;
+        within("plate.faint", self.plate.faint, 0.0..=442.0)?;
+        odd("plate.bridge", self.plate.bridge)?;
         ordered("plate.weak", self.plate.weak, "plate.strong", self.plate.strong)?;
         within("shadow.darkest", self.shadow.darkest, 0.0..=1.0)?;
+        within("shadow.brightest", self.shadow.brightest, 1.0..=100.0)?;
         within("shadow.chroma", self.shadow.chroma, 0.0..=442.0)?;
         odd("silhouette.open", self.silhouette.open)?;
         odd("silhouette.close", self.silhouette.close)?;
+        within("silhouette.min_share", self.silhouette.min_share, 0.0..=1.0)?;
         within("silhouette.blobs", self.silhouette.blobs, 1..=4)?;
         within("edges.threshold", self.edges.threshold, 1..=2040)?;
         odd("edges.dilate", self.edges.dilate)?;
@@ -126,6 +141,10 @@ impl FeatureSettings {
 
     pub(super) fn opening(&self) -> Element {
         Element { shape: self.silhouette.element, radius: self.silhouette.open / 2 }
+    }
+
+    pub(super) fn bridge(&self) -> Element {
+        Element { shape: Shape::Disc, radius: self.plate.bridge / 2 }
     }
 
     pub(super) fn closing(&self) -> Element {
