@@ -2,6 +2,7 @@
 //! over frames and then over points, and the standard deviation of all of them.
 
 use std::collections::HashSet;
+use std::io::Write;
 
 use anyhow::{Result, bail, ensure};
 use glam::DVec3;
@@ -270,6 +271,23 @@ impl TrajectoryError {
     }
 }
 
+/// Writes the errors frame by frame as CSV: `frame,mean,<point>,…`, mm, empty where one side misses the point.
+///
+/// # Errors
+/// When writing fails.
+pub fn write_frame_errors(out: &mut dyn Write, error: &TrajectoryError) -> Result<()> {
+    let cell = |value: &Option<f64>| value.map_or_else(String::new, |value| format!("{value:.4}"));
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(["frame", "mean"].into_iter().chain(error.points.iter().map(|point| point.name.as_str())))?;
+    for frame in &error.frames {
+        let mut cells = vec![frame.frame.to_string(), cell(&frame.mean)];
+        cells.extend(frame.points.iter().map(cell));
+        writer.write_record(&cells)?;
+    }
+    writer.flush()?;
+    Ok(())
+}
+
 /// Mean and standard deviation of a population.
 fn mean_and_std(values: &[f64]) -> (f64, f64) {
     let count = values.len() as f64;
@@ -371,6 +389,11 @@ mod tests {
         assert_eq!((error.missing, error.frames_without_truth, error.matching), (1, 0, Matching::FrameIndex));
         assert_eq!(error.frames[2].points, [Some(5.0), Some(20.0)]);
         assert_eq!((error.frames[2].mean, error.frames[3].mean), (Some(12.5), Some(5.0)));
+
+        let mut table = Vec::new();
+        write_frame_errors(&mut table, &error).unwrap();
+        let expected = "frame,mean,a,b\n0,2.5000,5.0000,0.0000\n1,7.5000,5.0000,10.0000\n2,12.5000,5.0000,20.0000\n3,5.0000,5.0000,\n";
+        assert_eq!(String::from_utf8(table).unwrap(), expected);
 
         let without = compare(&ours, &truth, true);
         assert_eq!(without.points[0].mean, 0.0);

@@ -13,7 +13,7 @@ mod trc;
 
 pub use bvh::{BvhChannel, BvhJoint, BvhMotion, parse_bvh, write_bvh};
 pub use c3d::{parse_c3d, write_c3d};
-pub use error::{FrameError, Matching, PointError, PointPairs, TrajectoryError};
+pub use error::{FrameError, Matching, PointError, PointPairs, TrajectoryError, write_frame_errors};
 pub use point_file::{PointFormat, read_bvh, read_points, write_points};
 pub use points::{LARGEST_COORDINATE, PointTrajectory};
 pub use points_csv::{parse_points_csv, write_points_csv};

@@ -134,7 +134,8 @@ mod tests {
     #[test]
     fn what_cannot_be_written_is_named() {
         two().check().unwrap();
-        let broken: [(&str, fn(&mut PointTrajectory)); 7] = [
+        type Change = fn(&mut PointTrajectory);
+        let broken: [(&str, Change); 7] = [
             ("no points", |t| t.names.clear()),
             ("no frames", |t| t.frames.clear()),
             ("rate is NaN", |t| t.rate = f64::NAN),

@@ -248,7 +248,7 @@ mod tests {
         let points = parse_trc(&text, "authors.trc").unwrap();
         assert_eq!((points.names.len(), points.frames.len(), points.rate, points.first_frame), (21, 100, 60.0, 0));
         let hip = points.frames[0][0].unwrap();
-        assert!((hip - glam::DVec3::new(-64.997_769, 901.513_220, -1400.573_592)).length() < 1e-5, "{hip}");
+        assert!((hip - glam::DVec3::new(-64.997_769, 901.513_220, -1_400.573_592)).length() < 1e-5, "{hip}");
     }
 
     proptest! {

@@ -78,6 +78,24 @@ pub struct BvhMotion {
 const MOST_POINTS: usize = 1 << 26;
 
 impl BvhMotion {
+    /// The same motion with every length multiplied by `factor` (the format has no unit).
+    pub fn scaled(mut self, factor: f64) -> Self {
+        use BvhChannel::{XPosition, YPosition, ZPosition};
+        for joint in &mut self.joints {
+            joint.offset *= factor;
+            joint.end_sites.iter_mut().for_each(|end| *end *= factor);
+        }
+        let lengths: Vec<bool> = self
+            .joints
+            .iter()
+            .flat_map(|joint| joint.channels.iter().map(|c| matches!(c, XPosition | YPosition | ZPosition)))
+            .collect();
+        for row in &mut self.frames {
+            row.iter_mut().zip(&lengths).filter(|(_, is_length)| **is_length).for_each(|(value, _)| *value *= factor);
+        }
+        self
+    }
+
     /// The number of values in a frame.
     pub fn channel_count(&self) -> usize {
         self.joints.iter().map(|joint| joint.channels.len()).sum()
@@ -249,6 +267,14 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn scaling_a_motion_scales_its_points() {
+        let (scaled, points) = (arm().scaled(10.0).to_points().unwrap(), arm().to_points().unwrap().scaled(10.0));
+        for (p, q) in scaled.frames.iter().flatten().flatten().zip(points.frames.iter().flatten().flatten()) {
+            assert!((*p - *q).length() < 1e-9, "{p} {q}");
+        }
+    }
+
+    #[test]
     fn an_end_that_is_named_like_a_joint() {
         let mut motion = arm();
         motion.joints[3].name = "hand_end".into();
@@ -258,7 +284,8 @@ pub(crate) mod tests {
 
     #[test]
     fn what_cannot_be_is_named() {
-        let broken: [(&str, fn(&mut BvhMotion)); 8] = [
+        type Change = fn(&mut BvhMotion);
+        let broken: [(&str, Change); 8] = [
             ("no joints", |m| m.joints.clear()),
             ("no frames", |m| m.frames.clear()),
             ("frame time is 0", |m| m.frame_time = 0.0),
