@@ -1,6 +1,14 @@
 //! The articulated body: a tree of bones with degrees of freedom, truncated cones for its shape, virtual markers
-//! (SPEC A3, A4).
+//! (SPEC A3, A4); poses, and where a pose puts bones, joints and markers in the world.
 
+mod adult;
+mod kinematics;
+mod loader;
+mod pose;
+mod save;
 mod skeleton;
 
-pub use skeleton::{Body, Bone, Dof, DofAxis, Marker, Part};
+pub use adult::ADULT_HEIGHT;
+pub use loader::parse_body;
+pub use pose::{PoseTable, PoseWriter};
+pub use skeleton::{Body, Bone, Dof, DofAxis, FreeEnd, Marker, MeshSource, Part};

@@ -1,11 +1,14 @@
 //! What a body is. Reading it from `body.toml` is in the loader, posing it in the kinematics.
 
+use std::path::PathBuf;
+
+use anyhow::{Result, ensure};
 use glam::DVec3;
 
 use crate::geometry::EulerOrder;
 
 /// A body: any tree of bones, any degrees of freedom. Built by the loader, which guarantees: exactly one root, no cycle,
-/// unique names, unique labels 1..=127, limits in order, positive radii, everything finite.
+/// unique names, unique labels 1..=127, limits in order, positive radii and lengths of parts, everything finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// Its name.
@@ -16,9 +19,38 @@ pub struct Body {
     pub parts: Vec<Part>,
     /// The virtual markers in file order.
     pub markers: Vec<Marker>,
+    /// Where the mesh comes from, when the body has one.
+    pub mesh: Option<MeshSource>,
     /// Indices of the bones, every parent before its children.
     pub update_order: Vec<usize>,
 }
+
+/// The mesh of a body (SPEC A4).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeshSource {
+    /// A skinned glTF file; [`Body::load`] makes it absolute, seen from the folder of the body's file.
+    pub file: PathBuf,
+}
+
+/// A point of a body that no bone has its origin in, named in joints.csv: an ankle, a wrist, the top of the head.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeEnd {
+    /// Its name.
+    pub name: &'static str,
+    /// Index of the bone it is fixed to.
+    pub bone: usize,
+    /// Position in the bone's frame, mm.
+    pub at: DVec3,
+}
+
+/// Free ends and the bones they end, as INTERFACES settles them: each is the `b` end of the bone's first part.
+const FREE_ENDS: [(&str, &str); 5] = [
+    ("left_ankle", "left_knee"),
+    ("right_ankle", "right_knee"),
+    ("left_wrist", "left_elbow"),
+    ("right_wrist", "right_elbow"),
+    ("head_top", "head"),
+];
 
 /// A bone: its joint with the parent and the rigid frame that hangs on it.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,6 +109,26 @@ impl DofAxis {
             Self::Ry => "ry",
             Self::Rz => "rz",
         }
+    }
+
+    /// The axis of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|axis| axis.name() == name)
+    }
+
+    /// A value as files write it: degrees for an angle, mm for a length.
+    pub fn to_file(self, value: f64) -> f64 {
+        if self.is_rotation() { value.to_degrees() } else { value }
+    }
+
+    /// The inverse of [`Self::to_file`].
+    pub fn from_file(self, value: f64) -> f64 {
+        if self.is_rotation() { value.to_radians() } else { value }
+    }
+
+    /// The unit of [`Self::to_file`], for messages.
+    pub fn file_unit(self) -> &'static str {
+        if self.is_rotation() { "degrees" } else { "mm" }
     }
 
     /// Whether the value is an angle (radians inside, degrees in files) and not a length (mm).
@@ -140,5 +192,59 @@ impl Body {
     /// The index of the bone of that name.
     pub fn bone_index(&self, name: &str) -> Option<usize> {
         self.bones.iter().position(|bone| bone.name == name)
+    }
+
+    /// The free ends of this body: those whose bone is there, has a part, and whose name is not that of a bone (a body
+    /// with ankles of its own).
+    pub fn free_ends(&self) -> Vec<FreeEnd> {
+        FREE_ENDS
+            .into_iter()
+            .filter(|(name, _)| self.bone_index(name).is_none())
+            .filter_map(|(name, bone)| {
+                let bone = self.bone_index(bone)?;
+                let part = self.parts.iter().find(|part| part.bone == bone)?;
+                Some(FreeEnd { name, bone, at: part.b })
+            })
+            .collect()
+    }
+
+    /// Names of the joints as joints.csv has them: every bone, then the free ends.
+    pub fn joint_names(&self) -> Vec<String> {
+        let ends = self.free_ends();
+        self.bones.iter().map(|bone| bone.name.clone()).chain(ends.iter().map(|end| end.name.to_string())).collect()
+    }
+
+    /// Names of the markers in file order.
+    pub fn marker_names(&self) -> Vec<String> {
+        self.markers.iter().map(|marker| marker.name.clone()).collect()
+    }
+
+    /// The same body `factor` times as large: offsets, parts, markers, and the translations of joints inside the body.
+    /// The root's translation limits and step stay, being about the room; so do angles, and a mesh's file.
+    ///
+    /// # Errors
+    /// When the factor is not between 0.01 and 100.
+    pub fn scaled(&self, factor: f64) -> Result<Self> {
+        ensure!((0.01..=100.0).contains(&factor), "a body cannot be scaled by {factor}, expected 0.01 to 100");
+        let mut body = self.clone();
+        for bone in &mut body.bones {
+            bone.offset *= factor;
+            if bone.parent.is_some() {
+                for dof in bone.dofs.iter_mut().filter(|dof| !dof.axis.is_rotation()) {
+                    dof.limits = dof.limits.map(|limit| limit * factor);
+                    dof.step *= factor;
+                }
+            }
+        }
+        for part in &mut body.parts {
+            part.a *= factor;
+            part.b *= factor;
+            part.radius_a *= factor;
+            part.radius_b *= factor;
+        }
+        for marker in &mut body.markers {
+            marker.at *= factor;
+        }
+        Ok(body)
     }
 }

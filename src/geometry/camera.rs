@@ -58,3 +58,26 @@ impl Camera {
         -(self.camera_from_world.matrix3.transpose() * self.camera_from_world.translation)
     }
 }
+
+impl BrownConrady {
+    /// The squared undistorted radius (normalised coordinates) where r (1 + k1 r^2 + k2 r^4 + k3 r^6) stops being
+    /// monotone; infinity where it never does. A point beyond has no image.
+    pub fn max_radius_squared(&self) -> f64 {
+        let [k1, k2, k3] = self.radial;
+        let slope = |t: f64| 1.0 + t * (3.0 * k1 + t * (5.0 * k2 + t * 7.0 * k3));
+        let mut t = 0.0;
+        while t < 100.0 {
+            let next = t + 0.01;
+            if slope(next) <= 0.0 {
+                let (mut low, mut high) = (t, next);
+                for _ in 0..60 {
+                    let middle = 0.5 * (low + high);
+                    if slope(middle) > 0.0 { low = middle } else { high = middle }
+                }
+                return low;
+            }
+            t = next;
+        }
+        f64::INFINITY
+    }
+}
