@@ -5,8 +5,9 @@ use std::io::Write;
 
 use anyhow::{Context, Result, bail, ensure};
 
-use super::number::{finite, millimetres, point, shortened, whole};
+use super::number::{finite, millimetres, point, whole};
 use super::points::{PointTrajectory, meant_rate};
+use crate::files::shortened;
 
 /// Reads the text of a points CSV; `name` stands for the file in messages. The rate comes from the times, which must follow
 /// the frames evenly; without a time column (or with a single frame at time 0) it is 0, unknown.

@@ -5,8 +5,9 @@ use std::io::Write;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 
-use super::number::{finite, millimetres, point, shortened, whole};
+use super::number::{finite, millimetres, point, whole};
 use super::points::{PointTrajectory, millimetres_in};
+use crate::files::shortened;
 
 /// Cells before the first marker: `Frame#` and `Time`.
 const LEADING: usize = 2;

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use anyhow::{Context, Result, bail, ensure};
 
-use super::super::number::shortened;
 use super::numbers::Processor;
+use crate::files::shortened;
 
 /// A named array. Its values stay in the file's bytes until asked for.
 struct Parameter<'a> {
