@@ -1,5 +1,5 @@
-//! Every parser of a file that a user can hand in, given damaged files: whatever comes, it answers with something valid or
-//! with one sentence that starts with the file's name. The seeds are those of the fuzz targets in `tests/fuzz`.
+//! Every parser of a file that a user can hand in, given damaged files: whatever comes, it answers with something valid
+//! or with one sentence that starts with the file's name. The seeds are those of the fuzz targets in `tests/fuzz`.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 

@@ -22,8 +22,9 @@ pub(super) struct Parameters<'a> {
 }
 
 impl<'a> Parameters<'a> {
-    /// Follows the chain of records from byte `start` of the file. A record that would start at `end` or beyond closes the
-    /// chain (there are files whose last offset has its bytes swapped). Of two records of one name the first counts.
+    /// Follows the chain of records from byte `start` of the file. A record that would start at `end` or beyond closes
+    /// the chain (there are files whose last offset has its bytes swapped). Of two records of one name the first
+    /// counts.
     ///
     /// # Errors
     /// When a record reaches past the end of the file, points backwards, or has an unknown type; with its byte.
