@@ -1,4 +1,5 @@
 //! `pantin features` from a manifest to pictures, and the silhouettes of a real sequence.
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 
 use std::fs;
 use std::path::Path;
@@ -127,10 +128,11 @@ fn silhouettes_of_a_real_sequence_hold_the_joints() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("sequence.toml");
     let at = |name: String| beam.join(name).display().to_string();
-    let mut manifest = format!(
-        "name = \"beam\"\nfps = 60.0\nscale = 0.25\nbody = \"body.toml\"\ncameras = {:?}\n",
-        at("cameras.toml".into())
-    );
+    // The file leaves its units to its readme.
+    let cameras = fs::read_to_string(beam.join("cameras.toml")).unwrap();
+    fs::write(folder.path().join("cameras.toml"), format!("[metadata]\nunits = \"mm\"\n{cameras}")).unwrap();
+    let mut manifest =
+        String::from("name = \"beam\"\nfps = 60.0\nscale = 0.25\nbody = \"body.toml\"\ncameras = \"cameras.toml\"\n");
     for camera in ["cam01", "cam02", "cam03", "cam04"] {
         let (video, plate) = (at(format!("videos/{camera}.mp4")), at(format!("background/bg_{camera}.png")));
         manifest += &format!("[[view]]\ncamera = {camera:?}\nsource = {video:?}\nbackground = {plate:?}\n");
