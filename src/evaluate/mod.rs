@@ -1,13 +1,20 @@
 //! Poses in, components and fitness out: every candidate drawn into every camera and compared with what was seen
 //! (SPEC A6, A7).
 
+mod batch;
 mod components;
+pub mod cpu;
 mod objective;
+mod projection;
+mod reference;
+mod rig;
 
 use anyhow::Result;
 
 pub use components::Components;
 pub use objective::{Objective, ObjectiveKind};
+pub use projection::{PartQuad, Projector};
+pub use reference::{CandidateImage, Reference, compare, draw_quads};
 
 use crate::features::Observation;
 

@@ -56,7 +56,139 @@ impl Default for Objective {
 impl Objective {
     /// The fitness of one candidate from its components, one a view. Nothing drawn or nothing observed scores 0; 0/0 is 0.
     pub fn fitness(&self, views: &[Components]) -> f32 {
-        let _ = views;
-        0.0
+        let count = views.len().max(1) as f32;
+        match self.kind {
+            ObjectiveKind::Ws | ObjectiveKind::Sp => {
+                let all = views.iter().fold(Sums::default(), |sums, view| sums.plus(view));
+                if self.kind == ObjectiveKind::Ws { self.weighted_sum(&all) } else { self.product(&all) }
+            }
+            ObjectiveKind::Aows => views.iter().map(|view| self.weighted_sum(&Sums::of(view))).sum::<f32>() / count,
+            ObjectiveKind::Aosp => views.iter().map(|view| self.product(&Sums::of(view))).sum::<f32>() / count,
+            ObjectiveKind::Posp if views.is_empty() => 0.0,
+            ObjectiveKind::Posp => views.iter().map(|view| self.product(&Sums::of(view))).product(),
+        }
+    }
+
+    fn weighted_sum(&self, sums: &Sums) -> f32 {
+        if sums.is_nothing() {
+            return 0.0;
+        }
+        self.w1 * sums.silhouette(self.beta) + self.w2 * sums.edge()
+    }
+
+    fn product(&self, sums: &Sums) -> f32 {
+        if sums.is_nothing() {
+            return 0.0;
+        }
+        power(sums.silhouette(self.beta), self.w1) * power(sums.edge(), self.w2)
+    }
+}
+
+/// x^w for x in [0, 1] and w > 0; the default exponent is a square root, which every device rounds alike.
+fn power(x: f32, w: f32) -> f32 {
+    if w == 0.5 { x.sqrt() } else { x.powf(w) }
+}
+
+/// Components summed over one or more cameras, as wide as the sum of many views needs.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    area_obs: u64,
+    area_model: u64,
+    overlap: u64,
+    edges: u64,
+    proximity: u64,
+}
+
+impl Sums {
+    fn of(view: &Components) -> Self {
+        Self::default().plus(view)
+    }
+
+    fn plus(self, view: &Components) -> Self {
+        Self {
+            area_obs: self.area_obs + u64::from(view.area_obs),
+            area_model: self.area_model + u64::from(view.area_model),
+            overlap: self.overlap + u64::from(view.overlap),
+            edges: self.edges + u64::from(view.edges),
+            proximity: self.proximity + u64::from(view.proximity),
+        }
+    }
+
+    /// Whether nothing was drawn or nothing observed.
+    fn is_nothing(&self) -> bool {
+        self.area_obs == 0 || self.area_model == 0
+    }
+
+    /// f1 (SPEC A7).
+    fn silhouette(&self, beta: f32) -> f32 {
+        beta * ratio(self.overlap, self.area_obs) + (1.0 - beta) * ratio(self.overlap, self.area_model)
+    }
+
+    /// f2 (SPEC A7).
+    fn edge(&self) -> f32 {
+        ratio(self.proximity, 127 * self.edges)
+    }
+}
+
+/// A ratio of counts; 0/0 is 0.
+fn ratio(numerator: u64, denominator: u64) -> f32 {
+    if denominator == 0 { 0.0 } else { numerator as f32 / denominator as f32 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn views() -> [Components; 2] {
+        [
+            Components { area_obs: 100, area_model: 80, overlap: 60, edges: 10, proximity: 635 },
+            Components { area_obs: 200, area_model: 100, overlap: 50, edges: 30, proximity: 381 },
+        ]
+    }
+
+    /// SPEC A7 written out by hand for the two views above.
+    #[test]
+    fn the_five_formulas() {
+        let (beta, w1, w2) = (0.3_f64, 0.6_f64, 0.4_f64);
+        let f1 = [beta * 0.6 + 0.7 * 0.75, beta * 0.25 + 0.7 * 0.5];
+        let f2 = [0.5, 0.1];
+        let f1_all = beta * 110.0 / 300.0 + 0.7 * 110.0 / 180.0;
+        let f2_all = 1016.0 / (127.0 * 40.0);
+        let expected = [
+            w1 * f1_all + w2 * f2_all,
+            f1_all.powf(w1) * f2_all.powf(w2),
+            (w1 * f1[0] + w2 * f2[0] + w1 * f1[1] + w2 * f2[1]) / 2.0,
+            (f1[0].powf(w1) * f2[0].powf(w2) + f1[1].powf(w1) * f2[1].powf(w2)) / 2.0,
+            f1[0].powf(w1) * f2[0].powf(w2) * f1[1].powf(w1) * f2[1].powf(w2),
+        ];
+        for (kind, expected) in ObjectiveKind::ALL.into_iter().zip(expected) {
+            let objective = Objective { kind, beta: 0.3, w1: 0.6, w2: 0.4 };
+            let found = f64::from(objective.fitness(&views()));
+            assert!((found - expected).abs() < 1e-6, "{}: {found} is not {expected}", kind.name());
+        }
+    }
+
+    #[test]
+    fn nothing_scores_zero_and_never_nan() {
+        for kind in ObjectiveKind::ALL {
+            let objective = Objective { kind, ..Objective::default() };
+            for nothing in [
+                vec![],
+                vec![Components::default(); 3],
+                vec![Components { area_obs: 50, ..Components::default() }],
+                vec![Components { area_model: 50, edges: 5, ..Components::default() }],
+            ] {
+                assert_eq!(objective.fitness(&nothing), 0.0, "{} of {nothing:?}", kind.name());
+            }
+        }
+    }
+
+    #[test]
+    fn a_perfect_candidate_scores_one() {
+        let perfect = Components { area_obs: 70, area_model: 70, overlap: 70, edges: 9, proximity: 9 * 127 };
+        for kind in ObjectiveKind::ALL {
+            let fitness = Objective { kind, ..Objective::default() }.fitness(&[perfect; 4]);
+            assert!((fitness - 1.0).abs() < 1e-6, "{}: {fitness}", kind.name());
+        }
     }
 }

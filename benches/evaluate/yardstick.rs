@@ -1,0 +1,198 @@
+//! Two evaluators as one writes them first, kept to measure the fast one against: a byte depth buffer over the whole
+//! picture, and byte row spans inside the bounding box with a comparison the compiler vectorises. Both give the
+//! reference's integers.
+
+use pantin::body::Body;
+use pantin::evaluate::{Components, PartQuad, Projector};
+use pantin::features::Observation;
+use pantin::geometry::Camera;
+
+/// Which of the two.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Yardstick {
+    /// Byte depth buffer over the whole picture.
+    ZBuffer,
+    /// Byte row spans inside the bounding box.
+    RowSpan,
+}
+
+pub struct Evaluator {
+    projector: Projector,
+    sizes: Vec<[usize; 2]>,
+    kind: Yardstick,
+}
+
+impl Evaluator {
+    pub fn new(body: &Body, cameras: &[Camera], kind: Yardstick) -> Self {
+        let sizes = cameras.iter().map(|c| c.size.map(|side| side as usize)).collect();
+        Self { projector: Projector::new(body, cameras), sizes, kind }
+    }
+
+    /// All candidates in all views on `threads` threads.
+    pub fn components(&self, poses: &[f32], observations: &[Observation], out: &mut [Components], threads: usize) {
+        let (dofs, views) = (self.projector.dof_count(), self.sizes.len());
+        let share = (poses.len() / dofs).div_ceil(threads);
+        std::thread::scope(|scope| {
+            for (poses, out) in poses.chunks(share * dofs).zip(out.chunks_mut(share * views)) {
+                scope.spawn(move || {
+                    let most = self.sizes.iter().map(|[w, h]| w * h).max().unwrap_or(0);
+                    let mut picture = vec![0_u8; most];
+                    for (pose, out) in poses.chunks_exact(dofs).zip(out.chunks_exact_mut(views)) {
+                        for (view, sums) in out.iter_mut().enumerate() {
+                            let quads = self.projector.quads(pose, view);
+                            *sums = match self.kind {
+                                Yardstick::ZBuffer => {
+                                    zbuffer(&quads, self.sizes[view], &observations[view], &mut picture)
+                                }
+                                Yardstick::RowSpan => {
+                                    row_span(&quads, self.sizes[view], &observations[view], &mut picture)
+                                }
+                            };
+                        }
+                    }
+                });
+            }
+        });
+    }
+}
+
+/// Parts numbered from 1 = farthest, by their distance.
+fn ranks(quads: &[PartQuad]) -> Vec<(usize, u8)> {
+    let mut order: Vec<usize> = (0..quads.len()).filter(|&p| quads[p].drawn).collect();
+    order.sort_by(|&l, &r| quads[r].depth_squared.total_cmp(&quads[l].depth_squared));
+    order.into_iter().enumerate().map(|(rank, part)| (part, rank as u8 + 1)).collect()
+}
+
+/// One byte a pixel: 2 x rank + edge, the larger wins. The whole picture is cleared and compared.
+fn zbuffer(
+    quads: &[PartQuad],
+    [width, height]: [usize; 2],
+    observation: &Observation,
+    picture: &mut [u8],
+) -> Components {
+    let picture = &mut picture[..width * height];
+    picture.fill(0);
+    for (part, rank) in ranks(quads) {
+        rows(&quads[part], width, height, |y, from, to| {
+            for pixel in &mut picture[y * width + from..y * width + to] {
+                *pixel = (*pixel).max(2 * rank);
+            }
+        });
+        border(&quads[part], width, height, |x, y| {
+            let pixel = &mut picture[y * width + x];
+            *pixel = (*pixel).max(2 * rank + 1);
+        });
+    }
+    let mut sums = Components::default();
+    for (&drawn, &seen) in picture.iter().zip(&observation.bytes) {
+        if seen & 0x80 != 0 {
+            sums.area_obs += 1;
+        }
+        if drawn != 0 {
+            sums.area_model += 1;
+            if seen & 0x80 != 0 {
+                sums.overlap += 1;
+            }
+        }
+        if drawn & 1 != 0 {
+            sums.edges += 1;
+            sums.proximity += u32::from(seen & 0x7f);
+        }
+    }
+    sums
+}
+
+/// Far to near, spans filled whole; only the bounding box is cleared and compared, row by row without branches.
+fn row_span(
+    quads: &[PartQuad],
+    [width, height]: [usize; 2],
+    observation: &Observation,
+    picture: &mut [u8],
+) -> Components {
+    let mut sums = Components { area_obs: observation.area(), ..Components::default() };
+    let (mut left, mut right, mut top, mut bottom) = (width as i32, 0, height as i32, 0);
+    for corner in quads.iter().filter(|q| q.drawn).flat_map(|q| q.corners) {
+        let [x, y] = corner.map(|c| (c + 128) >> 8);
+        (left, right) = (left.min(x), right.max(x + 1));
+        (top, bottom) = (top.min(y), bottom.max(y + 1));
+    }
+    let (left, right) = (left.max(0) as usize, right.clamp(0, width as i32) as usize);
+    let (top, bottom) = (top.max(0) as usize, bottom.clamp(0, height as i32) as usize);
+    if left >= right || top >= bottom {
+        return sums;
+    }
+    for y in top..bottom {
+        picture[y * width + left..y * width + right].fill(0);
+    }
+    for (part, _) in ranks(quads) {
+        rows(&quads[part], width, height, |y, from, to| picture[y * width + from..y * width + to].fill(1));
+        border(&quads[part], width, height, |x, y| picture[y * width + x] = 3);
+    }
+    for y in top..bottom {
+        let (drawn, seen) = (&picture[y * width + left..y * width + right], &observation.bytes[y * width + left..]);
+        let (mut area, mut overlap, mut edges, mut proximity) = (0_u32, 0_u32, 0_u32, 0_u32);
+        for (&drawn, &seen) in drawn.iter().zip(seen) {
+            let (filled, edge) = (drawn & 1, drawn >> 1);
+            area += u32::from(filled);
+            overlap += u32::from(filled & (seen >> 7));
+            edges += u32::from(edge);
+            proximity += u32::from(edge.wrapping_neg() & seen & 0x7f);
+        }
+        sums.area_model += area;
+        sums.overlap += overlap;
+        sums.edges += edges;
+        sums.proximity += proximity;
+    }
+    sums
+}
+
+/// The filled pixels of a quad, a row at a time.
+fn rows(quad: &PartQuad, width: usize, height: usize, mut row: impl FnMut(usize, usize, usize)) {
+    let ys = quad.corners.map(|c| c[1]);
+    let top = ((ys.iter().min().unwrap_or(&0) + 127) >> 8).max(0);
+    let bottom = ((ys.iter().max().unwrap_or(&0) + 127) >> 8).min(height as i32);
+    for y in top..bottom {
+        let centre = i64::from(256 * y + 128);
+        let (mut from, mut to) = (i64::MAX, i64::MIN);
+        for corner in 0..4 {
+            let (p, q) = (quad.corners[corner].map(i64::from), quad.corners[(corner + 1) % 4].map(i64::from));
+            let (p, q) = if p[1] <= q[1] { (p, q) } else { (q, p) };
+            if p[1] <= centre && centre < q[1] {
+                let dy = q[1] - p[1];
+                let x = ((p[0] - 128) * dy + (q[0] - p[0]) * (centre - p[1]) + 256 * dy - 1).div_euclid(256 * dy);
+                (from, to) = (from.min(x), to.max(x));
+            }
+        }
+        let (from, to) = (from.max(0), to.min(width as i64));
+        if from < to {
+            row(y as usize, from as usize, to as usize);
+        }
+    }
+}
+
+/// The border pixels of a quad.
+fn border(quad: &PartQuad, width: usize, height: usize, mut paint: impl FnMut(usize, usize)) {
+    let corners = quad.corners.map(|c| c.map(|v| i64::from((v + 128) >> 8)));
+    let (w, h) = (width as i64, height as i64);
+    for corner in 0..4 {
+        let (p, q) = (corners[corner], corners[(corner + 1) % 4]);
+        let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
+        if dx.abs() >= dy.abs() {
+            let (p, dx, dy) = if dx < 0 { (q, -dx, -dy) } else { (p, dx, dy) };
+            for x in p[0].max(0)..=(p[0] + dx).min(w - 1) {
+                let y = if dx == 0 { p[1] } else { p[1] + (2 * dy * (x - p[0]) + dx).div_euclid(2 * dx) };
+                if (0..h).contains(&y) {
+                    paint(x as usize, y as usize);
+                }
+            }
+        } else {
+            let (p, dx, dy) = if dy < 0 { (q, -dx, -dy) } else { (p, dx, dy) };
+            for y in p[1].max(0)..=(p[1] + dy).min(h - 1) {
+                let x = p[0] + (2 * dx * (y - p[1]) + dy).div_euclid(2 * dy);
+                if (0..w).contains(&x) {
+                    paint(x as usize, y as usize);
+                }
+            }
+        }
+    }
+}

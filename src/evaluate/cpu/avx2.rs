@@ -1,0 +1,204 @@
+//! The kernel's operations on AVX2: sixteen lanes are two registers.
+
+use std::arch::x86_64::*;
+
+use super::simd::{Lanes, Simd};
+
+/// Proof that the processor has AVX2 and what comes with it; only [`Avx2::detect`] makes one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Avx2(());
+
+impl Avx2 {
+    /// The token, on a processor that has the instructions.
+    pub(super) fn detect() -> Option<Self> {
+        let present = is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("fma")
+            && is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2")
+            && is_x86_feature_detected!("lzcnt")
+            && is_x86_feature_detected!("popcnt");
+        present.then_some(Self(()))
+    }
+}
+
+/// An intrinsic called on behalf of a token.
+macro_rules! with_token {
+    ($call:expr) => {
+        // SAFETY: `self` exists, so `detect` found every instruction this file uses; the pointers come from references
+        // to sixteen aligned words, of which each register takes eight.
+        unsafe { $call }
+    };
+}
+
+/// Two registers, the first eight lanes and the others.
+type Pair = [__m256i; 2];
+
+impl Simd for Avx2 {
+    type Words = Pair;
+    type Rows = [__m256d; 4];
+    type ShortRows = [__m256; 2];
+    type Mask = Pair;
+    type Sum = __m256i;
+
+    #[inline(always)]
+    fn load(self, lanes: &Lanes) -> Pair {
+        with_token!([_mm256_load_si256(lanes.0.as_ptr().cast()), _mm256_load_si256(lanes.0.as_ptr().add(8).cast())])
+    }
+    #[inline(always)]
+    fn store(self, words: Pair, lanes: &mut Lanes) {
+        with_token!({
+            _mm256_store_si256(lanes.0.as_mut_ptr().cast(), words[0]);
+            _mm256_store_si256(lanes.0.as_mut_ptr().add(8).cast(), words[1]);
+        });
+    }
+    #[inline(always)]
+    fn splat(self, value: u32) -> Pair {
+        with_token!([_mm256_set1_epi32(value as i32); 2])
+    }
+    #[inline(always)]
+    fn and(self, a: Pair, b: Pair) -> Pair {
+        with_token!([_mm256_and_si256(a[0], b[0]), _mm256_and_si256(a[1], b[1])])
+    }
+    #[inline(always)]
+    fn or(self, a: Pair, b: Pair) -> Pair {
+        with_token!([_mm256_or_si256(a[0], b[0]), _mm256_or_si256(a[1], b[1])])
+    }
+    #[inline(always)]
+    fn and_not(self, a: Pair, b: Pair) -> Pair {
+        with_token!([_mm256_andnot_si256(b[0], a[0]), _mm256_andnot_si256(b[1], a[1])])
+    }
+    #[inline(always)]
+    fn sub(self, a: Pair, b: Pair) -> Pair {
+        with_token!([_mm256_sub_epi32(a[0], b[0]), _mm256_sub_epi32(a[1], b[1])])
+    }
+    #[inline(always)]
+    fn min(self, a: Pair, b: Pair) -> Pair {
+        with_token!([_mm256_min_epi32(a[0], b[0]), _mm256_min_epi32(a[1], b[1])])
+    }
+    #[inline(always)]
+    fn max(self, a: Pair, b: Pair) -> Pair {
+        with_token!([_mm256_max_epi32(a[0], b[0]), _mm256_max_epi32(a[1], b[1])])
+    }
+    #[inline(always)]
+    fn shift_left(self, value: Pair, count: Pair) -> Pair {
+        with_token!([_mm256_sllv_epi32(value[0], count[0]), _mm256_sllv_epi32(value[1], count[1])])
+    }
+    #[inline(always)]
+    fn below(self, a: Pair, b: Pair) -> Pair {
+        // a < b exactly where the smaller of a and b is not b.
+        with_token!({
+            let ones = _mm256_set1_epi32(-1);
+            [
+                _mm256_xor_si256(_mm256_cmpeq_epi32(_mm256_min_epu32(a[0], b[0]), b[0]), ones),
+                _mm256_xor_si256(_mm256_cmpeq_epi32(_mm256_min_epu32(a[1], b[1]), b[1]), ones),
+            ]
+        })
+    }
+    #[inline(always)]
+    fn min_where(self, mask: Pair, a: Pair, b: Pair) -> Pair {
+        with_token!([
+            _mm256_blendv_epi8(a[0], _mm256_min_epi32(a[0], b[0]), mask[0]),
+            _mm256_blendv_epi8(a[1], _mm256_min_epi32(a[1], b[1]), mask[1]),
+        ])
+    }
+    #[inline(always)]
+    fn max_where(self, mask: Pair, a: Pair, b: Pair) -> Pair {
+        with_token!([
+            _mm256_blendv_epi8(a[0], _mm256_max_epi32(a[0], b[0]), mask[0]),
+            _mm256_blendv_epi8(a[1], _mm256_max_epi32(a[1], b[1]), mask[1]),
+        ])
+    }
+    #[inline(always)]
+    fn bit(self, mask: Pair, count: Pair) -> Pair {
+        // A mask is all ones, that is -1, where it holds.
+        with_token!([
+            _mm256_sllv_epi32(_mm256_srli_epi32::<31>(mask[0]), count[0]),
+            _mm256_sllv_epi32(_mm256_srli_epi32::<31>(mask[1]), count[1]),
+        ])
+    }
+    #[inline(always)]
+    fn is_zero(self, words: Pair) -> bool {
+        with_token!({
+            let any = _mm256_or_si256(words[0], words[1]);
+            _mm256_testz_si256(any, any)
+        }) != 0
+    }
+    #[inline(always)]
+    fn row_words(self, first: u32) -> Pair {
+        with_token!({
+            let low = _mm256_add_epi32(_mm256_set1_epi32(first as i32), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+            [low, _mm256_add_epi32(low, _mm256_set1_epi32(8))]
+        })
+    }
+    #[inline(always)]
+    fn rows(self, first: u32) -> [__m256d; 4] {
+        with_token!({
+            let low = _mm256_add_pd(_mm256_set1_pd(f64::from(first)), _mm256_setr_pd(0.0, 1.0, 2.0, 3.0));
+            [
+                low,
+                _mm256_add_pd(low, _mm256_set1_pd(4.0)),
+                _mm256_add_pd(low, _mm256_set1_pd(8.0)),
+                _mm256_add_pd(low, _mm256_set1_pd(12.0)),
+            ]
+        })
+    }
+    #[inline(always)]
+    fn line(self, rows: [__m256d; 4], slope: f64, offset: f64) -> Pair {
+        with_token!({
+            let (slope, offset) = (_mm256_set1_pd(slope), _mm256_set1_pd(offset));
+            let a = _mm256_cvttpd_epi32(_mm256_floor_pd(_mm256_fmadd_pd(slope, rows[0], offset)));
+            let b = _mm256_cvttpd_epi32(_mm256_floor_pd(_mm256_fmadd_pd(slope, rows[1], offset)));
+            let c = _mm256_cvttpd_epi32(_mm256_floor_pd(_mm256_fmadd_pd(slope, rows[2], offset)));
+            let d = _mm256_cvttpd_epi32(_mm256_floor_pd(_mm256_fmadd_pd(slope, rows[3], offset)));
+            [_mm256_set_m128i(b, a), _mm256_set_m128i(d, c)]
+        })
+    }
+    #[inline(always)]
+    fn short_rows(self, first: u32) -> [__m256; 2] {
+        let [low, high] = self.row_words(first);
+        with_token!([_mm256_cvtepi32_ps(low), _mm256_cvtepi32_ps(high)])
+    }
+    #[inline(always)]
+    fn short_line(self, rows: [__m256; 2], slope: f32, offset: f32) -> Pair {
+        with_token!({
+            let (slope, offset) = (_mm256_set1_ps(slope), _mm256_set1_ps(offset));
+            [
+                _mm256_cvttps_epi32(_mm256_floor_ps(_mm256_fmadd_ps(slope, rows[0], offset))),
+                _mm256_cvttps_epi32(_mm256_floor_ps(_mm256_fmadd_ps(slope, rows[1], offset))),
+            ]
+        })
+    }
+    #[inline(always)]
+    fn no_bits(self) -> __m256i {
+        with_token!(_mm256_setzero_si256())
+    }
+    #[inline(always)]
+    fn count(self, sum: __m256i, words: Pair) -> __m256i {
+        // Bits of each nibble by table, bytes summed into four 64-bit lanes.
+        with_token!({
+            let table = _mm256_setr_epi8(
+                0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4, 0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4,
+            );
+            let nibble = _mm256_set1_epi8(0x0f);
+            let [w, v] = words;
+            let bytes = _mm256_add_epi8(
+                _mm256_add_epi8(
+                    _mm256_shuffle_epi8(table, _mm256_and_si256(w, nibble)),
+                    _mm256_shuffle_epi8(table, _mm256_and_si256(_mm256_srli_epi32::<4>(w), nibble)),
+                ),
+                _mm256_add_epi8(
+                    _mm256_shuffle_epi8(table, _mm256_and_si256(v, nibble)),
+                    _mm256_shuffle_epi8(table, _mm256_and_si256(_mm256_srli_epi32::<4>(v), nibble)),
+                ),
+            );
+            _mm256_add_epi64(sum, _mm256_sad_epu8(bytes, _mm256_setzero_si256()))
+        })
+    }
+    #[inline(always)]
+    fn total(self, sum: __m256i) -> u32 {
+        with_token!({
+            let halves = _mm_add_epi64(_mm256_castsi256_si128(sum), _mm256_extracti128_si256::<1>(sum));
+            (_mm_cvtsi128_si64(halves) + _mm_extract_epi64::<1>(halves)) as u32
+        })
+    }
+}

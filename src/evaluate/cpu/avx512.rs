@@ -1,0 +1,156 @@
+//! The kernel's operations on AVX-512: sixteen lanes are one register, masks are mask registers.
+
+use std::arch::x86_64::*;
+
+use super::simd::{Lanes, Simd};
+
+/// Proof that the processor has the AVX-512 subsets used here; only [`Avx512::detect`] makes one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Avx512(());
+
+impl Avx512 {
+    /// The token, on a processor that has the instructions.
+    pub(super) fn detect() -> Option<Self> {
+        let present = is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512bw")
+            && is_x86_feature_detected!("avx512cd")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl")
+            && is_x86_feature_detected!("avx512vpopcntdq")
+            && is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("fma")
+            && is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2")
+            && is_x86_feature_detected!("lzcnt")
+            && is_x86_feature_detected!("popcnt");
+        present.then_some(Self(()))
+    }
+}
+
+/// An intrinsic called on behalf of a token.
+macro_rules! with_token {
+    ($call:expr) => {
+        // SAFETY: `self` exists, so `detect` found every instruction this file uses; the pointers come from references
+        // to sixteen aligned words.
+        unsafe { $call }
+    };
+}
+
+impl Simd for Avx512 {
+    type Words = __m512i;
+    type Rows = (__m512d, __m512d);
+    type ShortRows = __m512;
+    type Mask = __mmask16;
+    type Sum = __m512i;
+
+    #[inline(always)]
+    fn load(self, lanes: &Lanes) -> __m512i {
+        with_token!(_mm512_load_si512(lanes.0.as_ptr().cast()))
+    }
+    #[inline(always)]
+    fn store(self, words: __m512i, lanes: &mut Lanes) {
+        with_token!(_mm512_store_si512(lanes.0.as_mut_ptr().cast(), words));
+    }
+    #[inline(always)]
+    fn splat(self, value: u32) -> __m512i {
+        with_token!(_mm512_set1_epi32(value as i32))
+    }
+    #[inline(always)]
+    fn and(self, a: __m512i, b: __m512i) -> __m512i {
+        with_token!(_mm512_and_si512(a, b))
+    }
+    #[inline(always)]
+    fn or(self, a: __m512i, b: __m512i) -> __m512i {
+        with_token!(_mm512_or_si512(a, b))
+    }
+    #[inline(always)]
+    fn and_not(self, a: __m512i, b: __m512i) -> __m512i {
+        with_token!(_mm512_andnot_si512(b, a))
+    }
+    #[inline(always)]
+    fn sub(self, a: __m512i, b: __m512i) -> __m512i {
+        with_token!(_mm512_sub_epi32(a, b))
+    }
+    #[inline(always)]
+    fn min(self, a: __m512i, b: __m512i) -> __m512i {
+        with_token!(_mm512_min_epi32(a, b))
+    }
+    #[inline(always)]
+    fn max(self, a: __m512i, b: __m512i) -> __m512i {
+        with_token!(_mm512_max_epi32(a, b))
+    }
+    #[inline(always)]
+    fn shift_left(self, value: __m512i, count: __m512i) -> __m512i {
+        with_token!(_mm512_sllv_epi32(value, count))
+    }
+    #[inline(always)]
+    fn below(self, a: __m512i, b: __m512i) -> __mmask16 {
+        with_token!(_mm512_cmplt_epu32_mask(a, b))
+    }
+    #[inline(always)]
+    fn min_where(self, mask: __mmask16, a: __m512i, b: __m512i) -> __m512i {
+        with_token!(_mm512_mask_min_epi32(a, mask, a, b))
+    }
+    #[inline(always)]
+    fn max_where(self, mask: __mmask16, a: __m512i, b: __m512i) -> __m512i {
+        with_token!(_mm512_mask_max_epi32(a, mask, a, b))
+    }
+    #[inline(always)]
+    fn bit(self, mask: __mmask16, count: __m512i) -> __m512i {
+        with_token!(_mm512_maskz_sllv_epi32(mask, _mm512_set1_epi32(1), count))
+    }
+    #[inline(always)]
+    fn is_zero(self, words: __m512i) -> bool {
+        with_token!(_mm512_test_epi32_mask(words, words)) == 0
+    }
+    #[inline(always)]
+    fn row_words(self, first: u32) -> __m512i {
+        with_token!(_mm512_add_epi32(
+            _mm512_set1_epi32(first as i32),
+            _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+        ))
+    }
+    #[inline(always)]
+    fn rows(self, first: u32) -> (__m512d, __m512d) {
+        with_token!({
+            let low =
+                _mm512_add_pd(_mm512_set1_pd(f64::from(first)), _mm512_setr_pd(0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0));
+            (low, _mm512_add_pd(low, _mm512_set1_pd(8.0)))
+        })
+    }
+    #[inline(always)]
+    fn line(self, (low, high): (__m512d, __m512d), slope: f64, offset: f64) -> __m512i {
+        const DOWN: i32 = _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC;
+        with_token!({
+            let (slope, offset) = (_mm512_set1_pd(slope), _mm512_set1_pd(offset));
+            let low = _mm512_cvt_roundpd_epi32::<DOWN>(_mm512_fmadd_pd(slope, low, offset));
+            let high = _mm512_cvt_roundpd_epi32::<DOWN>(_mm512_fmadd_pd(slope, high, offset));
+            _mm512_inserti64x4::<1>(_mm512_castsi256_si512(low), high)
+        })
+    }
+    #[inline(always)]
+    fn short_rows(self, first: u32) -> __m512 {
+        with_token!(_mm512_cvtepi32_ps(self.row_words(first)))
+    }
+    #[inline(always)]
+    fn short_line(self, rows: __m512, slope: f32, offset: f32) -> __m512i {
+        const DOWN: i32 = _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC;
+        with_token!(_mm512_cvt_roundps_epi32::<DOWN>(_mm512_fmadd_ps(
+            _mm512_set1_ps(slope),
+            rows,
+            _mm512_set1_ps(offset)
+        )))
+    }
+    #[inline(always)]
+    fn no_bits(self) -> __m512i {
+        with_token!(_mm512_setzero_si512())
+    }
+    #[inline(always)]
+    fn count(self, sum: __m512i, words: __m512i) -> __m512i {
+        with_token!(_mm512_add_epi32(sum, _mm512_popcnt_epi32(words)))
+    }
+    #[inline(always)]
+    fn total(self, sum: __m512i) -> u32 {
+        with_token!(_mm512_reduce_add_epi32(sum)) as u32
+    }
+}

@@ -1,0 +1,284 @@
+//! The fast evaluator: no picture is ever drawn. Rows of a candidate lie in lanes, columns in bits; the comparison is bit
+//! operations and bit counts. It gives the reference's integers.
+//!
+//! Sixteen candidates are posed at a time, their sixteen parts projected at a time, each image drawn and counted in a
+//! few hundred bytes of bit columns. The work is shared by pinned threads; nothing is allocated in an iteration.
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+mod front;
+mod kernel;
+mod outline;
+mod planes;
+mod portable;
+mod simd;
+mod workers;
+
+use std::sync::{Mutex, PoisonError};
+
+use anyhow::{Result, bail, ensure};
+
+use crate::body::Body;
+use crate::features::Observation;
+use crate::geometry::Camera;
+
+use super::batch::{check_batch, check_observations};
+use super::{Components, Evaluator, Objective, Projector};
+
+use front::{Front, LANES, QuadChunk};
+use kernel::Canvas;
+use planes::Planes;
+use portable::Portable;
+use simd::Simd;
+use workers::Workers;
+
+/// An instruction set the evaluator is built for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InstructionSet {
+    /// AVX-512 with bit counts in registers (Ice Lake, Zen 4 and later).
+    Avx512,
+    /// AVX2 with FMA and BMI (Haswell, Zen and later).
+    Avx2,
+    /// Any processor.
+    Portable,
+}
+
+impl InstructionSet {
+    /// All of them, fastest first.
+    pub const ALL: [Self; 3] = [Self::Avx512, Self::Avx2, Self::Portable];
+
+    /// The name as the benchmark's `variant` column has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Avx512 => "avx512",
+            Self::Avx2 => "avx2",
+            Self::Portable => "portable",
+        }
+    }
+
+    /// Whether this processor has it.
+    pub fn is_available(self) -> bool {
+        Code::of(self).is_some()
+    }
+
+    /// The fastest one this processor has.
+    pub fn best() -> Self {
+        Self::ALL.into_iter().find(|set| set.is_available()).unwrap_or(Self::Portable)
+    }
+}
+
+/// An instruction set together with the proof that it is there.
+#[derive(Clone, Copy, Debug)]
+enum Code {
+    #[cfg(target_arch = "x86_64")]
+    Avx512(avx512::Avx512),
+    #[cfg(target_arch = "x86_64")]
+    Avx2(avx2::Avx2),
+    Portable,
+}
+
+impl Code {
+    fn of(set: InstructionSet) -> Option<Self> {
+        match set {
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx512 => avx512::Avx512::detect().map(Self::Avx512),
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2 => avx2::Avx2::detect().map(Self::Avx2),
+            #[cfg(not(target_arch = "x86_64"))]
+            InstructionSet::Avx512 | InstructionSet::Avx2 => None,
+            InstructionSet::Portable => Some(Self::Portable),
+        }
+    }
+}
+
+/// The fast evaluator on the processor.
+#[derive(Debug)]
+pub struct Cpu {
+    projector: Projector,
+    planes: Vec<Planes>,
+    set: InstructionSet,
+    code: Code,
+    workers: Workers,
+    /// One a worker; the locks are never contended.
+    scratch: Vec<Mutex<Scratch>>,
+}
+
+/// Working memory of one worker.
+#[derive(Debug)]
+struct Scratch {
+    front: Front,
+    quads: Vec<QuadChunk>,
+    canvas: Canvas,
+    components: Vec<Components>,
+}
+
+impl Cpu {
+    /// For a body and its cameras at working size, with the best instruction set and a worker on every processor.
+    ///
+    /// # Errors
+    /// As [`Self::with`].
+    pub fn new(body: &Body, cameras: &[Camera]) -> Result<Self> {
+        let processors = std::thread::available_parallelism().map_or(1, usize::from);
+        Self::with(body, cameras, InstructionSet::best(), processors)
+    }
+
+    /// With a chosen instruction set and number of workers; the results do not depend on either.
+    ///
+    /// # Errors
+    /// When the processor lacks the instruction set, a picture has no pixel, or a thread cannot be started.
+    pub fn with(body: &Body, cameras: &[Camera], set: InstructionSet, workers: usize) -> Result<Self> {
+        let Some(code) = Code::of(set) else {
+            bail!("this processor has no {}: choose another instruction set", set.name());
+        };
+        ensure!(workers > 0, "0 worker threads were asked for, expected at least 1");
+        for camera in cameras {
+            let [width, height] = camera.size;
+            ensure!(
+                (1..=16384).contains(&width) && (1..=16384).contains(&height),
+                "camera {} has pictures of {width}x{height}, expected 1 to 16384 pixels a side",
+                camera.name
+            );
+        }
+        let projector = Projector::new(body, cameras);
+        let planes: Vec<Planes> = cameras.iter().map(|camera| Planes::new(camera.size[0], camera.size[1])).collect();
+        let most_cells = planes.iter().map(|planes| planes.cells.len()).max().unwrap_or(0);
+        let scratch = (0..workers)
+            .map(|_| {
+                let front = Front::new(&projector.rig);
+                let chunks = front.chunk_count();
+                Mutex::new(Scratch {
+                    front,
+                    quads: vec![QuadChunk::default(); chunks],
+                    canvas: Canvas::new(projector.rig.parts.len(), chunks, most_cells),
+                    components: vec![Components::default(); LANES * cameras.len()],
+                })
+            })
+            .collect();
+        let pin = workers > 1 && std::thread::available_parallelism().is_ok_and(|count| count.get() >= workers);
+        Ok(Self { projector, planes, set, code, workers: Workers::new(workers, pin)?, scratch })
+    }
+
+    /// Evaluates `poses` sixteen at a time and hands the components of each group to `finish` with its share of `results`.
+    fn run<T: Send>(
+        &mut self,
+        poses: &[f32],
+        results: &mut [T],
+        per_pose: usize,
+        finish: impl Fn(&[Components], &mut [T]) + Sync,
+    ) -> Result<()> {
+        let (dof_count, views) = (self.projector.dof_count(), self.planes.len());
+        let groups = Mutex::new(poses.chunks(LANES * dof_count).zip(results.chunks_mut(LANES * per_pose)));
+        let (projector, planes, code, scratch) = (&self.projector, &self.planes, self.code, &self.scratch);
+        let completed = self.workers.run(&|worker| {
+            let mut scratch = scratch[worker].lock().unwrap_or_else(PoisonError::into_inner);
+            loop {
+                let Some((poses, results)) = groups.lock().unwrap_or_else(PoisonError::into_inner).next() else {
+                    break;
+                };
+                evaluate_group(code, projector, planes, poses, &mut scratch);
+                finish(&scratch.components[..poses.len() / dof_count * views], results);
+            }
+        });
+        ensure!(completed, "a worker thread of the cpu evaluator failed; its message stands above");
+        Ok(())
+    }
+}
+
+/// Up to sixteen candidates in every view, in the instruction set of `code`.
+fn evaluate_group(code: Code, projector: &Projector, planes: &[Planes], poses: &[f32], scratch: &mut Scratch) {
+    match code {
+        #[cfg(target_arch = "x86_64")]
+        Code::Avx512(simd) => {
+            #[target_feature(
+                enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx512vpopcntdq,avx2,fma,bmi1,bmi2,lzcnt,popcnt"
+            )]
+            fn compiled(
+                simd: avx512::Avx512,
+                projector: &Projector,
+                planes: &[Planes],
+                poses: &[f32],
+                scratch: &mut Scratch,
+            ) {
+                evaluate_group_in(simd, projector, planes, poses, scratch);
+            }
+            // SAFETY: the token proves that the processor has these features.
+            unsafe { compiled(simd, projector, planes, poses, scratch) }
+        }
+        #[cfg(target_arch = "x86_64")]
+        Code::Avx2(simd) => {
+            #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+            fn compiled(
+                simd: avx2::Avx2,
+                projector: &Projector,
+                planes: &[Planes],
+                poses: &[f32],
+                scratch: &mut Scratch,
+            ) {
+                evaluate_group_in(simd, projector, planes, poses, scratch);
+            }
+            // SAFETY: the token proves that the processor has these features.
+            unsafe { compiled(simd, projector, planes, poses, scratch) }
+        }
+        Code::Portable => evaluate_group_in(Portable, projector, planes, poses, scratch),
+    }
+}
+
+/// The same in one instruction set; inlined into a function compiled for it.
+#[inline(always)]
+fn evaluate_group_in<S: Simd>(simd: S, projector: &Projector, planes: &[Planes], poses: &[f32], scratch: &mut Scratch) {
+    scratch.front.pose(&projector.rig, poses);
+    let views = planes.len();
+    let count = poses.len() / projector.rig.dof_count;
+    // A view's planes stay in the cache for all sixteen candidates.
+    for (view, (camera, planes)) in projector.cameras.iter().zip(planes).enumerate() {
+        for candidate in 0..count {
+            scratch.front.project(camera, candidate, &mut scratch.quads);
+            scratch.components[candidate * views + view] = scratch.canvas.compare(simd, &scratch.quads, planes);
+        }
+    }
+}
+
+impl Evaluator for Cpu {
+    fn name(&self) -> &'static str {
+        "cpu"
+    }
+
+    fn variant(&self) -> &'static str {
+        self.set.name()
+    }
+
+    fn view_count(&self) -> usize {
+        self.planes.len()
+    }
+
+    fn dof_count(&self) -> usize {
+        self.projector.dof_count()
+    }
+
+    fn observe(&mut self, observations: &[Observation]) -> Result<()> {
+        check_observations(observations, self.planes.iter().map(|planes| [planes.width, planes.height]))?;
+        for (planes, observation) in self.planes.iter_mut().zip(observations) {
+            planes.fill(observation);
+        }
+        Ok(())
+    }
+
+    fn components(&mut self, poses: &[f32], components: &mut [Components]) -> Result<()> {
+        let views = self.view_count();
+        check_batch(poses, self.dof_count(), components.len(), views)?;
+        self.run(poses, components, views, |found, results| results.copy_from_slice(found))
+    }
+
+    fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
+        let views = self.view_count();
+        check_batch(poses, self.dof_count(), fitness.len(), 1)?;
+        ensure!(views > 0, "there are no views, expected at least one camera");
+        self.run(poses, fitness, 1, |found, results| {
+            for (value, row) in results.iter_mut().zip(found.chunks_exact(views)) {
+                *value = objective.fitness(row);
+            }
+        })
+    }
+}

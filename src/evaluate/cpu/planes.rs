@@ -1,0 +1,93 @@
+//! An observation as bit planes: for every 16 rows x 32 columns a cell of eight sixteen-lane words, one lane a row and
+//! one bit a column. So a comparison is a bit operation and a bit count, with no look-up a pixel.
+
+use crate::features::Observation;
+
+use super::simd::Lanes;
+
+/// Rows of a cell.
+pub(super) const CELL_ROWS: u32 = 16;
+/// Columns of a cell.
+pub(super) const CELL_COLUMNS: u32 = 32;
+
+/// Bit planes of one view's observation.
+#[derive(Clone, Debug)]
+pub(super) struct Planes {
+    /// Picture size, pixels.
+    pub(super) width: u32,
+    pub(super) height: u32,
+    /// Cells a row of cells.
+    pub(super) columns: usize,
+    /// `cells[block * columns + word]`: planes 0..=6 the proximity bits, plane 7 the silhouette.
+    pub(super) cells: Vec<[Lanes; 8]>,
+    /// Pixels of the observed silhouette.
+    pub(super) area: u32,
+}
+
+impl Planes {
+    pub(super) fn new(width: u32, height: u32) -> Self {
+        let columns = width.div_ceil(CELL_COLUMNS) as usize;
+        let blocks = height.div_ceil(CELL_ROWS) as usize;
+        Self { width, height, columns, cells: vec![[Lanes::default(); 8]; columns * blocks], area: 0 }
+    }
+
+    /// Takes an observation of the planes' own size.
+    pub(super) fn fill(&mut self, observation: &Observation) {
+        self.area = observation.area();
+        let width = self.width as usize;
+        for (y, row) in observation.bytes.chunks_exact(width).enumerate() {
+            let (block, lane) = (y / CELL_ROWS as usize, y % CELL_ROWS as usize);
+            for (word, pixels) in row.chunks(CELL_COLUMNS as usize).enumerate() {
+                let cell = &mut self.cells[block * self.columns + word];
+                let mut planes = [0_u32; 8];
+                for (group, eight) in pixels.chunks(8).enumerate() {
+                    let mut bytes = [0; 8];
+                    bytes[..eight.len()].copy_from_slice(eight);
+                    let transposed = transpose_bits(u64::from_le_bytes(bytes)).to_le_bytes();
+                    for (plane, byte) in planes.iter_mut().zip(transposed) {
+                        *plane |= u32::from(byte) << (8 * group);
+                    }
+                }
+                for (plane, bits) in cell.iter_mut().zip(planes) {
+                    plane.0[lane] = bits;
+                }
+            }
+        }
+    }
+}
+
+/// The transpose of an 8x8 bit matrix, one byte a row: bit i of byte j becomes bit j of byte i. By swapping ever larger
+/// blocks across the diagonal.
+fn transpose_bits(mut m: u64) -> u64 {
+    let swap = (m ^ (m >> 7)) & 0x00aa_00aa_00aa_00aa;
+    m ^= swap ^ (swap << 7);
+    let swap = (m ^ (m >> 14)) & 0x0000_cccc_0000_cccc;
+    m ^= swap ^ (swap << 14);
+    let swap = (m ^ (m >> 28)) & 0x0000_0000_f0f0_f0f0;
+    m ^ swap ^ (swap << 28)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_bit_is_where_it_belongs() {
+        let (width, height) = (75, 21);
+        let mut observation = Observation::empty(width, height);
+        for (index, byte) in observation.bytes.iter_mut().enumerate() {
+            *byte = (index as u32).wrapping_mul(2_654_435_761).to_be_bytes()[0];
+        }
+        let mut planes = Planes::new(width, height);
+        planes.fill(&observation);
+        for y in 0..height {
+            for x in 0..width {
+                let cell = &planes.cells[(y / 16) as usize * planes.columns + (x / 32) as usize];
+                let byte =
+                    (0..8).fold(0, |byte, bit| byte | ((cell[bit].0[(y % 16) as usize] >> (x % 32) & 1) as u8) << bit);
+                assert_eq!(byte, observation.bytes[(y * width + x) as usize], "pixel {x}, {y}");
+            }
+        }
+        assert_eq!(planes.area, observation.area());
+    }
+}

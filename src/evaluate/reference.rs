@@ -1,0 +1,183 @@
+//! The reference: the simplest code that is obviously right. It draws each candidate pixel by pixel from the definitions
+//! in `docs/RASTER.md`, in exact integers, and counts. Every other backend is held to its numbers.
+
+use anyhow::Result;
+
+use crate::body::Body;
+use crate::features::Observation;
+use crate::geometry::Camera;
+
+use super::batch::{check_batch, check_observations};
+use super::{Components, Evaluator, Objective, PartQuad, Projector};
+
+/// The simplest evaluator.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    projector: Projector,
+    labels: Vec<u8>,
+    observations: Vec<Observation>,
+}
+
+/// A drawn candidate in one view: one byte a pixel, bits 0..=6 the label of the visible part (0 = nothing), bit 7 a
+/// visible edge (SPEC A6).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CandidateImage {
+    /// Width, pixels.
+    pub width: u32,
+    /// Height, pixels.
+    pub height: u32,
+    /// Row-major bytes.
+    pub bytes: Vec<u8>,
+}
+
+impl Reference {
+    /// For a body and its cameras at working size.
+    pub fn new(body: &Body, cameras: &[Camera]) -> Self {
+        let observations = cameras.iter().map(|camera| Observation::empty(camera.size[0], camera.size[1])).collect();
+        Self {
+            projector: Projector::new(body, cameras),
+            labels: body.parts.iter().map(|part| part.label).collect(),
+            observations,
+        }
+    }
+
+    /// Draws one pose into one view.
+    pub fn draw(&self, pose: &[f32], view: usize) -> CandidateImage {
+        let [width, height] = self.projector.cameras[view].size;
+        draw_quads(&self.projector.quads(pose, view), &self.labels, width, height)
+    }
+}
+
+/// Draws parts given as snapped corners; `labels` has one label a part.
+pub fn draw_quads(quads: &[PartQuad], labels: &[u8], width: u32, height: u32) -> CandidateImage {
+    let mut image = CandidateImage { width, height, bytes: vec![0; width as usize * height as usize] };
+    let mut farthest_first: Vec<usize> = (0..quads.len()).filter(|&part| quads[part].drawn).collect();
+    // A stable sort keeps parts of equal depth in the body's order: the later one is painted over the earlier one.
+    farthest_first.sort_by(|&l, &r| quads[r].depth_squared.total_cmp(&quads[l].depth_squared));
+    for part in farthest_first {
+        // A nearer fill covers what is there, its edges included; then its own border is drawn over everything.
+        for_each_fill_pixel(&quads[part].corners, width, height, |pixel| image.bytes[pixel] = labels[part]);
+        for_each_border_pixel(&quads[part].corners, width, height, |pixel| {
+            image.bytes[pixel] = labels[part] | 0x80;
+        });
+    }
+    image
+}
+
+/// Calls `paint` with the index of every pixel whose centre lies in the part: in the pixel's row, at or right of the
+/// leftmost crossing of the outline with the line through the row's pixel centres, and left of the rightmost one.
+fn for_each_fill_pixel(corners: &[[i32; 2]; 4], width: u32, height: u32, mut paint: impl FnMut(usize)) {
+    for y in 0..i64::from(height) {
+        let centre_y = 256 * y + 128;
+        let crossing_edges: Vec<([i64; 2], [i64; 2])> = (0..4)
+            .map(|corner| (corners[corner].map(i64::from), corners[(corner + 1) % 4].map(i64::from)))
+            .map(|(p, q)| if p[1] <= q[1] { (p, q) } else { (q, p) })
+            .filter(|(top, bottom)| top[1] <= centre_y && centre_y < bottom[1])
+            .collect();
+        if crossing_edges.is_empty() {
+            continue;
+        }
+        for x in 0..i64::from(width) {
+            let centre_x = 256 * x + 128;
+            // The crossing is at top.x + dx (centre_y - top.y) / dy; both sides times dy, which is positive.
+            let is_at_or_right_of = |&(top, bottom): &([i64; 2], [i64; 2])| {
+                (centre_x - top[0]) * (bottom[1] - top[1]) >= (bottom[0] - top[0]) * (centre_y - top[1])
+            };
+            if crossing_edges.iter().any(is_at_or_right_of) && !crossing_edges.iter().all(is_at_or_right_of) {
+                paint((y * i64::from(width) + x) as usize);
+            }
+        }
+    }
+}
+
+/// Calls `paint` with the index of every pixel of the part's four border lines.
+fn for_each_border_pixel(corners: &[[i32; 2]; 4], width: u32, height: u32, mut paint: impl FnMut(usize)) {
+    let mut paint_inside = |x: i64, y: i64| {
+        if (0..i64::from(width)).contains(&x) && (0..i64::from(height)).contains(&y) {
+            paint((y * i64::from(width) + x) as usize);
+        }
+    };
+    let pixels = corners.map(|corner| corner.map(|c| i64::from(c + 128).div_euclid(256)));
+    for corner in 0..4 {
+        let (p, q) = (pixels[corner], pixels[(corner + 1) % 4]);
+        let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
+        if dx.abs() >= dy.abs() {
+            for x in p[0].min(q[0])..=p[0].max(q[0]) {
+                paint_inside(x, p[1] + nearest(dy * (x - p[0]), dx));
+            }
+        } else {
+            for y in p[1].min(q[1])..=p[1].max(q[1]) {
+                paint_inside(p[0] + nearest(dx * (y - p[1]), dy), y);
+            }
+        }
+    }
+}
+
+/// `numerator / denominator` to the nearest integer, a tie to the larger; 0/0 is 0.
+fn nearest(numerator: i64, denominator: i64) -> i64 {
+    match denominator.signum() {
+        0 => 0,
+        sign => (2 * numerator * sign + denominator.abs()).div_euclid(2 * denominator.abs()),
+    }
+}
+
+/// Compares a drawn candidate with an observation of the same size.
+pub fn compare(image: &CandidateImage, observation: &Observation) -> Components {
+    let mut sums = Components::default();
+    for (&drawn, &seen) in image.bytes.iter().zip(&observation.bytes) {
+        let is_seen = seen & Observation::SILHOUETTE != 0;
+        sums.area_obs += u32::from(is_seen);
+        sums.area_model += u32::from(drawn != 0);
+        sums.overlap += u32::from(is_seen && drawn != 0);
+        if drawn & 0x80 != 0 {
+            sums.edges += 1;
+            sums.proximity += u32::from(seen & Observation::PROXIMITY);
+        }
+    }
+    sums
+}
+
+impl Evaluator for Reference {
+    fn name(&self) -> &'static str {
+        "reference"
+    }
+
+    fn variant(&self) -> &'static str {
+        "exact"
+    }
+
+    fn view_count(&self) -> usize {
+        self.projector.view_count()
+    }
+
+    fn dof_count(&self) -> usize {
+        self.projector.dof_count()
+    }
+
+    fn observe(&mut self, observations: &[Observation]) -> Result<()> {
+        check_observations(observations, self.projector.cameras.iter().map(|camera| camera.size))?;
+        self.observations = observations.to_vec();
+        Ok(())
+    }
+
+    fn components(&mut self, poses: &[f32], components: &mut [Components]) -> Result<()> {
+        let views = self.view_count();
+        check_batch(poses, self.dof_count(), components.len(), views)?;
+        for (pose, row) in poses.chunks_exact(self.dof_count()).zip(components.chunks_exact_mut(views)) {
+            for (view, sums) in row.iter_mut().enumerate() {
+                *sums = compare(&self.draw(pose, view), &self.observations[view]);
+            }
+        }
+        Ok(())
+    }
+
+    fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
+        let views = self.view_count();
+        let mut components = vec![Components::default(); fitness.len() * views];
+        self.components(poses, &mut components)?;
+        for (value, row) in fitness.iter_mut().zip(components.chunks_exact(views)) {
+            *value = objective.fitness(row);
+        }
+        Ok(())
+    }
+}
