@@ -2,6 +2,9 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "this room is the one that talks to the user")]
 
+mod convert;
+mod score;
+
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -17,7 +20,12 @@ struct Arguments {
 }
 
 #[derive(Subcommand, Debug)]
-enum Command {}
+enum Command {
+    /// Convert a recording between C3D, TRC, BVH and CSV.
+    Convert(convert::ConvertArgs),
+    /// Measure the error of tracked points against a truth: per point, per frame, mean and standard deviation, mm.
+    Score(score::ScoreArgs),
+}
 
 /// Runs the program on its arguments (the program's name first). Exit status: 0 done, 1 failed, 2 wrong usage.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
@@ -39,5 +47,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 }
 
 fn dispatch(command: Command) -> Result<()> {
-    match command {}
+    match command {
+        Command::Convert(args) => convert::run(&args),
+        Command::Score(args) => score::run(&args),
+    }
 }

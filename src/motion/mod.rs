@@ -1,5 +1,20 @@
 //! Trajectories of points and bodies: C3D, TRC, BVH and CSV files, and the error between two of them (SPEC A10).
 
+mod bvh;
+mod c3d;
+mod error;
+mod number;
+mod point_file;
 mod points;
+mod points_csv;
+#[cfg(test)]
+mod test_points;
+mod trc;
 
-pub use points::PointTrajectory;
+pub use bvh::{BvhChannel, BvhJoint, BvhMotion, parse_bvh, write_bvh};
+pub use c3d::{parse_c3d, write_c3d};
+pub use error::{FrameError, Matching, PointError, PointPairs, TrajectoryError, write_frame_errors};
+pub use point_file::{PointFormat, read_bvh, read_points, write_points};
+pub use points::{LARGEST_COORDINATE, PointTrajectory};
+pub use points_csv::{parse_points_csv, write_points_csv};
+pub use trc::{parse_trc, write_trc};

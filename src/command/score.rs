@@ -1,0 +1,206 @@
+//! `pantin score`.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use serde_json::json;
+
+use crate::files::{Overwrite, write_atomically};
+use crate::motion::{Matching, PointPairs, PointTrajectory, TrajectoryError, read_points, write_frame_errors};
+
+/// Measures the error of tracked markers or joints against C3D, TRC or CSV truth, in mm: for every point its mean over
+/// frames, then the mean over points; the standard deviation is that of all errors of all points in all frames. Points are
+/// paired by name (see --map), frames by index, or by time where the frame rates differ.
+#[derive(clap::Args, Debug)]
+pub struct ScoreArgs {
+    /// A track's folder (its markers.c3d or joints.csv, the first that shares a name with the truth), or a file of points.
+    #[arg(value_name = "DIR")]
+    track: PathBuf,
+    /// The truth: .c3d, .trc, .csv or .bvh.
+    #[arg(long, value_name = "FILE")]
+    truth: PathBuf,
+    /// Also report the error after removing each point's constant mean offset (joint definitions differ between systems).
+    #[arg(long)]
+    remove_offset: bool,
+    /// Compare these points only, by the truth's or the track's name.
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
+    points: Vec<String>,
+    /// Leave out every point whose name holds one of these words, in any case (`hips` leaves out `LHip` and `right_hip`).
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
+    exclude: Vec<String>,
+    /// Pair a point of the truth with one of the track that has another name.
+    #[arg(long, value_name = "TRUTH=OURS", value_delimiter = ',', num_args = 1.., value_parser = name_pair)]
+    map: Vec<(String, String)>,
+    /// The truth is y-up (OpenSim): turn it z-up, (x, y, z) becoming (z, x, y).
+    #[arg(long)]
+    truth_y_up: bool,
+    /// Write the errors of every frame (before removing offsets) as CSV.
+    #[arg(long, value_name = "FILE.csv")]
+    per_frame: Option<PathBuf>,
+    /// Print one JSON object instead of the table.
+    #[arg(long)]
+    json: bool,
+    /// Replace the --per-frame file when it is there.
+    #[arg(long)]
+    force: bool,
+}
+
+fn name_pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((truth, ours)) if !truth.is_empty() && !ours.is_empty() => Ok((truth.to_string(), ours.to_string())),
+        _ => Err("expected TRUTH=OURS, the truth's name and the track's".to_string()),
+    }
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// When a file cannot be read or written, or when track and truth share no points or frames; one sentence.
+pub fn run(args: &ScoreArgs) -> Result<()> {
+    let mut truth = read_points(&args.truth)?;
+    if args.truth_y_up {
+        truth = truth.y_up_to_z_up();
+    }
+    let (path, ours, mut pairs) = tracked_points(&args.track, &truth, &args.map)?;
+    if !args.points.is_empty() {
+        pairs.keep(&ours, &truth, &args.points)?;
+    }
+    pairs.exclude(&ours, &truth, &args.exclude)?;
+    let compare = |remove_offset: bool| {
+        TrajectoryError::between(&ours, &truth, &pairs, remove_offset)
+            .with_context(|| format!("cannot compare {} with {}", path.display(), args.truth.display()))
+    };
+    let error = compare(false)?;
+    let without_offset = args.remove_offset.then(|| compare(true)).transpose()?;
+    if let Some(file) = &args.per_frame {
+        let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+        write_atomically(file, overwrite, |out| write_frame_errors(out, &error))?;
+    }
+    if args.json {
+        println!("{:#}", as_json(&path, &args.truth, &pairs, &error, without_offset.as_ref()));
+    } else {
+        print_table(&path, &args.truth, &pairs, &error, without_offset.as_ref());
+    }
+    Ok(())
+}
+
+/// The points to score: the file itself, or of a track's folder the first file that can be paired with the truth.
+fn tracked_points(
+    track: &Path,
+    truth: &PointTrajectory,
+    map: &[(String, String)],
+) -> Result<(PathBuf, PointTrajectory, PointPairs)> {
+    let candidates = if track.is_dir() {
+        vec![track.join("markers.c3d"), track.join("joints.csv")]
+    } else {
+        vec![track.to_path_buf()]
+    };
+    let mut refusals = Vec::new();
+    for path in candidates {
+        if track.is_dir() && !path.exists() {
+            continue;
+        }
+        let ours = read_points(&path)?;
+        match PointPairs::find(&ours, truth, map) {
+            Ok(pairs) => return Ok((path, ours, pairs)),
+            Err(refusal) => refusals.push(format!("{}: {refusal}", path.display())),
+        }
+    }
+    if refusals.is_empty() {
+        bail!(
+            "{} holds neither markers.c3d nor joints.csv, expected a track's folder or a file of points",
+            track.display()
+        );
+    }
+    bail!("{} (pair them with --map TRUTH=OURS)", refusals.join("; "))
+}
+
+fn matched_by(matching: Matching) -> &'static str {
+    match matching {
+        Matching::FrameIndex => "frame index",
+        Matching::Time => "time, the truth interpolated",
+    }
+}
+
+fn print_table(
+    path: &Path,
+    truth: &Path,
+    pairs: &PointPairs,
+    error: &TrajectoryError,
+    without_offset: Option<&TrajectoryError>,
+) {
+    println!("{} against {}", path.display(), truth.display());
+    println!("{} frames matched by {}, errors in mm\n", error.frames.len(), matched_by(error.matching));
+    let label = |name: &str, ours: &str| if name == ours { name.to_string() } else { format!("{name} = {ours}") };
+    let labels: Vec<String> = error.points.iter().map(|point| label(&point.name, &point.ours)).collect();
+    let width = labels.iter().map(|label| label.chars().count()).max().unwrap_or(0).max("point".len());
+    let more = if without_offset.is_some() { "  offset x,y,z               without it" } else { "" };
+    println!("{:<width$}  frames     mean      std      max{more}", "point");
+    for (index, (point, label)) in error.points.iter().zip(&labels).enumerate() {
+        print!("{label:<width$}  {:6} {:8.2} {:8.2} {:8.2}", point.frames, point.mean, point.std, point.max);
+        if let Some(rest) = without_offset.and_then(|without| without.points.get(index)) {
+            let o = point.offset;
+            print!("  {:8.2},{:8.2},{:8.2}  {:8.2}", o.x, o.y, o.z, rest.mean);
+        }
+        println!();
+    }
+    println!();
+    if error.missing > 0 || error.frames_without_truth > 0 {
+        println!(
+            "missing: {} points in compared frames; {} frames of the track lie outside the truth",
+            error.missing, error.frames_without_truth
+        );
+    }
+    for (names, what) in [
+        (&pairs.missing_in_ours, "not in the track"),
+        (&pairs.missing_in_truth, "not in the truth"),
+        (&error.never_seen, "never seen in both"),
+    ] {
+        if !names.is_empty() {
+            println!("{what} ({}): {}", names.len(), names.join(", "));
+        }
+    }
+    println!("error {:.2} ± {:.2} mm over {} points", error.mean, error.std, error.points.len());
+    if let Some(without) = without_offset {
+        println!("error {:.2} ± {:.2} mm without each point's mean offset", without.mean, without.std);
+    }
+}
+
+fn as_json(
+    path: &Path,
+    truth: &Path,
+    pairs: &PointPairs,
+    error: &TrajectoryError,
+    without_offset: Option<&TrajectoryError>,
+) -> serde_json::Value {
+    let summary = |error: &TrajectoryError| {
+        let points: Vec<serde_json::Value> = error
+            .points
+            .iter()
+            .map(|p| {
+                json!({
+                    "name": p.name, "ours": p.ours, "frames": p.frames, "mean": p.mean, "std": p.std, "max": p.max,
+                    "offset": p.offset.to_array(),
+                })
+            })
+            .collect();
+        json!({ "mean": error.mean, "std": error.std, "points": points })
+    };
+    let mut object = summary(error);
+    object["track"] = json!(path.display().to_string());
+    object["truth"] = json!(truth.display().to_string());
+    object["matched_by"] = json!(match error.matching {
+        Matching::FrameIndex => "frame",
+        Matching::Time => "time",
+    });
+    object["frames"] = json!(error.frames.len());
+    object["frames_without_truth"] = json!(error.frames_without_truth);
+    object["missing"] = json!(error.missing);
+    object["not_in_track"] = json!(pairs.missing_in_ours);
+    object["not_in_truth"] = json!(pairs.missing_in_truth);
+    object["never_seen"] = json!(error.never_seen);
+    if let Some(without) = without_offset {
+        object["without_offset"] = summary(without);
+    }
+    object
+}

@@ -1,0 +1,507 @@
+//! The distance between a trajectory and its truth (SPEC A10): |p(estimate) - p(truth)| for every point in every frame, its mean
+//! over frames and then over points, and the standard deviation of all of them.
+
+use std::collections::HashSet;
+use std::io::Write;
+
+use anyhow::{Result, bail, ensure};
+use glam::DVec3;
+
+use super::points::PointTrajectory;
+
+/// Rates this close (relative) are the same: times in files have few digits. 59.94 and 60 are not.
+const SAME_RATE: f64 = 5e-4;
+
+/// Which of our points stands for which point of the truth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointPairs {
+    /// Columns of the truth and of ours, in the order of the truth.
+    columns: Vec<(usize, usize)>,
+    /// Points of the truth that ours has no partner for.
+    pub missing_in_ours: Vec<String>,
+    /// Points of ours that the truth has no partner for.
+    pub missing_in_truth: Vec<String>,
+}
+
+impl PointPairs {
+    /// Pairs points of equal name; `map` (truth's name, our name) comes before that.
+    ///
+    /// # Errors
+    /// When a name of the map is unknown or stands twice, or when there is no pair at all: the sentence names some points of both.
+    pub fn find(ours: &PointTrajectory, truth: &PointTrajectory, map: &[(String, String)]) -> Result<Self> {
+        for (theirs, mine) in map {
+            known(truth, theirs, "the truth")?;
+            known(ours, mine, "the track")?;
+            let uses = |name: &String| map.iter().filter(|(a, b)| a == name || b == name).count();
+            ensure!(
+                map.iter().filter(|(a, _)| a == theirs).count() == 1
+                    && map.iter().filter(|(_, b)| b == mine).count() == 1,
+                "the map names `{}` twice, expected every point once",
+                if uses(theirs) > 1 { theirs } else { mine }
+            );
+        }
+        let mapped: HashSet<&str> = map.iter().map(|(_, mine)| mine.as_str()).collect();
+        let partner = |name: &String| match map.iter().find(|(theirs, _)| theirs == name) {
+            Some((_, mine)) => ours.column(mine),
+            // A point of ours that the map gave to another is not free for its namesake.
+            None => ours.column(name).filter(|_| !mapped.contains(name.as_str())),
+        };
+        let columns: Vec<(usize, usize)> =
+            truth.names.iter().enumerate().filter_map(|(column, name)| Some((column, partner(name)?))).collect();
+        if columns.is_empty() {
+            bail!(
+                "the truth and the track share no point name: the truth has {}, the track has {}; a map can pair them",
+                some_of(&truth.names),
+                some_of(&ours.names)
+            );
+        }
+        let paired_truth: HashSet<usize> = columns.iter().map(|pair| pair.0).collect();
+        let paired_ours: HashSet<usize> = columns.iter().map(|pair| pair.1).collect();
+        Ok(Self {
+            missing_in_ours: others(&truth.names, &paired_truth),
+            missing_in_truth: others(&ours.names, &paired_ours),
+            columns,
+        })
+    }
+
+    /// Keeps the pairs that `names` lists, by the truth's or our name.
+    ///
+    /// # Errors
+    /// When a name belongs to no pair.
+    pub fn keep(&mut self, ours: &PointTrajectory, truth: &PointTrajectory, names: &[String]) -> Result<()> {
+        let is =
+            |&(theirs, mine): &(usize, usize), name: &String| truth.names[theirs] == *name || ours.names[mine] == *name;
+        for name in names {
+            if !self.columns.iter().any(|pair| is(pair, name)) {
+                bail!("there is no point `{name}` to compare, expected some of {}", self.some(truth));
+            }
+        }
+        self.columns.retain(|pair| names.iter().any(|name| is(pair, name)));
+        Ok(())
+    }
+
+    /// Drops the pairs that a word of `words` belongs to: every point whose name, the truth's or ours, holds the word in any
+    /// case; a plural stands for its singular, so `hips` drops `LHip` and `right_hip`.
+    ///
+    /// # Errors
+    /// When a word belongs to no pair, or when no pair is left.
+    pub fn exclude(&mut self, ours: &PointTrajectory, truth: &PointTrajectory, words: &[String]) -> Result<()> {
+        let named = |&(theirs, mine): &(usize, usize), word: &String| {
+            let word = word.to_lowercase();
+            let singular = word.strip_suffix('s').filter(|rest| !rest.is_empty()).unwrap_or(&word);
+            [&truth.names[theirs], &ours.names[mine]].iter().any(|name| name.to_lowercase().contains(singular))
+        };
+        for word in words {
+            ensure!(!word.is_empty(), "a name to exclude is empty, expected a point's name");
+            if !self.columns.iter().any(|pair| named(pair, word)) {
+                bail!("there is no point `{word}` to exclude, expected some of {}", self.some(truth));
+            }
+        }
+        self.columns.retain(|pair| !words.iter().any(|word| named(pair, word)));
+        ensure!(!self.columns.is_empty(), "every point is excluded, expected one to compare");
+        Ok(())
+    }
+
+    fn some(&self, truth: &PointTrajectory) -> String {
+        some_of(&self.columns.iter().map(|pair| truth.names[pair.0].clone()).collect::<Vec<_>>())
+    }
+}
+
+fn known(points: &PointTrajectory, name: &str, whose: &str) -> Result<()> {
+    if points.column(name).is_none() {
+        let nearest = points.names.iter().min_by_key(|known| strsim::damerau_levenshtein(name, known));
+        bail!("{whose} has no point `{name}`, the nearest name is `{}`", nearest.map_or("", String::as_str));
+    }
+    Ok(())
+}
+
+fn others(names: &[String], paired: &HashSet<usize>) -> Vec<String> {
+    names.iter().enumerate().filter(|(column, _)| !paired.contains(column)).map(|(_, name)| name.clone()).collect()
+}
+
+/// The first few names for a message.
+fn some_of(names: &[String]) -> String {
+    const SHOWN: usize = 5;
+    let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
+    let more = names.len().saturating_sub(SHOWN);
+    if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
+}
+
+/// How frames of the truth were found for ours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Matching {
+    /// By frame index: both have the same rate, or one does not say its own.
+    FrameIndex,
+    /// By time, the truth interpolated linearly between its two nearest frames.
+    Time,
+}
+
+/// The error of one point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointError {
+    /// Its name in the truth.
+    pub name: String,
+    /// Its name in our trajectory.
+    pub ours: String,
+    /// Frames in which both have it.
+    pub frames: usize,
+    /// Mean distance, mm.
+    pub mean: f64,
+    /// Standard deviation of the distance, mm.
+    pub std: f64,
+    /// Largest distance, mm.
+    pub max: f64,
+    /// Mean of ours minus the truth, mm: what `remove_offset` takes away.
+    pub offset: DVec3,
+}
+
+/// The errors of one frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameError {
+    /// Index of our frame, from 0.
+    pub frame: usize,
+    /// Mean over the points that both have; `None` where there is none.
+    pub mean: Option<f64>,
+    /// One entry a point, in the order of [`TrajectoryError::points`].
+    pub points: Vec<Option<f64>>,
+}
+
+/// The errors of a trajectory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrajectoryError {
+    /// How frames were matched.
+    pub matching: Matching,
+    /// Points that are compared at least once.
+    pub points: Vec<PointError>,
+    /// Frames of ours that the truth covers.
+    pub frames: Vec<FrameError>,
+    /// Mean over frames, then over points, mm.
+    pub mean: f64,
+    /// Standard deviation of all marker-frame errors about their own mean, mm.
+    pub std: f64,
+    /// Frames of ours that the truth does not cover.
+    pub frames_without_truth: usize,
+    /// Pairs of point and frame within `frames` in which one side misses the point.
+    pub missing: usize,
+    /// Names of pairs that no frame compares.
+    pub never_seen: Vec<String>,
+}
+
+impl TrajectoryError {
+    /// Compares `ours` with `truth` over `pairs`. With `remove_offset` each point's constant mean offset is taken away first:
+    /// joint definitions differ between systems.
+    ///
+    /// # Errors
+    /// When no frame, or no point in any frame, is in both.
+    pub fn between(
+        ours: &PointTrajectory,
+        truth: &PointTrajectory,
+        pairs: &PointPairs,
+        remove_offset: bool,
+    ) -> Result<Self> {
+        let matching = matching(ours, truth);
+        let mut rows = Vec::new();
+        for row in 0..ours.frames.len() {
+            if let Some(there) = counterpart(ours, truth, matching, row) {
+                let difference =
+                    |&(theirs, mine): &(usize, usize)| Some(ours.frames[row][mine]? - there.point(truth, theirs)?);
+                rows.push((
+                    ours.first_frame + row,
+                    pairs.columns.iter().map(difference).collect::<Vec<Option<DVec3>>>(),
+                ));
+            }
+        }
+        if rows.is_empty() {
+            bail!(
+                "the track and the truth share no frame: the track has {}, the truth has {}",
+                extent(ours, matching),
+                extent(truth, matching)
+            );
+        }
+
+        let mut points = Vec::new();
+        let mut never_seen = Vec::new();
+        let mut columns = Vec::new();
+        for (column, &(theirs, mine)) in pairs.columns.iter().enumerate() {
+            let differences: Vec<DVec3> = rows.iter().filter_map(|(_, row)| row[column]).collect();
+            if differences.is_empty() {
+                never_seen.push(truth.names[theirs].clone());
+                continue;
+            }
+            let offset = differences.iter().sum::<DVec3>() / differences.len() as f64;
+            let removed = if remove_offset { offset } else { DVec3::ZERO };
+            let distances: Vec<f64> = differences.iter().map(|d| (*d - removed).length()).collect();
+            let (mean, std) = mean_and_std(&distances);
+            let max = distances.iter().copied().fold(0.0, f64::max);
+            columns.push((column, removed));
+            points.push(PointError {
+                name: truth.names[theirs].clone(),
+                ours: ours.names[mine].clone(),
+                frames: distances.len(),
+                mean,
+                std,
+                max,
+                offset,
+            });
+        }
+        ensure!(!points.is_empty(), "no point is seen in both the track and the truth in any frame");
+
+        let frames: Vec<FrameError> = rows
+            .iter()
+            .map(|(frame, row)| {
+                let points: Vec<Option<f64>> =
+                    columns.iter().map(|&(column, removed)| row[column].map(|d| (d - removed).length())).collect();
+                let seen: Vec<f64> = points.iter().flatten().copied().collect();
+                let mean = (!seen.is_empty()).then(|| mean_and_std(&seen).0);
+                FrameError { frame: *frame, mean, points }
+            })
+            .collect();
+        let all: Vec<f64> = frames.iter().flat_map(|frame| frame.points.iter().flatten().copied()).collect();
+        let mean = points.iter().map(|point| point.mean).sum::<f64>() / points.len() as f64;
+        Ok(Self {
+            matching,
+            mean,
+            std: mean_and_std(&all).1,
+            frames_without_truth: ours.frames.len() - frames.len(),
+            missing: frames.len() * points.len() - all.len(),
+            never_seen,
+            points,
+            frames,
+        })
+    }
+}
+
+/// Writes the errors frame by frame as CSV: `frame,mean,<point>,…`, mm, empty where one side misses the point.
+///
+/// # Errors
+/// When writing fails.
+pub fn write_frame_errors(out: &mut dyn Write, error: &TrajectoryError) -> Result<()> {
+    let cell = |value: &Option<f64>| value.map_or_else(String::new, |value| format!("{value:.4}"));
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(["frame", "mean"].into_iter().chain(error.points.iter().map(|point| point.name.as_str())))?;
+    for frame in &error.frames {
+        let mut cells = vec![frame.frame.to_string(), cell(&frame.mean)];
+        cells.extend(frame.points.iter().map(cell));
+        writer.write_record(&cells)?;
+    }
+    writer.flush()?;
+    Ok(())
+}
+
+/// Mean and standard deviation of a population.
+fn mean_and_std(values: &[f64]) -> (f64, f64) {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count;
+    (mean, variance.sqrt())
+}
+
+fn matching(ours: &PointTrajectory, truth: &PointTrajectory) -> Matching {
+    let unknown = ours.rate <= 0.0 || truth.rate <= 0.0;
+    let equal = (ours.rate - truth.rate).abs() <= SAME_RATE * truth.rate;
+    if unknown || equal { Matching::FrameIndex } else { Matching::Time }
+}
+
+/// A place on the truth's time line: so far (0..1) from one row towards the next.
+struct Counterpart {
+    row: usize,
+    towards_next: f64,
+}
+
+impl Counterpart {
+    fn point(&self, truth: &PointTrajectory, column: usize) -> Option<DVec3> {
+        let at = truth.frames[self.row][column];
+        if self.towards_next == 0.0 {
+            return at;
+        }
+        Some(at?.lerp(truth.frames[self.row + 1][column]?, self.towards_next))
+    }
+}
+
+fn counterpart(ours: &PointTrajectory, truth: &PointTrajectory, matching: Matching, row: usize) -> Option<Counterpart> {
+    // The position in rows of the truth; frame indices are far below 2^53, so this is exact.
+    let frame = (ours.first_frame + row) as f64;
+    let position = match matching {
+        Matching::FrameIndex => frame,
+        Matching::Time => frame / ours.rate * truth.rate,
+    } - truth.first_frame as f64;
+    // Times that are meant to coincide do so up to rounding.
+    let position = if (position - position.round()).abs() < 1e-6 { position.round() } else { position };
+    let last = truth.frames.len().checked_sub(1)?;
+    (0.0..=last as f64)
+        .contains(&position)
+        .then(|| Counterpart { row: position as usize, towards_next: position.fract() })
+}
+
+/// Frames or seconds from first to last, for a message.
+fn extent(points: &PointTrajectory, matching: Matching) -> String {
+    let last = points.frames.len().saturating_sub(1);
+    match (matching, points.time(0), points.time(last)) {
+        (Matching::Time, Some(from), Some(to)) => format!("{from:.3} s to {to:.3} s"),
+        _ => format!("frames {} to {}", points.first_frame, points.first_frame + last),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// `a` moves along x a millimetre a frame, `b` along y.
+    fn trajectory(rate: f64, first_frame: usize, frames: usize) -> PointTrajectory {
+        let row = |i: usize| {
+            let seconds = (first_frame + i) as f64 / rate;
+            vec![Some(DVec3::new(seconds * 100.0, 0.0, 0.0)), Some(DVec3::new(0.0, seconds * 50.0, 1000.0))]
+        };
+        PointTrajectory {
+            names: vec!["a".into(), "b".into()],
+            rate,
+            first_frame,
+            frames: (0..frames).map(row).collect(),
+        }
+    }
+
+    fn compare(ours: &PointTrajectory, truth: &PointTrajectory, remove_offset: bool) -> TrajectoryError {
+        let pairs = PointPairs::find(ours, truth, &[]).unwrap();
+        TrajectoryError::between(ours, truth, &pairs, remove_offset).unwrap()
+    }
+
+    #[test]
+    fn means_over_frames_then_points() {
+        let truth = trajectory(100.0, 0, 4);
+        let mut ours = truth.clone();
+        // a is off by 3-4-0 in every frame; b by 0, 10 and 20 in z, and missing once.
+        for row in &mut ours.frames {
+            row[0] = row[0].map(|p| p + DVec3::new(3.0, 4.0, 0.0));
+        }
+        for (row, error) in [10.0, 20.0].into_iter().enumerate() {
+            ours.frames[row + 1][1] = ours.frames[row + 1][1].map(|p| p + DVec3::new(0.0, 0.0, error));
+        }
+        ours.frames[3][1] = None;
+        let error = compare(&ours, &truth, false);
+        assert_eq!((error.points[0].mean, error.points[0].std, error.points[0].max), (5.0, 0.0, 5.0));
+        assert_eq!((error.points[1].mean, error.points[1].frames, error.points[1].max), (10.0, 3, 20.0));
+        assert!((error.points[1].std - (200.0f64 / 3.0).sqrt()).abs() < 1e-12);
+        assert_eq!(error.mean, 7.5, "each point counts the same, however often it is seen");
+        // All errors: 5 5 5 5 0 10 20, about their own mean 50 / 7.
+        let expected = (600.0 / 7.0 - (50.0f64 / 7.0).powi(2)).sqrt();
+        assert!((error.std - expected).abs() < 1e-12);
+        assert_eq!((error.missing, error.frames_without_truth, error.matching), (1, 0, Matching::FrameIndex));
+        assert_eq!(error.frames[2].points, [Some(5.0), Some(20.0)]);
+        assert_eq!((error.frames[2].mean, error.frames[3].mean), (Some(12.5), Some(5.0)));
+
+        let mut table = Vec::new();
+        write_frame_errors(&mut table, &error).unwrap();
+        let expected = "frame,mean,a,b\n0,2.5000,5.0000,0.0000\n1,7.5000,5.0000,10.0000\n2,12.5000,5.0000,20.0000\n3,5.0000,5.0000,\n";
+        assert_eq!(String::from_utf8(table).unwrap(), expected);
+
+        let without = compare(&ours, &truth, true);
+        assert_eq!(without.points[0].mean, 0.0);
+        assert_eq!(without.points[0].offset, DVec3::new(3.0, 4.0, 0.0));
+        assert!((without.points[1].mean - 20.0 / 3.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn frames_are_matched_by_index_or_time() {
+        let (slow, fast) = (trajectory(25.0, 2, 10), trajectory(60.0, 0, 20));
+        let by_time = compare(&slow, &fast, false);
+        assert_eq!(by_time.matching, Matching::Time);
+        // 19/60 s lie within the truth: frames 2 to 7 of 25 a second.
+        assert_eq!((by_time.frames.len(), by_time.frames[0].frame, by_time.frames_without_truth), (6, 2, 4));
+        assert!(by_time.mean < 1e-9, "points move evenly, so interpolation is exact: {}", by_time.mean);
+        let shifted = compare(&trajectory(60.0, 5, 20), &fast, false);
+        assert_eq!((shifted.frames.len(), shifted.matching, shifted.mean), (15, Matching::FrameIndex, 0.0));
+        let mut unknown = fast.clone();
+        unknown.rate = 0.0;
+        assert_eq!(compare(&unknown, &fast, false).matching, Matching::FrameIndex);
+    }
+
+    #[test]
+    fn a_missing_neighbour_is_not_interpolated_over() {
+        let mut fast = trajectory(50.0, 0, 5);
+        fast.frames[3][0] = None;
+        let error = compare(&trajectory(40.0, 0, 4), &fast, false);
+        // Our frames 2 and 3 lie at rows 2.5 and 3.75 of the truth, both beside row 3.
+        assert_eq!(error.frames[2].points[0], None);
+        assert_eq!(error.frames[3].points[0], None);
+        assert_eq!(error.missing, 2);
+    }
+
+    #[test]
+    fn names_are_paired_mapped_kept_and_excluded() {
+        let mut truth = trajectory(60.0, 0, 3);
+        truth.names = vec!["LHip".into(), "Nose".into()];
+        let mut ours = truth.clone();
+        ours.names = vec!["left_hip".into(), "nose_tip".into()];
+        let message = |result: Result<PointPairs>| result.unwrap_err().to_string();
+        let none = message(PointPairs::find(&ours, &truth, &[]));
+        assert!(none.contains("`LHip`, `Nose`") && none.contains("`left_hip`"), "{none}");
+        let pair = |a: &str, b: &str| (a.to_string(), b.to_string());
+        let map = [pair("LHip", "left_hip")];
+        let one = PointPairs::find(&ours, &truth, &map).unwrap();
+        assert_eq!(
+            (one.missing_in_ours.as_slice(), one.missing_in_truth.as_slice()),
+            (&["Nose".to_string()][..], &["nose_tip".to_string()][..])
+        );
+        let wrong = message(PointPairs::find(&ours, &truth, &[pair("LHipp", "left_hip")]));
+        assert!(wrong.contains("no point `LHipp`, the nearest name is `LHip`"), "{wrong}");
+        let wrong = message(PointPairs::find(&ours, &truth, &[pair("LHip", "left_hip"), pair("Nose", "left_hip")]));
+        assert!(wrong.contains("`left_hip` twice"), "{wrong}");
+
+        let map = [pair("LHip", "left_hip"), pair("Nose", "nose_tip")];
+        let both = PointPairs::find(&ours, &truth, &map).unwrap();
+        let names = |words: &[&str]| words.iter().map(|w| (*w).to_string()).collect::<Vec<_>>();
+        let mut kept = both.clone();
+        kept.keep(&ours, &truth, &names(&["nose_tip"])).unwrap();
+        assert_eq!(kept.columns, [(1, 1)]);
+        assert!(kept.keep(&ours, &truth, &names(&["knee"])).unwrap_err().to_string().contains("no point `knee`"));
+        let mut left = both.clone();
+        left.exclude(&ours, &truth, &names(&["hips"])).unwrap();
+        assert_eq!(left.columns, [(1, 1)]);
+        let mut nothing = both.clone();
+        let wrong = nothing.exclude(&ours, &truth, &names(&["nose", "HIP"])).unwrap_err().to_string();
+        assert!(wrong.contains("every point is excluded"), "{wrong}");
+        let wrong = both.clone().exclude(&ours, &truth, &names(&["knees"])).unwrap_err().to_string();
+        assert!(wrong.contains("no point `knees`"), "{wrong}");
+    }
+
+    #[test]
+    fn a_mapped_point_is_not_used_twice() {
+        let truth = trajectory(60.0, 0, 3);
+        let pairs = PointPairs::find(&truth, &truth, &[("a".into(), "b".into())]).unwrap();
+        assert_eq!(pairs.columns, [(0, 1)], "b of ours stands for a, so the truth's b has no partner");
+    }
+
+    #[test]
+    fn nothing_in_common_is_a_sentence() {
+        let (ours, truth) = (trajectory(60.0, 50, 10), trajectory(60.0, 0, 10));
+        let pairs = PointPairs::find(&ours, &truth, &[]).unwrap();
+        let message = TrajectoryError::between(&ours, &truth, &pairs, false).unwrap_err().to_string();
+        assert!(message.contains("the track has frames 50 to 59, the truth has frames 0 to 9"), "{message}");
+        let late = trajectory(25.0, 50, 10);
+        let message = TrajectoryError::between(&late, &truth, &pairs, false).unwrap_err().to_string();
+        assert!(message.contains("2.000 s to 2.360 s"), "{message}");
+        let mut blind = truth.clone();
+        blind.frames.iter_mut().flatten().for_each(|p| *p = None);
+        let message = TrajectoryError::between(&blind, &truth, &pairs, false).unwrap_err().to_string();
+        assert!(message.contains("no point is seen in both"), "{message}");
+        blind.frames[0][0] = Some(DVec3::ZERO);
+        assert_eq!(TrajectoryError::between(&blind, &truth, &pairs, false).unwrap().never_seen, ["b"]);
+    }
+
+    proptest! {
+        #[test]
+        fn a_constant_offset_is_the_error_and_removing_it_leaves_none(
+            offset in [-500.0..500.0f64, -500.0..500.0, -500.0..500.0],
+        ) {
+            let truth = trajectory(50.0, 0, 7);
+            let offset = DVec3::from(offset);
+            let mut ours = truth.clone();
+            ours.frames.iter_mut().flatten().flatten().for_each(|p| *p += offset);
+            let error = compare(&ours, &truth, false);
+            prop_assert!((error.mean - offset.length()).abs() < 1e-9);
+            prop_assert!(error.std < 1e-6);
+            prop_assert!(compare(&ours, &truth, true).mean < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! TRC, the tab-separated marker format of OpenSim and Cortex. `Frame#` counts from 1, missing points are empty cells, the
+//! unit is in the header. Nothing in the file says which axis is up: coordinates are kept as they stand.
+
+use std::io::Write;
+
+use anyhow::{Context, Result, anyhow, bail, ensure};
+
+use super::number::{finite, millimetres, point, shortened, whole};
+use super::points::{PointTrajectory, millimetres_in};
+
+/// Cells before the first marker: `Frame#` and `Time`.
+const LEADING: usize = 2;
+
+/// Reads the text of a TRC file; `name` stands for the file in messages. Millimetres from the unit that the header names;
+/// `Frame#` 1 is frame 0 (a file that starts at 0 is taken to count from 0).
+///
+/// # Errors
+/// One sentence with the file, the line, what was found and what was expected.
+pub fn parse_trc(text: &str, name: &str) -> Result<PointTrajectory> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line));
+    let mut next = |what: &str| lines.next().ok_or_else(|| anyhow!("{name} ends before {what}, expected a TRC file"));
+
+    let (_, first) = next("its first line")?;
+    if !first.trim_start().starts_with("PathFileType") {
+        bail!("{name}, line 1: found `{}`, expected a TRC file, which starts with `PathFileType`", shortened(first));
+    }
+    let (_, keys) = next("the header keys")?;
+    let (_, values) = next("the header values")?;
+    let header = Header::parse(keys, values).with_context(|| format!("{name}, line 3"))?;
+    let (_, labels) = next("the marker names")?;
+    let names = marker_names(labels).with_context(|| format!("{name}, line 4"))?;
+    if let Some(claimed) = header.markers {
+        ensure!(
+            claimed == names.len(),
+            "{name}, line 4: found {} marker names, expected {claimed} as NumMarkers says",
+            names.len()
+        );
+    }
+    // The X1 Y1 Z1 line says nothing that the names do not.
+    next("the line of axes")?;
+
+    let mut trajectory = PointTrajectory { names, rate: header.rate, first_frame: 0, frames: Vec::new() };
+    let mut expected_number = None;
+    for (line, row) in lines.filter(|(_, row)| !row.trim().is_empty()) {
+        let (number, points) =
+            data_row(row, trajectory.names.len(), header.factor).with_context(|| format!("{name}, line {line}"))?;
+        match expected_number {
+            None => trajectory.first_frame = number.saturating_sub(1),
+            Some(expected) => {
+                ensure!(number == expected, "{name}, line {line}: found frame {number}, expected frame {expected}")
+            }
+        }
+        expected_number = Some(number + 1);
+        trajectory.frames.push(points);
+    }
+    if let Some(claimed) = header.frames {
+        ensure!(
+            claimed == trajectory.frames.len(),
+            "{name} holds {} frames, expected {claimed} as NumFrames says",
+            trajectory.frames.len()
+        );
+    }
+    trajectory.check().with_context(|| name.to_string())?;
+    Ok(trajectory)
+}
+
+/// What lines 2 and 3 say.
+struct Header {
+    rate: f64,
+    frames: Option<usize>,
+    markers: Option<usize>,
+    factor: f64,
+}
+
+impl Header {
+    fn parse(keys: &str, values: &str) -> Result<Self> {
+        let keys: Vec<&str> = keys.split('\t').map(str::trim).collect();
+        let values: Vec<&str> = values.split('\t').map(str::trim).collect();
+        let value = |key: &str| -> Option<&str> {
+            let column = keys.iter().position(|known| known.eq_ignore_ascii_case(key))?;
+            values.get(column).copied().filter(|value| !value.is_empty())
+        };
+        let rate = value("DataRate").context("the header has no value for DataRate, expected the frames a second")?;
+        let rate = finite(rate).context("DataRate")?;
+        ensure!(rate > 0.0, "DataRate is {rate}, expected a positive number of frames a second");
+        let count = |key: &str| value(key).map(|v| whole(v).with_context(|| key.to_string())).transpose();
+        let unit = value("Units").context("the header has no value for Units, expected mm, cm or m")?;
+        Ok(Self {
+            rate,
+            frames: count("NumFrames")?,
+            markers: count("NumMarkers")?,
+            factor: millimetres_in(&shortened(unit)).context("Units")?,
+        })
+    }
+}
+
+/// The names stand over the first of each marker's three columns.
+fn marker_names(line: &str) -> Result<Vec<String>> {
+    let cells: Vec<&str> = line.split('\t').map(str::trim).collect();
+    ensure!(
+        cells.first().is_some_and(|cell| cell.eq_ignore_ascii_case("Frame#")),
+        "found `{}`, expected the line `Frame#`, `Time` and the marker names",
+        shortened(line)
+    );
+    let mut names: Vec<String> = Vec::new();
+    for (column, cell) in cells.iter().enumerate().skip(LEADING) {
+        let in_place = (column - LEADING).is_multiple_of(3);
+        ensure!(
+            in_place || cell.is_empty(),
+            "found `{}` in column {}, expected a marker name every third column",
+            shortened(cell),
+            column + 1
+        );
+        if in_place {
+            names.push((*cell).to_string());
+        }
+    }
+    while names.last().is_some_and(String::is_empty) {
+        names.pop();
+    }
+    Ok(names)
+}
+
+/// The frame's number and its points.
+fn data_row(row: &str, markers: usize, factor: f64) -> Result<(usize, Vec<Option<glam::DVec3>>)> {
+    let mut cells: Vec<&str> = row.split('\t').collect();
+    let expected = LEADING + 3 * markers;
+    // A tab at the end of the line is common.
+    while cells.len() > expected && cells.last().is_some_and(|cell| cell.trim().is_empty()) {
+        cells.pop();
+    }
+    ensure!(cells.len() == expected, "found {} cells, expected {expected} for {markers} markers", cells.len());
+    let number = whole(cells[0]).context("Frame#")?;
+    finite(cells[1]).context("Time")?;
+    let points = cells[LEADING..]
+        .chunks_exact(3)
+        .enumerate()
+        .map(|(marker, xyz)| point([xyz[0], xyz[1], xyz[2]], factor).with_context(|| format!("marker {}", marker + 1)))
+        .collect::<Result<_>>()?;
+    Ok((number, points))
+}
+
+/// Writes the points as TRC in mm, to a tenth of a micrometre; `file_name` goes into the file's first line.
+///
+/// # Errors
+/// When the trajectory breaks [`PointTrajectory::check`], its rate is unknown, or writing fails.
+pub fn write_trc(out: &mut dyn Write, points: &PointTrajectory, file_name: &str) -> Result<()> {
+    points.check()?;
+    ensure!(points.rate > 0.0, "the frame rate is unknown, but TRC needs one: give it");
+    let frames = points.frames.len();
+    let file_name: String = file_name.chars().map(|c| if c.is_control() { '_' } else { c }).collect();
+    writeln!(out, "PathFileType\t4\t(X/Y/Z)\t{file_name}")?;
+    writeln!(
+        out,
+        "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames"
+    )?;
+    let rate = points.rate;
+    writeln!(
+        out,
+        "{rate}\t{rate}\t{frames}\t{}\tmm\t{rate}\t{}\t{frames}",
+        points.names.len(),
+        points.first_frame + 1
+    )?;
+    write!(out, "Frame#\tTime")?;
+    for name in &points.names {
+        write!(out, "\t{name}\t\t")?;
+    }
+    write!(out, "\n\t")?;
+    for marker in 1..=points.names.len() {
+        write!(out, "\tX{marker}\tY{marker}\tZ{marker}")?;
+    }
+    // OpenSim expects an empty line between the header and the data.
+    write!(out, "\n\n")?;
+    for (row, frame) in points.frames.iter().enumerate() {
+        write!(out, "{}\t{:.6}", points.first_frame + row + 1, points.time(row).unwrap_or(0.0))?;
+        for point in frame {
+            match point {
+                Some(p) => write!(out, "\t{}\t{}\t{}", millimetres(p.x), millimetres(p.y), millimetres(p.z))?,
+                None => write!(out, "\t\t\t")?,
+            }
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::test_points::{close, real_data, trajectories};
+    use proptest::prelude::*;
+
+    const SMALL: &str = "PathFileType\t4\t(X/Y/Z)\tsmall.trc\n\
+        DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n\
+        60\t60\t2\t2\tm\n\
+        Frame#\tTime\tA\t\t\tB\t\t\n\
+        \t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\
+        5\t0.083\t1\t2\t3\t\t\t\n\
+        6\t0.1\t0.5\t0\t-1e-3\t4\t5\t6\n";
+
+    #[test]
+    fn a_small_file() {
+        for text in [SMALL.to_string(), SMALL.replace('\n', "\r\n"), format!("\u{feff}{}", SMALL.trim_end())] {
+            let points = parse_trc(&text, "small.trc").unwrap();
+            assert_eq!((points.names.join(" "), points.rate, points.first_frame), ("A B".into(), 60.0, 4));
+            assert_eq!(points.frames[0], [Some(glam::DVec3::new(1000.0, 2000.0, 3000.0)), None]);
+            assert_eq!(points.frames[1][0], Some(glam::DVec3::new(500.0, 0.0, -1.0)));
+        }
+    }
+
+    #[test]
+    fn each_fault_is_one_sentence() {
+        let cases = [
+            (String::new(), "s.trc ends before its first line"),
+            ("frame,time\n".into(), "line 1: found `frame,time`, expected a TRC file"),
+            (SMALL[..60].into(), "ends before the header values"),
+            (SMALL[..SMALL.len() - 13].into(), "line 7: found 4 cells, expected 8 for 2 markers"),
+            (SMALL.replace("\n60\t", "\n0\t"), "line 3: DataRate is 0"),
+            (SMALL.replace("\n60\t", "\nfast\t"), "line 3: DataRate: found `fast`"),
+            (SMALL.replace("2\tm\n", "2\tfeet\n"), "the unit is `feet`"),
+            (SMALL.replace("2\tm\n", "2\n"), "no value for Units"),
+            (SMALL.replace("\t2\t2\tm", "\t3\t2\tm"), "holds 2 frames, expected 3"),
+            (SMALL.replace("\t2\t2\tm", "\t2\t99999999999\tm"), "NumMarkers: found `99999999999`"),
+            (SMALL.replace("\t2\t2\tm", "\t2\t4000000000\tm"), "found 2 marker names, expected 4000000000"),
+            (SMALL.replace("\tB\t", "\tA\t"), "two points are named `A`"),
+            (SMALL.replace("\tB\t", "\t\t"), "found 1 marker names, expected 2"),
+            (SMALL.replace("A\t\t\tB", "A\tB\t\t"), "every third column"),
+            (SMALL.replace("\t4\t5\t6", "\t4\tnan\t6"), "line 7: marker 2: found `nan`, expected a finite number"),
+            (SMALL.replace("\t4\t5\t6", "\t4\t\t6"), "line 7: marker 2: found 2 of 3 coordinates"),
+            (SMALL.replace("\t4\t5\t6", "\t4\t1e300\t6"), "below 1e9 mm"),
+            (SMALL.replace("\t4\t5\t6", "\t4\t5\t6\t7"), "found 9 cells, expected 8"),
+            (SMALL.replace("\n6\t", "\n8\t"), "line 7: found frame 8, expected frame 6"),
+            (SMALL.replace("\n6\t", "\n-6\t"), "line 7: Frame#: found `-6`"),
+            (SMALL.replace("\t0.1\t", "\tsoon\t"), "Time: found `soon`"),
+        ];
+        for (text, expected) in cases {
+            let message = format!("{:#}", parse_trc(&text, "s.trc").unwrap_err());
+            assert!(message.contains(expected) && message.contains("s.trc"), "{message}\nshould say: {expected}");
+            assert!(!message.contains('\n'), "{message}");
+        }
+    }
+
+    #[test]
+    fn the_authors_file() {
+        let Some(folder) = real_data("the_authors_file", "beam/reference") else { return };
+        let text = std::fs::read_to_string(folder.join("authors_Balancing_for_IK.trc")).unwrap();
+        let points = parse_trc(&text, "authors.trc").unwrap();
+        assert_eq!((points.names.len(), points.frames.len(), points.rate, points.first_frame), (21, 100, 60.0, 0));
+        let hip = points.frames[0][0].unwrap();
+        assert!((hip - glam::DVec3::new(-64.997_769, 901.513_220, -1_400.573_592)).length() < 1e-5, "{hip}");
+    }
+
+    proptest! {
+        #[test]
+        fn written_and_read_again(points in trajectories()) {
+            let mut bytes = Vec::new();
+            write_trc(&mut bytes, &points, "p.trc").unwrap();
+            let again = parse_trc(std::str::from_utf8(&bytes).unwrap(), "p.trc").unwrap();
+            prop_assert!(close(&points, &again, 6e-5), "{points:?}\n{again:?}");
+        }
+    }
+}

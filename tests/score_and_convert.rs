@@ -1,0 +1,165 @@
+//! `pantin score` and `pantin convert` as a user runs them.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "helpers of tests fail as tests do")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use glam::DVec3;
+use pantin::files::Overwrite;
+use pantin::motion::{PointTrajectory, read_points, write_points};
+
+/// Exit status, standard output, standard error.
+fn pantin(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_pantin")).current_dir(folder).args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+fn refused(folder: &Path, arguments: &[&str], expected: &str) {
+    let (status, _, error) = pantin(folder, arguments);
+    assert_eq!(status, 1, "{error}");
+    assert!(error.contains(expected), "{error}\nshould say: {expected}");
+    assert_eq!(error.trim_end().lines().count(), 1, "one sentence: {error}");
+}
+
+fn points(names: &[&str], frames: usize, offset: DVec3) -> PointTrajectory {
+    PointTrajectory {
+        names: names.iter().map(|name| (*name).to_string()).collect(),
+        rate: 25.0,
+        first_frame: 0,
+        frames: (0..frames)
+            .map(|i| (0..names.len()).map(|j| Some(DVec3::new(i as f64, j as f64, 0.0) + offset)).collect())
+            .collect(),
+    }
+}
+
+/// A folder with a truth and a track that is off by (3, 4, 0) mm.
+fn track() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let write =
+        |file: &str, points: &PointTrajectory| write_points(&folder.path().join(file), points, Overwrite::Refuse);
+    fs::create_dir(folder.path().join("out")).unwrap();
+    let offset = DVec3::new(3.0, 4.0, 0.0);
+    write("out/markers.c3d", &points(&["LKNE", "RKNE"], 10, offset)).unwrap();
+    write("out/joints.csv", &points(&["left_knee", "left_hip"], 10, offset)).unwrap();
+    write("markers.trc", &points(&["LKNE", "RKNE", "HEAD"], 8, DVec3::ZERO)).unwrap();
+    write("joints.csv", &points(&["LKnee", "LHip"], 10, DVec3::ZERO)).unwrap();
+    folder
+}
+
+#[test]
+fn markers_come_before_joints() {
+    let folder = track();
+    let (status, out, error) = pantin(folder.path(), &["score", "out", "--truth", "markers.trc", "--remove-offset"]);
+    assert_eq!(status, 0, "{error}");
+    assert!(out.contains("markers.c3d against markers.trc"), "{out}");
+    assert!(out.contains("error 5.00 ± 0.00 mm over 2 points"), "{out}");
+    assert!(out.contains("error 0.00 ± 0.00 mm without"), "{out}");
+    assert!(out.contains("not in the track (1): HEAD"), "{out}");
+    assert!(out.contains("2 frames of the track lie outside the truth"), "{out}");
+}
+
+#[test]
+fn joints_by_a_map_as_json_and_frame_by_frame() {
+    let folder = track();
+    let mut arguments = vec!["score", "out", "--truth", "joints.csv", "--json", "--per-frame", "frames.csv"];
+    arguments.extend(["--map", "LKnee=left_knee", "LHip=left_hip", "--exclude", "hips"]);
+    let (status, out, error) = pantin(folder.path(), &arguments);
+    assert_eq!(status, 0, "{error}");
+    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&object["mean"], &object["frames"], &object["matched_by"]), (&5.0.into(), &10.into(), &"frame".into()));
+    assert_eq!(object["points"][0]["ours"], "left_knee");
+    assert_eq!(object["points"].as_array().unwrap().len(), 1);
+    let table = fs::read_to_string(folder.path().join("frames.csv")).unwrap();
+    assert!(table.starts_with("frame,mean,LKnee\n0,5.0000,5.0000\n") && table.lines().count() == 11, "{table}");
+    refused(folder.path(), &arguments, "frames.csv exists already");
+}
+
+#[test]
+fn score_refuses_in_one_sentence() {
+    let folder = track();
+    let at = folder.path();
+    refused(
+        at,
+        &["score", "out", "--truth", "joints.csv"],
+        "the truth has `LKnee`, `LHip`, the track has `LKNE`, `RKNE`",
+    );
+    refused(at, &["score", "out", "--truth", "none.trc"], "cannot read none.trc");
+    refused(at, &["score", "none", "--truth", "joints.csv"], "none ends in `.`, expected .c3d");
+    fs::create_dir(at.join("empty")).unwrap();
+    refused(at, &["score", "empty", "--truth", "joints.csv"], "neither markers.c3d nor joints.csv");
+    refused(at, &["score", "out", "--truth", "markers.trc", "--points", "HIP"], "no point `HIP` to compare");
+    let (status, _, error) = pantin(at, &["score", "out", "--truth", "joints.csv", "--map", "LKnee"]);
+    assert!(status == 2 && error.contains("expected TRUTH=OURS"), "{error}");
+}
+
+const BVH: &str = "HIERARCHY\nROOT hip\n{\n OFFSET 0 0 0\n CHANNELS 3 Xposition Yposition Zposition\n End Site\n {\n  OFFSET 0 10 0\n }\n}\n\
+    MOTION\nFrames: 2\nFrame Time: 0.01\n1 2 3\n4 5 6\n";
+
+#[test]
+fn a_recording_goes_round_all_formats() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("a.bvh"), BVH).unwrap();
+    for pair in [["a.bvh", "b.csv"], ["b.csv", "c.trc"], ["c.trc", "d.c3d"], ["d.c3d", "e.csv"]] {
+        let mut arguments = vec!["convert", pair[0], pair[1]];
+        if pair[0] == "a.bvh" {
+            arguments.extend(["--scale", "10", "--y-up"]);
+        }
+        let (status, out, error) = pantin(at, &arguments);
+        assert!(status == 0 && out.contains("2 points, 2 frames"), "{out}{error}");
+    }
+    assert_eq!(fs::read(at.join("b.csv")).unwrap(), fs::read(at.join("e.csv")).unwrap());
+    let points = read_points(&at.join("e.csv")).unwrap();
+    assert_eq!((points.names.join(" "), points.rate), ("hip hip_end".into(), 100.0));
+    assert_eq!(points.frames[0][1], Some(DVec3::new(30.0, 10.0, 120.0)), "z up, mm");
+
+    let (status, _, error) = pantin(at, &["convert", "a.bvh", "f.bvh", "--scale", "10", "--rate", "50"]);
+    assert_eq!(status, 0, "{error}");
+    let text = fs::read_to_string(at.join("f.bvh")).unwrap();
+    assert!(text.contains("OFFSET 0.000000 100.000000 0.000000") && text.contains("Frame Time: 0.020000000"), "{text}");
+    assert!(text.ends_with("40.000000 50.000000 60.000000\n"), "{text}");
+}
+
+#[test]
+fn convert_refuses_in_one_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("a.bvh"), BVH).unwrap();
+    fs::write(at.join("still.csv"), "frame,a.x,a.y,a.z\n0,1,2,3\n").unwrap();
+    fs::write(at.join("poses.csv"), "frame,pelvis.tx\n0,1\n").unwrap();
+    refused(at, &["convert", "a.bvh", "a.bvh"], "a.bvh exists already");
+    refused(at, &["convert", "still.csv", "b.bvh"], "which points alone do not give");
+    refused(at, &["convert", "still.csv", "b.trc"], "frame rate is unknown");
+    refused(at, &["convert", "poses.csv", "b.trc"], "table of poses");
+    refused(at, &["convert", "a.bvh", "b.fbx"], "b.fbx ends in `.fbx`");
+    refused(at, &["convert", "a.bvh", "b.bvh", "--y-up"], "--y-up turns points");
+    refused(at, &["convert", "a.bvh", "b.csv", "--scale", "nan"], "--scale is NaN");
+    refused(at, &["convert", "a.bvh", "b.csv", "--scale", "1e300"], "expected coordinates below 1e9 mm");
+    refused(at, &["convert", "a.bvh", "b.csv", "--rate", "0"], "--rate is 0");
+    let left: Vec<PathBuf> = fs::read_dir(at).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert_eq!(left.len(), 3, "nothing was written: {left:?}");
+}
+
+#[test]
+fn two_triangulations_of_the_beam_agree() {
+    let reference = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/beam/reference"));
+    if !reference.is_dir() {
+        println!("SKIPPED two_triangulations_of_the_beam_agree: ../shared/data is absent");
+        return;
+    }
+    let truth = "authors_Balancing_for_IK.trc";
+    let arguments =
+        ["score", "openpose_body25b_3d_filt6hz.csv", "--truth", truth, "--truth-y-up", "--remove-offset", "--json"];
+    let (status, out, error) = pantin(reference, &arguments);
+    assert_eq!(status, 0, "{error}");
+    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&object["frames"], &object["missing"]), (&100.into(), &0.into()));
+    assert_eq!(object["points"].as_array().unwrap().len(), 21);
+    // The detectors' nose is unusable, all else agrees to the accuracy of such detectors; a wrong axis would be off by metres.
+    for point in object["points"].as_array().unwrap().iter().filter(|point| point["name"] != "Nose") {
+        assert!(point["mean"].as_f64().unwrap() < 70.0, "{point}");
+    }
+}
