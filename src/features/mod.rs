@@ -1,5 +1,32 @@
 //! From pictures to packed observations (SPEC A5).
+//!
+//! One file a stage, in the order of the data: [`plate`] or [`mixture`] (with [`shadow`]) → [`morphology`] and [`blobs`]
+//! → [`edges`] → [`distance`] → [`proximity`] → [`Observation`]. [`Extractor`] runs them all, one view a task.
 
+mod bit_image;
+pub mod blobs;
+pub mod distance;
+pub mod edges;
+mod extractor;
+pub mod mixture;
+pub mod morphology;
 mod observation;
+pub mod plate;
+pub mod proximity;
+mod region;
+mod segmentation;
+mod settings;
+pub mod shadow;
 
+pub use bit_image::BitImage;
+pub use distance::DistanceMap;
+pub use edges::Magnitude;
+pub use extractor::{Extractor, ViewFeatures, ViewSource};
+pub use mixture::{Adaptation, MixtureSettings};
+pub use morphology::Shape;
 pub use observation::Observation;
+pub use plate::PlateSettings;
+pub use proximity::{Normalisation, ProximitySettings};
+pub use region::Region;
+pub use settings::{EdgeSettings, FeatureSettings, SilhouetteSettings};
+pub use shadow::ShadowSettings;

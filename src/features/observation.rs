@@ -1,5 +1,14 @@
 //! The packed observation: what one camera saw in one frame, one byte a pixel (SPEC A5.5).
 
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+use image::codecs::png::PngEncoder;
+use image::{DynamicImage, ExtendedColorType, GrayImage, ImageEncoder, ImageReader};
+
+use super::{BitImage, DistanceMap};
+use crate::files::{Overwrite, write_atomically};
+
 /// One camera's packed observation: bit 7 the silhouette, bits 0..=6 the edge proximity (127 on an edge, 0 far away).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Observation {
@@ -25,5 +34,133 @@ impl Observation {
     /// The number of silhouette pixels.
     pub fn area(&self) -> u32 {
         self.bytes.iter().map(|byte| u32::from(byte >> 7)).sum()
+    }
+
+    /// Packs a silhouette and a distance map of one size; `proximity` holds the 7-bit value of every distance.
+    pub(super) fn pack(&mut self, silhouette: &BitImage, distance: &DistanceMap, proximity: &[u8; 256]) {
+        let width = silhouette.width() as usize;
+        (self.width, self.height) = (silhouette.width(), silhouette.height());
+        self.bytes.resize(width * self.height as usize, 0);
+        for (y, bytes) in self.bytes.chunks_exact_mut(width.max(1)).enumerate() {
+            let words = bytes.chunks_mut(64).zip(distance.row(y).chunks(64)).zip(silhouette.row(y));
+            for ((bytes, distances), &word) in words {
+                for (at, (byte, &distance)) in bytes.iter_mut().zip(distances).enumerate() {
+                    *byte = proximity[usize::from(distance)] | ((word >> at & 1) as u8) << 7;
+                }
+            }
+        }
+    }
+
+    /// The silhouette alone.
+    pub fn silhouette(&self) -> BitImage {
+        let width = self.width;
+        BitImage::from_fn(width, self.height, |x, y| {
+            self.bytes.get(y as usize * width as usize + x as usize).is_some_and(|byte| byte & Self::SILHOUETTE != 0)
+        })
+    }
+
+    /// The edge proximity alone, 0..=127.
+    pub fn proximity(&self) -> GrayImage {
+        let mut image = GrayImage::new(self.width, self.height);
+        for (pixel, byte) in image.iter_mut().zip(&self.bytes) {
+            *pixel = byte & Self::PROXIMITY;
+        }
+        image
+    }
+
+    /// Writes the bytes as an 8-bit grey PNG.
+    ///
+    /// # Errors
+    /// When the file is there and may not be replaced, when it cannot be written, or when `bytes` does not hold
+    /// `width * height` pixels.
+    pub fn write_png(&self, path: &Path, overwrite: Overwrite) -> Result<()> {
+        let pixels = self.width as usize * self.height as usize;
+        if self.bytes.len() != pixels || pixels == 0 {
+            bail!(
+                "cannot write {}: an observation of {} x {} pixels holds {} bytes, expected {pixels} and at least one",
+                path.display(),
+                self.width,
+                self.height,
+                self.bytes.len()
+            );
+        }
+        write_atomically(path, overwrite, |writer| {
+            Ok(PngEncoder::new(writer).write_image(&self.bytes, self.width, self.height, ExtendedColorType::L8)?)
+        })
+    }
+
+    /// Reads an observation from an 8-bit grey PNG.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is no 8-bit grey picture; the message names it.
+    pub fn read_png(path: &Path) -> Result<Self> {
+        let picture = (|| -> Result<DynamicImage> { Ok(ImageReader::open(path)?.with_guessed_format()?.decode()?) })()
+            .with_context(|| format!("cannot read the packed observation {}", path.display()))?;
+        match picture {
+            DynamicImage::ImageLuma8(gray) => {
+                Ok(Self { width: gray.width(), height: gray.height(), bytes: gray.into_raw() })
+            }
+            other => bail!(
+                "{} holds pixels of the kind {:?}, expected a packed observation: one 8-bit grey value a pixel",
+                path.display(),
+                other.color()
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::ProximitySettings;
+    use super::super::bit_image::any_bit_image;
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn packing_round_trip(silhouette in any_bit_image()) {
+            let edges = BitImage::from_fn(silhouette.width(), silhouette.height(), |x, y| x == 3 && y % 5 == 0);
+            let mut distance = DistanceMap::default();
+            distance.measure(&edges, 16);
+            let table = ProximitySettings::default().table();
+            let mut packed = Observation::empty(1, 1);
+            packed.pack(&silhouette, &distance, &table);
+            prop_assert_eq!(packed.area(), silhouette.count());
+            prop_assert_eq!(packed.silhouette(), silhouette);
+            let expected: Vec<u8> = distance.values().iter().map(|&d| table[usize::from(d)]).collect();
+            prop_assert_eq!(packed.proximity().into_raw(), expected);
+        }
+    }
+
+    #[test]
+    fn png_round_trip_and_a_changed_byte_shows() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("cam01.png");
+        let mut observation = Observation { width: 16, height: 16, bytes: (0..=255).collect() };
+        observation.write_png(&path, Overwrite::Refuse).unwrap();
+        assert_eq!(Observation::read_png(&path).unwrap(), observation);
+        observation.bytes[77] ^= 1;
+        assert_ne!(Observation::read_png(&path).unwrap(), observation);
+        let refused = observation.write_png(&path, Overwrite::Refuse).unwrap_err();
+        assert!(format!("{refused:#}").contains("cam01.png"), "{refused:#}");
+    }
+
+    #[test]
+    fn what_is_no_observation_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("colour.png");
+        image::RgbImage::new(4, 4).save(&path).unwrap();
+        let error = format!("{:#}", Observation::read_png(&path).unwrap_err());
+        assert!(error.contains("colour.png") && error.contains("8-bit grey"), "{error}");
+        for (name, bytes) in [("empty.png", &b""[..]), ("half.png", &std::fs::read(&path).unwrap()[..40])] {
+            let path = folder.path().join(name);
+            std::fs::write(&path, bytes).unwrap();
+            let error = format!("{:#}", Observation::read_png(&path).unwrap_err());
+            assert!(error.contains(name), "{error}");
+        }
+        assert!(Observation::read_png(&folder.path().join("none.png")).is_err());
+        let broken = Observation { width: 3, height: 3, bytes: vec![0; 8] };
+        let error = broken.write_png(&folder.path().join("broken.png"), Overwrite::Refuse).unwrap_err().to_string();
+        assert!(error.contains("3 x 3") && error.contains('8'), "{error}");
     }
 }

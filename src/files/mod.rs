@@ -5,4 +5,4 @@ mod output;
 mod toml_file;
 
 pub use output::{OutputFolder, Overwrite, write_atomically};
-pub use toml_file::{parse_toml, read_toml};
+pub use toml_file::{parse_table, parse_toml, read_toml};

@@ -38,6 +38,14 @@ pub fn parse_toml<T: DeserializeOwned>(text: &str, name: &str) -> Result<T> {
     })
 }
 
+/// [`read_toml`] for a table of a file already read; `name` stands for the file and the table in messages.
+///
+/// # Errors
+/// As [`read_toml`], with the name instead of the line.
+pub fn parse_table<T: DeserializeOwned>(table: &toml::Table, name: &str) -> Result<T> {
+    table.clone().try_into().map_err(|error: toml::de::Error| anyhow!("{name}: {}", one_sentence(error.message())))
+}
+
 /// serde's "unknown field `x`, expected one of `a`, `b`" with the nearest known key put first.
 fn one_sentence(message: &str) -> String {
     let message = message.trim().replace('\n', ", ");

@@ -1,0 +1,372 @@
+//! All stages in order: the pictures of one frame in, the features of every view out.
+
+use anyhow::{Result, bail};
+use image::{GrayImage, RgbImage};
+use rayon::prelude::*;
+
+use super::edges::EdgeDetector;
+use super::morphology::Morphology;
+use super::segmentation::Segmentation;
+use super::settings::EdgeSettings;
+use super::{BitImage, DistanceMap, FeatureSettings, Observation, Region};
+
+/// Larger working pictures are a mistake in the scale, and their memory would be too.
+const LARGEST_SIDE: u32 = 16384;
+
+/// What the extractor must know of a view.
+#[derive(Clone, Debug)]
+pub struct ViewSource {
+    /// Width of the working pictures, pixels.
+    pub width: u32,
+    /// Height of the working pictures, pixels.
+    pub height: u32,
+    /// A picture of the empty scene, of the same size.
+    pub plate: Option<RgbImage>,
+}
+
+/// What was found in one view of one frame; every intermediate picture can be looked at.
+#[derive(Clone, Debug)]
+pub struct ViewFeatures {
+    /// Foreground as segmented, before cleaning; a ready mask as it came.
+    pub foreground: BitImage,
+    /// The cleaned silhouette: up to four blobs.
+    pub silhouette: BitImage,
+    /// Edges near the silhouette.
+    pub edges: BitImage,
+    /// Distances from them, up to the distance at which proximity ends.
+    pub distance: DistanceMap,
+    /// The silhouette's bounding box enlarged for motion; the whole picture where there is no silhouette.
+    pub region: Region,
+    /// Silhouette and edge proximity, packed.
+    pub observation: Observation,
+}
+
+impl ViewFeatures {
+    /// Features of nothing.
+    pub fn empty(width: u32, height: u32) -> Self {
+        Self {
+            foreground: BitImage::new(width, height),
+            silhouette: BitImage::new(width, height),
+            edges: BitImage::new(width, height),
+            distance: DistanceMap::default(),
+            region: Region::whole(width, height),
+            observation: Observation::empty(width, height),
+        }
+    }
+}
+
+struct View {
+    width: u32,
+    height: u32,
+    segmentation: Segmentation,
+    near: BitImage,
+    morphology: Morphology,
+    detector: EdgeDetector,
+}
+
+/// The features of all views, frame after frame. Its buffers are made once.
+///
+/// A view's foreground is, in this order: the frame's mask, as it is; the difference from the plate; what a mixture of
+/// Gaussians that learns from every frame without a mask does not explain. The mixture takes its first picture for
+/// background whole and averages the first `mixture.warm_up` frames, so it must have seen the scene empty: show it such
+/// frames first with [`Extractor::prime`]. A person who was there from the start is learnt as background.
+pub struct Extractor {
+    settings: FeatureSettings,
+    proximity: [u8; 256],
+    views: Vec<View>,
+}
+
+impl Extractor {
+    /// Prepares for views of the given sizes and plates, in the order of the cameras.
+    ///
+    /// # Errors
+    /// When a setting makes no sense, there is no view, a view has no or too many pixels, or a plate's size is not its
+    /// view's.
+    pub fn new(settings: FeatureSettings, views: Vec<ViewSource>) -> Result<Self> {
+        settings.check()?;
+        if views.is_empty() {
+            bail!("features need at least one view, found none");
+        }
+        let views = views
+            .into_iter()
+            .enumerate()
+            .map(|(at, source)| View::new(at, source, &settings))
+            .collect::<Result<_>>()?;
+        Ok(Self { settings, proximity: settings.proximity.table(), views })
+    }
+
+    /// The settings in use.
+    pub fn settings(&self) -> &FeatureSettings {
+        &self.settings
+    }
+
+    /// Shows one frame of the empty scene to the background models that learn; views with a plate need none.
+    ///
+    /// # Errors
+    /// When there are not as many pictures as views, or one's size is not its view's.
+    pub fn prime(&mut self, pictures: &[RgbImage]) -> Result<()> {
+        self.check_frame(pictures, None)?;
+        let settings = &self.settings;
+        self.views.par_iter_mut().zip(pictures).for_each(|(view, picture)| {
+            view.segmentation.learn(picture, settings);
+        });
+        Ok(())
+    }
+
+    /// The features of one frame; `masks[v]`, where there is one, replaces view `v`'s segmentation (pixels of 128 or
+    /// brighter are the person).
+    ///
+    /// # Errors
+    /// When there are not as many pictures or masks as views, or one's size is not its view's.
+    pub fn extract(&mut self, pictures: &[RgbImage], masks: &[Option<GrayImage>]) -> Result<Vec<ViewFeatures>> {
+        let mut features = Vec::new();
+        self.extract_into(pictures, masks, &mut features)?;
+        Ok(features)
+    }
+
+    /// As [`Self::extract`], into features of an earlier frame whose memory is used again.
+    ///
+    /// # Errors
+    /// As [`Self::extract`].
+    pub fn extract_into(
+        &mut self,
+        pictures: &[RgbImage],
+        masks: &[Option<GrayImage>],
+        features: &mut Vec<ViewFeatures>,
+    ) -> Result<()> {
+        self.check_frame(pictures, Some(masks))?;
+        features.truncate(self.views.len());
+        for (at, view) in self.views.iter().enumerate() {
+            match features.get(at) {
+                Some(old) if (old.silhouette.width(), old.silhouette.height()) == (view.width, view.height) => {}
+                Some(_) => features[at] = ViewFeatures::empty(view.width, view.height),
+                None => features.push(ViewFeatures::empty(view.width, view.height)),
+            }
+        }
+        let (settings, proximity) = (&self.settings, &self.proximity);
+        let views = self.views.par_iter_mut().zip(pictures).zip(masks).zip(features);
+        views.for_each(|(((view, picture), mask), features)| {
+            view.extract(picture, mask.as_ref(), settings, proximity, features);
+        });
+        Ok(())
+    }
+
+    fn check_frame(&self, pictures: &[RgbImage], masks: Option<&[Option<GrayImage>]>) -> Result<()> {
+        let views = self.views.len();
+        if pictures.len() != views {
+            bail!("a frame holds {} pictures, expected one for each of the {views} views", pictures.len());
+        }
+        if let Some(masks) = masks
+            && masks.len() != views
+        {
+            bail!("a frame holds {} masks or gaps, expected one for each of the {views} views", masks.len());
+        }
+        for (at, view) in self.views.iter().enumerate() {
+            let expected = (view.width, view.height);
+            same_size("picture", at, pictures[at].dimensions(), expected)?;
+            if let Some(Some(mask)) = masks.map(|masks| &masks[at]) {
+                same_size("mask", at, mask.dimensions(), expected)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn same_size(what: &str, view: usize, found: (u32, u32), expected: (u32, u32)) -> Result<()> {
+    if found != expected {
+        bail!(
+            "the {what} of view {view} is {} x {} pixels, expected {} x {}",
+            found.0,
+            found.1,
+            expected.0,
+            expected.1
+        );
+    }
+    Ok(())
+}
+
+impl View {
+    fn new(at: usize, source: ViewSource, settings: &FeatureSettings) -> Result<Self> {
+        let (width, height) = (source.width, source.height);
+        if width == 0 || height == 0 || width > LARGEST_SIDE || height > LARGEST_SIDE {
+            bail!("view {at} is {width} x {height} pixels, expected sides from 1 to {LARGEST_SIDE}");
+        }
+        if let Some(plate) = &source.plate {
+            same_size("background plate", at, plate.dimensions(), (width, height))?;
+        }
+        Ok(Self {
+            width,
+            height,
+            segmentation: Segmentation::new(width, height, source.plate, settings),
+            near: BitImage::new(width, height),
+            morphology: Morphology::default(),
+            detector: EdgeDetector::default(),
+        })
+    }
+
+    fn extract(
+        &mut self,
+        picture: &RgbImage,
+        mask: Option<&GrayImage>,
+        settings: &FeatureSettings,
+        proximity: &[u8; 256],
+        features: &mut ViewFeatures,
+    ) {
+        match mask {
+            Some(mask) => {
+                features.foreground.copy_from_gray(mask);
+                features.silhouette.copy_from(&features.foreground);
+            }
+            None => {
+                self.segmentation.segment(picture, settings, &mut features.foreground, &mut features.silhouette);
+            }
+        }
+        let bounds = features.silhouette.bounds();
+        features.region = bounds.map_or(Region::whole(self.width, self.height), |bounds| {
+            bounds.enlarged(settings.silhouette.motion, self.width, self.height)
+        });
+
+        self.near.copy_from(&features.silhouette);
+        self.morphology.dilate(&mut self.near, settings.dilation());
+        let nowhere = Region { x0: 0, y0: 0, x1: 0, y1: 0 };
+        let region = bounds.map_or(nowhere, |b| b.enlarged(settings.dilation().radius, self.width, self.height));
+        let EdgeSettings { magnitude, threshold, .. } = settings.edges;
+        self.detector.detect(picture, region, magnitude, threshold, &mut features.edges);
+        features.edges.and(&self.near);
+
+        features.distance.measure(&features.edges, settings.proximity.limit());
+        features.observation.pack(&features.silhouette, &features.distance, proximity);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::{Luma, Rgb};
+
+    fn room(width: u32, height: u32) -> RgbImage {
+        RgbImage::from_fn(width, height, |x, y| Rgb([(90 + x % 40) as u8, (110 + y % 30) as u8, 100]))
+    }
+
+    fn person(x: u32, y: u32) -> bool {
+        (30..46).contains(&x) && (10..50).contains(&y)
+    }
+
+    fn picture(width: u32, height: u32) -> RgbImage {
+        let mut picture = room(width, height);
+        for (x, y, pixel) in picture.enumerate_pixels_mut() {
+            if person(x, y) {
+                *pixel = Rgb([250, 150, 120]);
+            } else if (46..60).contains(&x) && (48..52).contains(&y) {
+                // A shadow on the floor.
+                *pixel = Rgb(pixel.0.map(|v| (f32::from(v) * 0.75) as u8));
+            } else if (x, y) == (5, 5) {
+                // A speck.
+                *pixel = Rgb([255; 3]);
+            }
+        }
+        picture
+    }
+
+    fn source(plate: bool) -> ViewSource {
+        ViewSource { width: 90, height: 60, plate: plate.then(|| room(90, 60)) }
+    }
+
+    fn settings() -> FeatureSettings {
+        let mut settings = FeatureSettings::default();
+        // A square element keeps the test's square person's corners.
+        settings.silhouette.element = super::super::Shape::Square;
+        settings
+    }
+
+    #[test]
+    fn plate_mixture_and_mask_give_the_same_silhouette() {
+        let mut extractor = Extractor::new(settings(), vec![source(true), source(false), source(false)]).unwrap();
+        for _ in 0..20 {
+            extractor.prime(&[room(90, 60), room(90, 60), room(90, 60)]).unwrap();
+        }
+        let mask = GrayImage::from_fn(90, 60, |x, y| Luma([if person(x, y) { 200 } else { 90 }]));
+        let pictures = [picture(90, 60), picture(90, 60), picture(90, 60)];
+        let mut features = extractor.extract(&pictures, &[None, None, Some(mask)]).unwrap();
+        let expected = BitImage::from_fn(90, 60, person);
+        for (view, features) in features.iter().enumerate() {
+            assert_eq!(features.silhouette, expected, "view {view}");
+            assert_eq!(features.region, Region { x0: 14, y0: 0, x1: 62, y1: 60 });
+            assert_eq!(features.observation.silhouette(), expected);
+            assert_eq!(features.observation.proximity().get_pixel(30, 30), &Luma([127]), "on the outline");
+            assert_eq!(features.observation.proximity().get_pixel(85, 30), &Luma([0]), "far away");
+            assert!(features.edges.get(30, 30) && !features.edges.get(38, 30) && !features.edges.get(5, 5));
+        }
+        // A pixel more in the mask must show.
+        let changed =
+            GrayImage::from_fn(90, 60, |x, y| Luma([if person(x, y) || x == 46 && y == 20 { 128 } else { 0 }]));
+        extractor.extract_into(&pictures, &[None, None, Some(changed)], &mut features).unwrap();
+        assert_eq!(features[0].silhouette, expected);
+        assert_ne!(features[2].silhouette, expected);
+        assert_eq!(features[2].observation.area(), expected.count() + 1);
+    }
+
+    #[test]
+    fn buffers_of_another_frame_leave_no_trace() {
+        let mut extractor = Extractor::new(settings(), vec![source(true), source(true)]).unwrap();
+        let pictures = [picture(90, 60), picture(90, 60)];
+        let fresh = extractor.extract(&pictures, &[None, None]).unwrap();
+        let mut used = vec![ViewFeatures::empty(3, 200), ViewFeatures::empty(90, 60), ViewFeatures::empty(1, 1)];
+        extractor.extract_into(&[RgbImage::new(90, 60), room(90, 60)], &[None, None], &mut used).unwrap();
+        extractor.extract_into(&pictures, &[None, None], &mut used).unwrap();
+        assert_eq!(used.len(), 2);
+        for (used, fresh) in used.iter().zip(&fresh) {
+            assert_eq!(used.observation, fresh.observation);
+            assert_eq!((&used.silhouette, used.region), (&fresh.silhouette, fresh.region));
+        }
+    }
+
+    #[test]
+    fn black_pictures_and_empty_scenes_are_nothing_to_see() {
+        let black = RgbImage::new(90, 60);
+        let source = ViewSource { plate: Some(black.clone()), ..source(true) };
+        let mut extractor = Extractor::new(settings(), vec![source]).unwrap();
+        let features = extractor.extract(&[black], &[None]).unwrap();
+        assert_eq!(features[0].observation, Observation::empty(90, 60));
+        assert_eq!(features[0].region, Region::whole(90, 60));
+    }
+
+    #[test]
+    fn one_pixel_is_a_picture() {
+        let source = ViewSource { width: 1, height: 1, plate: Some(RgbImage::new(1, 1)) };
+        let mut extractor = Extractor::new(settings(), vec![source]).unwrap();
+        let white = GrayImage::from_pixel(1, 1, Luma([255]));
+        let features = extractor.extract(&[RgbImage::new(1, 1)], &[Some(white)]).unwrap();
+        assert_eq!(features[0].observation.bytes, [0x80]);
+    }
+
+    #[test]
+    fn bad_inputs_are_clear_sentences() {
+        let wrong = |settings: FeatureSettings, views: Vec<ViewSource>| {
+            format!("{:#}", Extractor::new(settings, views).err().unwrap())
+        };
+        assert!(wrong(settings(), vec![]).contains("at least one view"));
+        let empty = ViewSource { width: 0, height: 60, plate: None };
+        assert!(wrong(settings(), vec![source(true), empty]).contains("view 1 is 0 x 60"));
+        let huge = ViewSource { width: u32::MAX, height: u32::MAX, plate: None };
+        assert!(wrong(settings(), vec![huge]).contains("16384"));
+        let plate = ViewSource { plate: Some(room(91, 60)), ..source(true) };
+        assert!(wrong(settings(), vec![plate]).contains("plate of view 0 is 91 x 60 pixels, expected 90 x 60"));
+        let mut k = settings();
+        k.mixture.components = 7;
+        assert!(wrong(k, vec![source(true)]).contains("mixture.components is 7"));
+
+        let mut extractor = Extractor::new(settings(), vec![source(true), source(false)]).unwrap();
+        let good = room(90, 60);
+        let mut failed = |pictures: &[RgbImage], masks: &[Option<GrayImage>]| {
+            format!("{:#}", extractor.extract(pictures, masks).unwrap_err())
+        };
+        assert!(failed(std::slice::from_ref(&good), &[None, None]).contains("1 pictures"));
+        assert!(failed(&[good.clone(), good.clone()], &[None]).contains("1 masks"));
+        let error = failed(&[good.clone(), room(60, 90)], &[None, None]);
+        assert!(error.contains("picture of view 1 is 60 x 90 pixels, expected 90 x 60"), "{error}");
+        let error = failed(&[good.clone(), good.clone()], &[Some(GrayImage::new(0, 0)), None]);
+        assert!(error.contains("mask of view 0 is 0 x 0"), "{error}");
+        assert!(extractor.prime(&[good]).is_err());
+    }
+}

@@ -1,0 +1,381 @@
+//! A mixture of Gaussians per pixel: a background learnt from the pictures themselves (SPEC A5.1).
+
+use image::RgbImage;
+use rayon::prelude::*;
+use serde::Deserialize;
+
+use super::plate::split_row;
+use super::shadow::ShadowSettings;
+
+/// How fast the matched component follows a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Adaptation {
+    /// rho = alpha / w_k: a component settles as fast as it has been seen often.
+    Weight,
+    /// rho = alpha N(X | mu, sigma), as first published. The density of a colour in cubic grey levels is some 1e-4, so means
+    /// and variances practically stand still.
+    Density,
+}
+
+/// The parameters of the mixture. Distances are Euclidean in RGB, in grey levels; a component's variance is that of the
+/// distance, all three channels together.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MixtureSettings {
+    /// Gaussians a pixel, K, 3 to 5.
+    pub components: usize,
+    /// The weights' learning rate alpha, a frame.
+    pub learning_rate: f32,
+    /// The first frames, over which the n-th frame's rate is at least 1/n: a plain average of what was seen so far.
+    pub warm_up: u32,
+    /// A component matches within this many standard deviations.
+    pub match_sigma: f32,
+    /// The most probable components up to this total weight are background.
+    pub background_weight: f32,
+    /// Standard deviation of a new component.
+    pub initial_sigma: f32,
+    /// Weight of a new component.
+    pub initial_weight: f32,
+    /// No component gets narrower: the camera's noise.
+    pub min_sigma: f32,
+    /// How fast the matched component follows.
+    pub adaptation: Adaptation,
+}
+
+impl Default for MixtureSettings {
+    fn default() -> Self {
+        Self {
+            components: 3,
+            learning_rate: 0.002,
+            warm_up: 50,
+            match_sigma: 2.5,
+            background_weight: 0.7,
+            initial_sigma: 20.0,
+            initial_weight: 0.01,
+            min_sigma: 8.0,
+            adaptation: Adaptation::Weight,
+        }
+    }
+}
+
+/// Pixels worked on together: what the inner loops over lanes are unrolled to vector instructions by.
+const LANES: usize = 8;
+
+/// Values of a component: weight, mean red, green, blue, variance.
+const FIELDS: usize = 5;
+
+/// Rows a task: enough work to be worth handing to another core.
+const ROWS: usize = 16;
+
+type Lanes = [f32; LANES];
+
+/// The mixtures of all pixels of one view.
+///
+/// `state` is `[row][block of LANES pixels][component][field][lane]`, so that a block's numbers lie side by side.
+#[derive(Clone, Debug)]
+pub struct Mixture {
+    settings: MixtureSettings,
+    width: usize,
+    blocks: usize,
+    frames: u32,
+    state: Vec<f32>,
+}
+
+/// The rates of one frame.
+#[derive(Clone, Copy)]
+struct Rates {
+    alpha: f32,
+    match_squared: f32,
+}
+
+impl Mixture {
+    /// Mixtures that have seen nothing, for pictures of `width` × `height` pixels.
+    pub fn new(settings: MixtureSettings, width: u32, height: u32) -> Self {
+        let blocks = (width as usize).div_ceil(LANES);
+        let state = vec![0.0; height as usize * blocks * settings.components * FIELDS * LANES];
+        Self { settings, width: width as usize, blocks, frames: 0, state }
+    }
+
+    /// Learns from a picture and flags (0 or 1, row-major) the pixels that are neither background nor its shadow. The
+    /// first picture is all background.
+    pub fn update(&mut self, picture: &RgbImage, shadow: &ShadowSettings, foreground: &mut [u8]) {
+        match self.settings.components {
+            3 => self.update_k::<3>(picture, shadow, foreground),
+            4 => self.update_k::<4>(picture, shadow, foreground),
+            // The settings' check lets nothing else through.
+            _ => self.update_k::<5>(picture, shadow, foreground),
+        }
+    }
+
+    fn update_k<const K: usize>(&mut self, picture: &RgbImage, shadow: &ShadowSettings, foreground: &mut [u8]) {
+        let (width, settings, first) = (self.width, self.settings, self.frames == 0);
+        let warming = self.frames < settings.warm_up;
+        let average = if warming { 1.0 / (self.frames as f32 + 1.0) } else { 0.0 };
+        let rates = Rates {
+            alpha: settings.learning_rate.max(average),
+            match_squared: settings.match_sigma * settings.match_sigma,
+        };
+        self.frames = self.frames.saturating_add(1);
+        let row_state = self.blocks * K * FIELDS * LANES;
+        let tasks = self
+            .state
+            .par_chunks_mut(row_state * ROWS)
+            .zip(picture.as_raw().par_chunks(width * 3 * ROWS))
+            .zip(foreground.par_chunks_mut(width * ROWS));
+        tasks.for_each_init(
+            || [const { Vec::new() }; 3],
+            |planes, ((state, rgb), foreground)| {
+                let rows = state.chunks_exact_mut(row_state).zip(rgb.chunks_exact(width * 3));
+                for ((state, rgb), foreground) in rows.zip(foreground.chunks_exact_mut(width)) {
+                    split_row(rgb, planes);
+                    let blocks = state.as_chunks_mut::<LANES>().0.chunks_exact_mut(K * FIELDS);
+                    for (block, (lanes, flags)) in blocks.zip(foreground.chunks_mut(LANES)).enumerate() {
+                        let at = block * LANES..(block * LANES + flags.len());
+                        let mut seen = [[0.0; LANES]; 3];
+                        for (seen, plane) in seen.iter_mut().zip(planes.iter()) {
+                            seen[..flags.len()].copy_from_slice(&plane[at.clone()]);
+                        }
+                        let result = if first {
+                            start_block::<K>(lanes, &seen, &settings);
+                            [0; LANES]
+                        } else {
+                            update_block::<K>(lanes, &seen, rates, &settings, shadow)
+                        };
+                        flags.copy_from_slice(&result[..flags.len()]);
+                    }
+                }
+            },
+        );
+    }
+}
+
+/// The first picture: one component at the colour, the others without weight and out of every colour's reach.
+fn start_block<const K: usize>(lanes: &mut [Lanes], seen: &[Lanes; 3], settings: &MixtureSettings) {
+    for (k, component) in lanes.chunks_exact_mut(FIELDS).take(K).enumerate() {
+        component[0] = [if k == 0 { 1.0 } else { 0.0 }; LANES];
+        for channel in 0..3 {
+            component[1 + channel] = if k == 0 { seen[channel] } else { [-1e4; LANES] };
+        }
+        component[4] = [settings.initial_sigma * settings.initial_sigma; LANES];
+    }
+}
+
+/// One picture's step for [`LANES`] pixels; returns their foreground flags.
+///
+/// Every choice is made by comparing and selecting values, never by a branch, so that the loops over lanes become
+/// vector code.
+#[inline]
+fn update_block<const K: usize>(
+    lanes: &mut [Lanes],
+    seen: &[Lanes; 3],
+    rates: Rates,
+    settings: &MixtureSettings,
+    shadow: &ShadowSettings,
+) -> [u8; LANES] {
+    let mut component = [[[0.0_f32; LANES]; FIELDS]; K];
+    for (k, component) in component.iter_mut().enumerate() {
+        component.copy_from_slice(&lanes[k * FIELDS..][..FIELDS]);
+    }
+
+    // Squared distance, and the rank (w / sigma)² by which components are more or less probable.
+    let (mut distance, mut rank) = ([[0.0_f32; LANES]; K], [[0.0_f32; LANES]; K]);
+    for k in 0..K {
+        let [weight, red, green, blue, variance] = &component[k];
+        for l in 0..LANES {
+            let (dr, dg, db) = (seen[0][l] - red[l], seen[1][l] - green[l], seen[2][l] - blue[l]);
+            distance[k][l] = dr * dr + dg * dg + db * db;
+            rank[k][l] = weight[l] * weight[l] / variance[l];
+        }
+    }
+
+    // The most probable component that matches, and the least and most probable of all.
+    let (mut best, mut best_rank) = ([K as f32; LANES], [-1.0_f32; LANES]);
+    let (mut least, mut least_rank) = ([0.0_f32; LANES], [f32::INFINITY; LANES]);
+    let (mut top, mut top_rank) = ([[0.0_f32; LANES]; 3], [-1.0_f32; LANES]);
+    for k in 0..K {
+        for l in 0..LANES {
+            let matches = (distance[k][l] <= rates.match_squared * component[k][4][l]) & (rank[k][l] > best_rank[l]);
+            best[l] = if matches { k as f32 } else { best[l] };
+            best_rank[l] = if matches { rank[k][l] } else { best_rank[l] };
+            let lesser = rank[k][l] < least_rank[l];
+            least[l] = if lesser { k as f32 } else { least[l] };
+            least_rank[l] = if lesser { rank[k][l] } else { least_rank[l] };
+            let greater = rank[k][l] > top_rank[l];
+            top_rank[l] = if greater { rank[k][l] } else { top_rank[l] };
+            for channel in 0..3 {
+                top[channel][l] = if greater { component[k][1 + channel][l] } else { top[channel][l] };
+            }
+        }
+    }
+
+    // Background: the weight of everything more probable than the matched component has not yet reached the fraction.
+    let mut before = [0.0_f32; LANES];
+    for k in 0..K {
+        for l in 0..LANES {
+            before[l] += if rank[k][l] > best_rank[l] { component[k][0][l] } else { 0.0 };
+        }
+    }
+    let mut flags = [0; LANES];
+    for l in 0..LANES {
+        let unexplained = (best[l] == K as f32) | (before[l] >= settings.background_weight);
+        let background = [top[0][l], top[1][l], top[2][l]];
+        let in_shadow = shadow.covers([seen[0][l], seen[1][l], seen[2][l]], background);
+        flags[l] = u8::from(unexplained & !in_shadow);
+    }
+
+    // The update. A component that is replaced takes the pixel's colour, a large variance and a small weight.
+    let (initial_variance, least_variance) =
+        (settings.initial_sigma * settings.initial_sigma, settings.min_sigma * settings.min_sigma);
+    let mut total = [0.0_f32; LANES];
+    for k in 0..K {
+        let mut rho = [0.0_f32; LANES];
+        for l in 0..LANES {
+            let matched = best[l] == k as f32;
+            let weight = component[k][0][l] * (1.0 - rates.alpha) + if matched { rates.alpha } else { 0.0 };
+            component[k][0][l] = weight;
+            rho[l] = if matched { (rates.alpha / weight.max(1e-6)).min(1.0) } else { 0.0 };
+        }
+        if settings.adaptation == Adaptation::Density {
+            for l in 0..LANES {
+                let density = normal_density(distance[k][l], component[k][4][l]);
+                rho[l] = if best[l] == k as f32 { (rates.alpha * density).min(1.0) } else { 0.0 };
+            }
+        }
+        for l in 0..LANES {
+            let replaced = (best[l] == K as f32) & (least[l] == k as f32);
+            for channel in 0..3 {
+                let mean = component[k][1 + channel][l];
+                let moved = mean + rho[l] * (seen[channel][l] - mean);
+                component[k][1 + channel][l] = if replaced { seen[channel][l] } else { moved };
+            }
+            // The distance from the mean as it is after the move.
+            let left = (1.0 - rho[l]) * (1.0 - rho[l]) * distance[k][l];
+            let variance = component[k][4][l];
+            let spread = (variance + rho[l] * (left - variance)).max(least_variance);
+            component[k][4][l] = if replaced { initial_variance } else { spread };
+            let weight = if replaced { settings.initial_weight } else { component[k][0][l] };
+            component[k][0][l] = weight;
+            total[l] += weight;
+        }
+    }
+    for (k, component) in component.iter_mut().enumerate() {
+        for l in 0..LANES {
+            component[0][l] /= total[l];
+        }
+        lanes[k * FIELDS..][..FIELDS].copy_from_slice(component);
+    }
+    flags
+}
+
+/// The density of a spherical Gaussian in three dimensions at a squared distance from its mean.
+fn normal_density(distance: f32, variance: f32) -> f32 {
+    let norm = std::f32::consts::TAU * variance;
+    (-0.5 * distance / variance).exp() / (norm * norm.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::Rgb;
+
+    /// Small deterministic noise, -7 to 7 a channel.
+    fn noise(x: u32, y: u32, frame: u32, channel: u32) -> i32 {
+        let mut h = x.wrapping_mul(0x9e37_79b1) ^ y.wrapping_mul(0x85eb_ca6b) ^ frame.wrapping_mul(0xc2b2_ae35);
+        h = (h ^ channel.wrapping_mul(0x27d4_eb2f)).wrapping_mul(0x2c1b_3c6d);
+        h ^= h >> 15;
+        h = h.wrapping_mul(0x297a_2d39);
+        (h >> 16) as i32 % 8 - (h >> 20) as i32 % 8
+    }
+
+    const SIZE: (u32, u32) = (67, 21);
+
+    /// A noisy room with a lamp that flickers between two colours, and from frame 60 on a block that moves.
+    fn scene(frame: u32) -> (RgbImage, Vec<u8>) {
+        let block = |x: u32, y: u32| frame >= 60 && (frame - 60..frame - 52).contains(&x) && (6..15).contains(&y);
+        let picture = RgbImage::from_fn(SIZE.0, SIZE.1, |x, y| {
+            let base = match (block(x, y), x >= 50) {
+                (true, _) => [210, 60, 40],
+                (false, true) if frame.is_multiple_of(3) => [60, 160, 60],
+                (false, true) => [60, 60, 160],
+                (false, false) => [90 + x as i32, 120, 80 + y as i32],
+            };
+            Rgb([0, 1, 2].map(|c: usize| (base[c] + noise(x, y, frame, c as u32)).clamp(0, 255) as u8))
+        });
+        let mask = (0..SIZE.1).flat_map(|y| (0..SIZE.0).map(move |x| u8::from(block(x, y)))).collect();
+        (picture, mask)
+    }
+
+    fn errors(mixture: &mut Mixture, frame: u32) -> usize {
+        let (picture, expected) = scene(frame);
+        let mut found = vec![9; expected.len()];
+        mixture.update(&picture, &ShadowSettings::default(), &mut found);
+        found.iter().zip(&expected).filter(|(a, b)| a != b).count()
+    }
+
+    #[test]
+    fn a_block_before_a_flickering_room_is_found_exactly() {
+        for components in 3..=5 {
+            let settings = MixtureSettings { components, background_weight: 0.8, ..Default::default() };
+            let mut mixture = Mixture::new(settings, SIZE.0, SIZE.1);
+            assert_eq!(errors(&mut mixture, 0), 0, "the first picture is background");
+            (1..60).for_each(|frame| _ = errors(&mut mixture, frame));
+            for frame in 60..100 {
+                assert_eq!(errors(&mut mixture, frame), 0, "K {components}, frame {frame}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_published_rate_follows_the_formula() {
+        // One pixel, one step by hand: alpha N(X | mu, sigma) with X = mu + (6, 0, 0).
+        let settings = MixtureSettings {
+            adaptation: Adaptation::Density,
+            learning_rate: 0.5,
+            warm_up: 0,
+            initial_sigma: 3.0,
+            min_sigma: 0.1,
+            ..Default::default()
+        };
+        let mut mixture = Mixture::new(settings, 1, 1);
+        let shadow = ShadowSettings::default();
+        let mut flag = [7];
+        mixture.update(&RgbImage::from_pixel(1, 1, Rgb([100; 3])), &shadow, &mut flag);
+        mixture.update(&RgbImage::from_pixel(1, 1, Rgb([106, 100, 100])), &shadow, &mut flag);
+        let rho = 0.5 * (-0.5_f64 * 36.0 / 9.0).exp() / ((2.0 * std::f64::consts::PI).powf(1.5) * 27.0);
+        let value = |field: usize| f64::from(mixture.state[field * LANES]);
+        assert_eq!(flag, [0]);
+        assert!((value(1) - (100.0 + 6.0 * rho)).abs() < 1e-5, "{}", value(1));
+        let left = 6.0 * (1.0 - rho);
+        assert!((value(4) - ((1.0 - rho) * 9.0 + rho * left * left)).abs() < 1e-5, "{}", value(4));
+    }
+
+    #[test]
+    fn weights_follow_the_formula() {
+        let settings = MixtureSettings { learning_rate: 0.1, warm_up: 0, ..Default::default() };
+        let mut mixture = Mixture::new(settings, 1, 1);
+        let (shadow, mut flag) = (ShadowSettings::default(), [0]);
+        let weights = |mixture: &Mixture| [0, 1, 2].map(|k: usize| mixture.state[k * FIELDS * LANES]);
+        mixture.update(&RgbImage::from_pixel(1, 1, Rgb([100; 3])), &shadow, &mut flag);
+        assert_eq!(weights(&mixture), [1.0, 0.0, 0.0]);
+        // Far away: the first of the two without weight is replaced; weights are (0.9, 0.01, 0) made to sum to 1.
+        mixture.update(&RgbImage::from_pixel(1, 1, Rgb([250; 3])), &shadow, &mut flag);
+        assert_eq!(flag, [1]);
+        assert!((weights(&mixture)[0] - 0.9 / 0.91).abs() < 1e-6);
+        let before = weights(&mixture);
+        mixture.update(&RgbImage::from_pixel(1, 1, Rgb([250; 3])), &shadow, &mut flag);
+        assert!((weights(&mixture)[1] - (0.9 * before[1] + 0.1)).abs() < 1e-6);
+        assert!((weights(&mixture)[0] - 0.9 * before[0]).abs() < 1e-6);
+    }
+
+    #[test]
+    fn black_pictures_are_background_and_finite() {
+        let mut mixture = Mixture::new(MixtureSettings::default(), 9, 2);
+        let mut flags = [1; 18];
+        for _ in 0..300 {
+            mixture.update(&RgbImage::new(9, 2), &ShadowSettings::default(), &mut flags);
+            assert_eq!(flags, [0; 18]);
+        }
+        assert!(mixture.state.iter().all(|value| value.is_finite()));
+    }
+}

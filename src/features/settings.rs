@@ -1,0 +1,232 @@
+//! The parameters of all feature stages: the optional `[features]` table of a sequence.
+
+use std::fmt::Display;
+use std::ops::RangeInclusive;
+
+use anyhow::{Result, bail};
+use serde::Deserialize;
+
+use super::edges::Magnitude;
+use super::mixture::MixtureSettings;
+use super::morphology::{Element, Shape};
+use super::plate::PlateSettings;
+use super::proximity::{Normalisation, ProximitySettings};
+use super::shadow::ShadowSettings;
+use crate::files::parse_table;
+
+/// How raw foreground becomes a silhouette.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SilhouetteSettings {
+    /// The shape of the elements of `open` and `close`.
+    pub element: Shape,
+    /// Size of the opening that removes specks, pixels, odd; 1 for none.
+    pub open: u32,
+    /// Size of the closing that joins what belongs together, pixels, odd; 1 for none.
+    pub close: u32,
+    /// At most this many of the largest blobs are kept.
+    pub blobs: usize,
+    /// A smaller blob is dropped, pixels.
+    pub min_area: u32,
+    /// A blob smaller than this fraction of the largest is dropped too: a reflection, a bystander's hand.
+    pub min_share: f32,
+    /// A hole of at most this size is filled, pixels.
+    pub max_hole: u32,
+    /// By how much the region of interest is larger than the silhouette, pixels: the motion expected in one frame.
+    pub motion: u32,
+}
+
+impl Default for SilhouetteSettings {
+    fn default() -> Self {
+        Self {
+            element: Shape::Disc,
+            open: 3,
+            close: 5,
+            blobs: 4,
+            min_area: 60,
+            min_share: 0.03,
+            max_hole: 30,
+            motion: 16,
+        }
+    }
+}
+
+/// How edges are found.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct EdgeSettings {
+    /// How the two derivatives become one magnitude.
+    pub magnitude: Magnitude,
+    /// The weakest edge; a step of `s` grey levels has magnitude 3 `s`.
+    pub threshold: i16,
+    /// Edges are kept where the silhouette dilated by a disc of this size is, pixels, odd.
+    pub dilate: u32,
+}
+
+impl Default for EdgeSettings {
+    fn default() -> Self {
+        Self { magnitude: Magnitude::Exact, threshold: 70, dilate: 7 }
+    }
+}
+
+/// All parameters of the features. Every length is in pixels of the working pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FeatureSettings {
+    /// The background model of a view that has neither mask nor plate.
+    pub mixture: MixtureSettings,
+    /// The difference from a plate.
+    pub plate: PlateSettings,
+    /// What is a shadow, for both.
+    pub shadow: ShadowSettings,
+    /// From foreground to silhouette.
+    pub silhouette: SilhouetteSettings,
+    /// The edge detector.
+    pub edges: EdgeSettings,
+    /// From distance to proximity.
+    pub proximity: ProximitySettings,
+}
+
+impl FeatureSettings {
+    /// Reads a `[features]` table; `name` stands for the file in messages.
+    ///
+    /// # Errors
+    /// An unknown key (the nearest known one is named), a value of the wrong type, or one that [`Self::check`] refuses.
+    pub fn from_table(table: &toml::Table, name: &str) -> Result<Self> {
+        let settings: Self = parse_table(table, &format!("{name}, table [features]"))?;
+        settings.check()?;
+        Ok(settings)
+    }
+
+    /// Checks that every value makes sense.
+    ///
+    /// # Errors
+    /// One sentence with the key, the value, and what was expected.
+    pub fn check(&self) -> Result<()> {
+        let m = &self.mixture;
+        within("mixture.components", m.components, 3..=5)?;
+        within("mixture.learning_rate", m.learning_rate, 0.0..=1.0)?;
+        within("mixture.match_sigma", m.match_sigma, 0.1..=100.0)?;
+        within("mixture.background_weight", m.background_weight, 0.01..=1.0)?;
+        within("mixture.initial_sigma", m.initial_sigma, 0.1..=441.0)?;
+        within("mixture.min_sigma", m.min_sigma, 0.1..=441.0)?;
+        within("mixture.initial_weight", m.initial_weight, 0.0001..=1.0)?;
+        ordered("mixture.min_sigma", m.min_sigma, "mixture.initial_sigma", m.initial_sigma)?;
+        within("plate.weak", self.plate.weak, 0.0..=442.0)?;
+        within("plate.strong", self.plate.strong, 0.0..=442.0)?;
+        within("plate.faint", self.plate.faint, 0.0..=442.0)?;
+        odd("plate.bridge", self.plate.bridge)?;
+        ordered("plate.weak", self.plate.weak, "plate.strong", self.plate.strong)?;
+        within("shadow.darkest", self.shadow.darkest, 0.0..=1.0)?;
+        within("shadow.brightest", self.shadow.brightest, 1.0..=100.0)?;
+        within("shadow.chroma", self.shadow.chroma, 0.0..=442.0)?;
+        odd("silhouette.open", self.silhouette.open)?;
+        odd("silhouette.close", self.silhouette.close)?;
+        within("silhouette.min_share", self.silhouette.min_share, 0.0..=1.0)?;
+        within("silhouette.blobs", self.silhouette.blobs, 1..=4)?;
+        within("edges.threshold", self.edges.threshold, 1..=2040)?;
+        odd("edges.dilate", self.edges.dilate)?;
+        let p = &self.proximity;
+        within("proximity.n_range", p.n_range, 0.001..=1.0)?;
+        within("proximity.decay", p.decay, 0.0..=100.0)?;
+        if p.normalisation != Normalisation::Impulse && p.d_min >= p.d_max {
+            bail!(
+                "[features] proximity.d_min is {} and proximity.d_max {}, expected d_min smaller than d_max",
+                p.d_min,
+                p.d_max
+            );
+        }
+        Ok(())
+    }
+
+    pub(super) fn opening(&self) -> Element {
+        Element { shape: self.silhouette.element, radius: self.silhouette.open / 2 }
+    }
+
+    pub(super) fn bridge(&self) -> Element {
+        Element { shape: Shape::Disc, radius: self.plate.bridge / 2 }
+    }
+
+    pub(super) fn closing(&self) -> Element {
+        Element { shape: self.silhouette.element, radius: self.silhouette.close / 2 }
+    }
+
+    pub(super) fn dilation(&self) -> Element {
+        Element { shape: Shape::Disc, radius: self.edges.dilate / 2 }
+    }
+}
+
+/// Larger elements are no cleaning any more, and their time grows with the size.
+const LARGEST_ELEMENT: u32 = 255;
+
+fn odd(key: &str, size: u32) -> Result<()> {
+    if size.is_multiple_of(2) || size > LARGEST_ELEMENT {
+        bail!("[features] {key} is {size}, expected an odd number of pixels from 1 to {LARGEST_ELEMENT}");
+    }
+    Ok(())
+}
+
+fn within<T: PartialOrd + Display>(key: &str, value: T, range: RangeInclusive<T>) -> Result<()> {
+    // NaN is in no range.
+    if !range.contains(&value) {
+        bail!("[features] {key} is {value}, expected a value from {} to {}", range.start(), range.end());
+    }
+    Ok(())
+}
+
+fn ordered(small_key: &str, small: f32, large_key: &str, large: f32) -> Result<()> {
+    if small > large {
+        bail!("[features] {small_key} is {small} and {large_key} {large}, expected the first to be no larger");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<FeatureSettings> {
+        FeatureSettings::from_table(&text.parse().unwrap(), "sequence.toml")
+    }
+
+    #[test]
+    fn an_empty_table_is_the_defaults_and_they_pass() {
+        assert_eq!(read("").unwrap(), FeatureSettings::default());
+        let settings = read(
+            "edges = { magnitude = \"sum\", threshold = 50 }\n[proximity]\nnormalisation = \"exponential\"\nd_max = 100",
+        )
+        .unwrap();
+        assert_eq!((settings.edges.magnitude, settings.edges.threshold), (Magnitude::Sum, 50));
+        assert_eq!(settings.proximity.d_max, 100);
+    }
+
+    #[test]
+    fn wrong_settings_are_clear_sentences() {
+        for (text, parts) in [
+            ("egdes = {}", &["sequence.toml", "`egdes`", "`edges`"][..]),
+            ("[plate]\nweek = 3.0", &["`week`", "`weak`"]),
+            ("[edges]\nthreshold = \"high\"", &["sequence.toml", "high"]),
+            ("[edges]\nmagnitude = \"cubic\"", &["cubic", "exact"]),
+            ("[mixture]\ncomponents = 2", &["mixture.components is 2", "3 to 5"]),
+            ("[mixture]\ncomponents = 6", &["mixture.components is 6", "3 to 5"]),
+            ("[mixture]\nlearning_rate = nan", &["mixture.learning_rate is NaN"]),
+            ("[mixture]\nmatch_sigma = inf", &["mixture.match_sigma is inf"]),
+            ("[mixture]\nmin_sigma = 50.0", &["mixture.min_sigma is 50", "initial_sigma 20"]),
+            ("[plate]\nweak = 90.0\nstrong = 30.0", &["plate.weak is 90", "plate.strong 30"]),
+            ("[silhouette]\nopen = 4", &["silhouette.open is 4", "odd"]),
+            ("[silhouette]\nclose = 0", &["silhouette.close is 0", "odd"]),
+            ("[silhouette]\nblobs = 9", &["silhouette.blobs is 9", "1 to 4"]),
+            ("[edges]\ndilate = 1001", &["edges.dilate is 1001", "255"]),
+            ("[edges]\nthreshold = 0", &["edges.threshold is 0"]),
+            ("[proximity]\nd_min = 20\nd_max = 10", &["d_min is 20", "d_max 10", "smaller"]),
+            ("[proximity]\nn_range = 2.0", &["proximity.n_range is 2"]),
+            ("[proximity]\nd_max = 300", &["300"]),
+            ("[shadow]\ndarkest = -0.5", &["shadow.darkest is -0.5"]),
+        ] {
+            let error = format!("{:#}", read(text).unwrap_err());
+            for part in parts {
+                assert!(error.contains(part), "{text:?} gave {error:?}, without {part:?}");
+            }
+        }
+    }
+}
