@@ -2,6 +2,8 @@
 
 use glam::{DAffine3, DVec2, DVec3};
 
+use super::{BrownConrady, Tsai, rodrigues_matrix};
+
 /// A calibrated camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
@@ -24,60 +26,88 @@ pub enum Lens {
     BrownConrady(BrownConrady),
 }
 
-/// Intrinsics of Tsai's model (SPEC A2): X_u = X_d (1 + kappa r_d^2) on the image plane in mm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tsai {
-    /// Focal length, mm.
-    pub f: f64,
-    /// Radial coefficient, 1/mm^2.
-    pub kappa: f64,
-    /// Image centre, pixels.
-    pub centre: DVec2,
-    /// Horizontal scale.
-    pub sx: f64,
-    /// Effective pixel pitch, mm: d_x N_cx / N_fx and d_y.
-    pub pitch: DVec2,
-}
+impl Lens {
+    /// Normalised undistorted coordinates (x/z, y/z) to normalised distorted ones; None past the end of the branch.
+    pub fn distort(&self, undistorted: DVec2) -> Option<DVec2> {
+        match self {
+            Self::Tsai(lens) => lens.distort(undistorted),
+            Self::BrownConrady(lens) => lens.distort(undistorted),
+        }
+    }
 
-/// Intrinsics of the Brown-Conrady model: pixels from the distorted normalised coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BrownConrady {
-    /// Focal lengths, pixels.
-    pub focal: DVec2,
-    /// Principal point, pixels.
-    pub centre: DVec2,
-    /// Radial coefficients k1 k2 k3.
-    pub radial: [f64; 3],
-    /// Tangential coefficients p1 p2.
-    pub tangential: [f64; 2],
+    /// The inverse of [`Self::distort`]; None where no point of the branch has that image.
+    pub fn undistort(&self, distorted: DVec2) -> Option<DVec2> {
+        match self {
+            Self::Tsai(lens) => lens.undistort(distorted),
+            Self::BrownConrady(lens) => lens.undistort(distorted),
+        }
+    }
+
+    /// Normalised distorted coordinates to pixels.
+    pub fn to_pixel(&self, distorted: DVec2) -> DVec2 {
+        match self {
+            Self::Tsai(lens) => lens.to_pixel(distorted),
+            Self::BrownConrady(lens) => lens.to_pixel(distorted),
+        }
+    }
+
+    /// Pixels to normalised distorted coordinates.
+    pub fn from_pixel(&self, pixel: DVec2) -> DVec2 {
+        match self {
+            Self::Tsai(lens) => lens.from_pixel(pixel),
+            Self::BrownConrady(lens) => lens.from_pixel(pixel),
+        }
+    }
 }
 
 impl Camera {
+    /// A camera whose rotation (camera from world) is a Rodrigues vector in radians, its translation in mm.
+    pub fn from_rodrigues(name: &str, size: [u32; 2], lens: Lens, rotation: DVec3, translation: DVec3) -> Self {
+        let camera_from_world = DAffine3::from_mat3_translation(rodrigues_matrix(rotation), translation);
+        Self { name: name.to_string(), size, camera_from_world, lens }
+    }
+
     /// The camera's centre in the world, mm.
     pub fn centre_in_world(&self) -> DVec3 {
         -(self.camera_from_world.matrix3.transpose() * self.camera_from_world.translation)
     }
-}
 
-impl BrownConrady {
-    /// The squared undistorted radius (normalised coordinates) where r (1 + k1 r^2 + k2 r^4 + k3 r^6) stops being
-    /// monotone; infinity where it never does. A point beyond has no image.
-    pub fn max_radius_squared(&self) -> f64 {
-        let [k1, k2, k3] = self.radial;
-        let slope = |t: f64| 1.0 + t * (3.0 * k1 + t * (5.0 * k2 + t * 7.0 * k3));
-        let mut t = 0.0;
-        while t < 100.0 {
-            let next = t + 0.01;
-            if slope(next) <= 0.0 {
-                let (mut low, mut high) = (t, next);
-                for _ in 0..60 {
-                    let middle = 0.5 * (low + high);
-                    if slope(middle) > 0.0 { low = middle } else { high = middle }
-                }
-                return low;
-            }
-            t = next;
+    /// A point of the world (mm) to pixels, origin in the centre of the top-left one. None behind the camera and past the
+    /// end of the distortion's branch; never NaN. The picture's border plays no part: a pixel may lie outside `size`.
+    pub fn project(&self, point_in_world: DVec3) -> Option<DVec2> {
+        let point = self.camera_from_world.transform_point3(point_in_world);
+        if point.z.is_nan() || point.z <= 0.0 {
+            return None;
         }
-        f64::INFINITY
+        let pixel = self.lens.to_pixel(self.lens.distort(point.truncate() / point.z)?);
+        pixel.is_finite().then_some(pixel)
+    }
+
+    /// The ray that a pixel sees, in the world: the camera's centre (mm) and a direction of length 1. None where no point
+    /// has that pixel as its image.
+    pub fn ray(&self, pixel: DVec2) -> Option<(DVec3, DVec3)> {
+        let at = self.lens.undistort(self.lens.from_pixel(pixel))?;
+        let direction = (self.camera_from_world.matrix3.transpose() * at.extend(1.0)).normalize();
+        let origin = self.centre_in_world();
+        (direction.is_finite() && origin.is_finite()).then_some((origin, direction))
+    }
+
+    /// The camera of the same pictures resized to `size`. Pixel centres are whole numbers, so a coordinate c becomes
+    /// (c + 0.5) s - 0.5, separately for x and y. Both sizes must be more than 0.
+    pub fn scaled(&self, size: [u32; 2]) -> Self {
+        let [s_x, s_y] = [0, 1].map(|axis| f64::from(size[axis]) / f64::from(self.size[axis]));
+        let s = DVec2::new(s_x, s_y);
+        let moved = |centre: DVec2| (centre + 0.5) * s - 0.5;
+        let lens = match self.lens {
+            Lens::Tsai(lens) => Lens::Tsai(Tsai { centre: moved(lens.centre), pitch: lens.pitch / s, ..lens }),
+            Lens::BrownConrady(lens) => {
+                Lens::BrownConrady(BrownConrady { centre: moved(lens.centre), focal: lens.focal * s, ..lens })
+            }
+        };
+        Self { name: self.name.clone(), size, camera_from_world: self.camera_from_world, lens }
     }
 }
+
+#[cfg(test)]
+#[path = "camera_tests.rs"]
+mod tests;

@@ -1,8 +1,12 @@
 //! Transforms and camera models (SPEC A2, A3). Everything here is double precision; what a whole swarm is projected with
 //! is the single-precision form in [`crate::evaluate`].
 
+mod brown_conrady;
 mod camera;
 mod rotation;
+mod tsai;
 
-pub use camera::{BrownConrady, Camera, Lens, Tsai};
-pub use rotation::{EulerOrder, euler_matrix};
+pub use brown_conrady::BrownConrady;
+pub use camera::{Camera, Lens};
+pub use rotation::{EulerOrder, euler_matrix, rodrigues_matrix, rodrigues_vector};
+pub use tsai::{Tsai, TsaiConstants};
