@@ -10,6 +10,7 @@ use super::BitImage;
 pub struct DistanceMap {
     width: u32,
     height: u32,
+    limit: u8,
     values: Vec<u8>,
 }
 
@@ -34,9 +35,9 @@ impl DistanceMap {
         &self.values[y * self.width as usize..][..self.width as usize]
     }
 
-    /// White on the edges, black at `limit` and beyond.
-    pub fn to_gray(&self, limit: u8) -> GrayImage {
-        let limit = u32::from(limit.max(1));
+    /// White on the edges, black at the limit.
+    pub fn to_gray(&self) -> GrayImage {
+        let limit = u32::from(self.limit.max(1));
         let mut image = GrayImage::new(self.width, self.height);
         for (pixel, &value) in image.iter_mut().zip(&self.values) {
             *pixel = (255 - u32::from(value).min(limit) * 255 / limit) as u8;
@@ -48,7 +49,7 @@ impl DistanceMap {
     /// no edge.
     pub fn measure(&mut self, edges: &BitImage, limit: u8) {
         let width = edges.width() as usize;
-        (self.width, self.height) = (edges.width(), edges.height());
+        (self.width, self.height, self.limit) = (edges.width(), edges.height(), limit);
         self.values.clear();
         self.values.resize(width * edges.height() as usize, limit);
         let Some(bounds) = edges.bounds() else { return };
@@ -151,6 +152,6 @@ mod tests {
         let mut map = DistanceMap::default();
         map.measure(&BitImage::new(7, 3), 16);
         assert!(map.values().iter().all(|&value| value == 16));
-        assert!(map.to_gray(16).iter().all(|&value| value == 0));
+        assert!(map.to_gray().iter().all(|&value| value == 0));
     }
 }

@@ -11,6 +11,7 @@ mod extractor;
 pub mod mixture;
 pub mod morphology;
 mod observation;
+mod pictures;
 pub mod plate;
 pub mod proximity;
 mod region;

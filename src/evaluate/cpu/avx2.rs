@@ -95,8 +95,26 @@ impl Simd for Avx2 {
         })
     }
     #[inline(always)]
-    fn select(self, mask: Pair, a: Pair, b: Pair) -> Pair {
-        with_token!([_mm256_blendv_epi8(b[0], a[0], mask[0]), _mm256_blendv_epi8(b[1], a[1], mask[1])])
+    fn min_where(self, mask: Pair, a: Pair, b: Pair) -> Pair {
+        with_token!([
+            _mm256_blendv_epi8(a[0], _mm256_min_epi32(a[0], b[0]), mask[0]),
+            _mm256_blendv_epi8(a[1], _mm256_min_epi32(a[1], b[1]), mask[1]),
+        ])
+    }
+    #[inline(always)]
+    fn max_where(self, mask: Pair, a: Pair, b: Pair) -> Pair {
+        with_token!([
+            _mm256_blendv_epi8(a[0], _mm256_max_epi32(a[0], b[0]), mask[0]),
+            _mm256_blendv_epi8(a[1], _mm256_max_epi32(a[1], b[1]), mask[1]),
+        ])
+    }
+    #[inline(always)]
+    fn bit(self, mask: Pair, count: Pair) -> Pair {
+        // A mask is all ones, that is -1, where it holds.
+        with_token!([
+            _mm256_sllv_epi32(_mm256_srli_epi32::<31>(mask[0]), count[0]),
+            _mm256_sllv_epi32(_mm256_srli_epi32::<31>(mask[1]), count[1]),
+        ])
     }
     #[inline(always)]
     fn is_zero(self, words: Pair) -> bool {

@@ -88,8 +88,16 @@ impl Simd for Avx512 {
         with_token!(_mm512_cmplt_epu32_mask(a, b))
     }
     #[inline(always)]
-    fn select(self, mask: __mmask16, a: __m512i, b: __m512i) -> __m512i {
-        with_token!(_mm512_mask_mov_epi32(b, mask, a))
+    fn min_where(self, mask: __mmask16, a: __m512i, b: __m512i) -> __m512i {
+        with_token!(_mm512_mask_min_epi32(a, mask, a, b))
+    }
+    #[inline(always)]
+    fn max_where(self, mask: __mmask16, a: __m512i, b: __m512i) -> __m512i {
+        with_token!(_mm512_mask_max_epi32(a, mask, a, b))
+    }
+    #[inline(always)]
+    fn bit(self, mask: __mmask16, count: __m512i) -> __m512i {
+        with_token!(_mm512_maskz_sllv_epi32(mask, _mm512_set1_epi32(1), count))
     }
     #[inline(always)]
     fn is_zero(self, words: __m512i) -> bool {

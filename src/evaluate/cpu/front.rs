@@ -3,8 +3,8 @@
 //! are the same to the bit; the loops are written for the compiler to vectorise.
 
 use crate::evaluate::rig::{
-    Rig, RigCamera, RigLens, compose, depth_squared, end_on_corners, local_matrix, side_corners, sin_cos, snap,
-    transform,
+    Rig, RigBone, RigCamera, RigLens, compose, depth_squared, end_on_corners, local_matrix, side_corners, sin_cos,
+    snap, transform,
 };
 
 /// Lanes of the front end.
@@ -111,20 +111,18 @@ impl Front {
             let (parents, own) = self.world.split_at_mut(index);
             let own = &mut own[0];
             let parent = bone.parent.map(|parent| &parents[parent]);
-            for lane in 0..LANES {
-                let local = local_matrix(
-                    bone,
-                    [translation[0][lane], translation[1][lane], translation[2][lane]],
-                    [sin[0][lane], sin[1][lane], sin[2][lane]],
-                    [cos[0][lane], cos[1][lane], cos[2][lane]],
+            if bone.axes == [0, 1, 2] {
+                // The usual order as constants, so that the loop over lanes has fixed places for the elements.
+                place_bone(
+                    &RigBone { axes: [0, 1, 2], parity: 1.0, ..bone.clone() },
+                    parent,
+                    &translation,
+                    &sin,
+                    &cos,
+                    own,
                 );
-                let global = match parent {
-                    None => local,
-                    Some(parent) => compose(&gather(parent, lane), &local),
-                };
-                for element in 0..12 {
-                    own[element][lane] = global[element];
-                }
+            } else {
+                place_bone(bone, parent, &translation, &sin, &cos, own);
             }
         }
         let chunks = self.radii.len();
@@ -199,6 +197,28 @@ impl Front {
                     quad.y[corner][lane] *= keep;
                 }
             }
+        }
+    }
+}
+
+/// Global matrices of one bone for sixteen candidates.
+#[inline(always)]
+fn place_bone(
+    bone: &RigBone,
+    parent: Option<&[Row; 12]>,
+    translation: &[Row; 3],
+    sin: &[Row; 3],
+    cos: &[Row; 3],
+    global: &mut [Row; 12],
+) {
+    for lane in 0..LANES {
+        let local = local_matrix(bone, point(translation, lane), point(sin, lane), point(cos, lane));
+        let placed = match parent {
+            None => local,
+            Some(parent) => compose(&gather(parent, lane), &local),
+        };
+        for element in 0..12 {
+            global[element][lane] = placed[element];
         }
     }
 }

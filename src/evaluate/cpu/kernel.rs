@@ -1,6 +1,8 @@
 //! Drawing and comparing one candidate in one view without a picture: silhouette and edges as bit columns of sixteen
 //! rows, parts from the nearest to the farthest, then counts against the observation's bit planes.
 
+use std::ops::Range;
+
 use crate::evaluate::Components;
 
 use super::front::{LANES, QuadChunk};
@@ -58,15 +60,30 @@ impl Canvas {
             self.cells[block * planes.columns..][words.clone()].fill(Cell::default());
         }
         self.sort(quads);
-        for key in 0..self.order.len() {
-            let part = part_of(self.order[key]);
+        for place in 0..self.order.len() {
+            let part = part_of(self.order[place]);
             let outline = &self.outlines[part / LANES];
             if outline.is_near {
-                draw_part::<S, true>(simd, outline, part % LANES, width, planes.columns, &mut self.cells);
+                draw_part::<S, true>(
+                    simd,
+                    outline,
+                    part % LANES,
+                    planes.columns as i32,
+                    planes.columns,
+                    &mut self.cells,
+                );
             } else {
-                draw_part::<S, false>(simd, outline, part % LANES, width, planes.columns, &mut self.cells);
+                draw_part::<S, false>(
+                    simd,
+                    outline,
+                    part % LANES,
+                    planes.columns as i32,
+                    planes.columns,
+                    &mut self.cells,
+                );
             }
         }
+        self.trim(simd, planes, &words, &blocks);
         self.count(simd, planes, words, blocks, &mut sums);
         sums
     }
@@ -101,14 +118,34 @@ impl Canvas {
         }
     }
 
+    /// Removes what was drawn in the given cells right of the picture and below it.
+    #[inline(always)]
+    fn trim<S: Simd>(&mut self, simd: S, planes: &Planes, words: &Range<usize>, blocks: &Range<usize>) {
+        let (spare_columns, spare_rows) = (planes.width % CELL_COLUMNS, planes.height % CELL_ROWS);
+        if words.end == planes.columns && spare_columns != 0 {
+            let inside = simd.splat((1 << spare_columns) - 1);
+            for block in blocks.clone() {
+                self.cells[(block + 1) * planes.columns - 1].keep(simd, inside);
+            }
+        }
+        if (blocks.end as u32) * CELL_ROWS > planes.height {
+            let mut inside = Lanes::default();
+            inside.0[..spare_rows as usize].fill(u32::MAX);
+            let inside = simd.load(&inside);
+            for cell in &mut self.cells[(blocks.end - 1) * planes.columns..][words.clone()] {
+                cell.keep(simd, inside);
+            }
+        }
+    }
+
     /// Counts what was drawn in the given cells.
     #[inline(always)]
     fn count<S: Simd>(
         &self,
         simd: S,
         planes: &Planes,
-        words: std::ops::Range<usize>,
-        blocks: std::ops::Range<usize>,
+        words: Range<usize>,
+        blocks: Range<usize>,
         sums: &mut Components,
     ) {
         let mut area = simd.no_bits();
@@ -151,103 +188,135 @@ fn part_of(key: u64) -> usize {
     (u32::MAX - key as u32) as usize
 }
 
-/// Draws one part behind what is there: its border where no fill is yet, then its fill.
+/// Draws one part behind what is there: its border where no fill is yet, then its fill. Pixels outside of the picture in its
+/// last cells are left for [`Canvas::trim`].
 #[inline(always)]
 fn draw_part<S: Simd, const NEAR: bool>(
     simd: S,
     outline: &OutlineChunk,
     part: usize,
-    width: i32,
+    words: i32,
     columns: usize,
     cells: &mut [Cell],
 ) {
-    let (left, right) = (outline.left[part], outline.right[part]);
-    let (top, bottom) = (outline.top[part], outline.bottom[part]);
-    if left >= right || top >= bottom {
+    if outline.left[part] >= outline.right[part] {
         return;
     }
-    let first_word = left as u32 / CELL_COLUMNS;
-    let end_word = (right as u32).div_ceil(CELL_COLUMNS);
-    let zero = simd.splat(0);
-    let ones = simd.splat(u32::MAX);
-    let one = simd.splat(1);
-    let limit = simd.splat(width as u32);
-    // Shifted by this a bit is outside of every word.
-    let nowhere = simd.splat(0x4000_0000);
-    for block in top as u32 / CELL_ROWS..(bottom as u32).div_ceil(CELL_ROWS) {
+    for edge in 0..4 {
+        draw_line::<S, NEAR>(simd, outline, edge, part, words, columns, cells);
+    }
+    draw_fill(simd, outline, part, columns, cells);
+}
+
+/// Draws one border line where no fill is yet.
+#[inline(always)]
+fn draw_line<S: Simd, const NEAR: bool>(
+    simd: S,
+    outline: &OutlineChunk,
+    edge: usize,
+    part: usize,
+    words: i32,
+    columns: usize,
+    cells: &mut [Cell],
+) {
+    let (first, count) = (outline.line_first[edge][part], outline.line_rows[edge][part]);
+    let (left, right) = (outline.line_left[edge][part], outline.line_right[edge][part]);
+    let (first_word, end_word) = ((left >> 5).max(0), ((right + 31) >> 5).min(words));
+    if count <= 0 || first_word >= end_word {
+        return;
+    }
+    let columns_of = |rows: (S::Rows, S::ShortRows), double: f64, short: f32| {
+        if NEAR {
+            simd.short_line(rows.1, outline.short_slope[edge][part], short)
+        } else {
+            simd.line(rows.0, outline.line_slope[edge][part], double)
+        }
+    };
+    let is_steep = outline.line_is_steep[edge][part] != 0;
+    for block in first / 16..=(first + count - 1) / 16 {
+        let base = block as u32 * CELL_ROWS;
+        let rows = (simd.rows(base), simd.short_rows(base));
+        let cells = &mut cells[block as usize * columns..][first_word as usize..end_word as usize];
+        let from = columns_of(rows, outline.line_from[edge][part], outline.short_from[edge][part]);
+        let mut origin = first_word as u32 * CELL_COLUMNS;
+        if is_steep {
+            let row = simd.sub(simd.row_words(base), simd.splat(first as u32));
+            let active = simd.below(row, simd.splat(count as u32));
+            for cell in cells {
+                let dot = simd.bit(active, simd.sub(from, simd.splat(origin)));
+                cell.add_edge(simd, dot);
+                origin += CELL_COLUMNS;
+            }
+        } else {
+            // In rows the line does not meet, clamping to its ends leaves nothing.
+            let to = columns_of(rows, outline.line_to[edge][part], outline.short_to[edge][part]);
+            let from = simd.max(from, simd.splat(left as u32));
+            let to = simd.min(to, simd.splat(right as u32));
+            for cell in cells {
+                let dash = span(simd, from, to, origin);
+                cell.add_edge(simd, dash);
+                origin += CELL_COLUMNS;
+            }
+        }
+    }
+}
+
+/// Fills one part.
+#[inline(always)]
+fn draw_fill<S: Simd>(simd: S, outline: &OutlineChunk, part: usize, columns: usize, cells: &mut [Cell]) {
+    let first_word = outline.left[part] as u32 / CELL_COLUMNS;
+    let end_word = (outline.right[part] as u32).div_ceil(CELL_COLUMNS);
+    let (top, bottom) = (outline.top[part] as u32, outline.bottom[part] as u32);
+    for block in top / CELL_ROWS..bottom.div_ceil(CELL_ROWS) {
         let base = block * CELL_ROWS;
         let row_words = simd.row_words(base);
         let rows = simd.rows(base);
-        let short_rows = simd.short_rows(base);
-        let meets = |first: i32, count: i32| first < (base + CELL_ROWS) as i32 && first + count > base as i32;
-
-        let mut fill_from = limit;
-        let mut fill_to = zero;
+        let mut from = simd.splat(FAR_RIGHT);
+        let mut to = simd.splat(0);
         for edge in 0..4 {
             let (first, count) = (outline.fill_first[edge][part], outline.fill_rows[edge][part]);
-            if count > 0 && meets(first, count) {
-                let active = simd.below(simd.sub(row_words, simd.splat(first as u32)), simd.splat(count as u32));
-                let column = simd.line(rows, outline.fill_slope[edge][part], outline.fill_offset[edge][part]);
-                fill_from = simd.select(active, simd.min(fill_from, column), fill_from);
-                fill_to = simd.select(active, simd.max(fill_to, column), fill_to);
+            // The sides of a part are met in most of its blocks, its ends in few.
+            let is_end = edge % 2 == 1;
+            if is_end && (first >= (base + CELL_ROWS) as i32 || first + count <= base as i32) {
+                continue;
             }
+            let active = simd.below(simd.sub(row_words, simd.splat(first as u32)), simd.splat(count as u32));
+            let column = simd.line(rows, outline.fill_slope[edge][part], outline.fill_offset[edge][part]);
+            from = simd.min_where(active, from, column);
+            to = simd.max_where(active, to, column);
         }
-        let fill_from = simd.max(fill_from, zero);
-        let fill_to = simd.min(fill_to, limit);
+        let mut origin = first_word * CELL_COLUMNS;
+        for cell in &mut cells[block as usize * columns..][first_word as usize..end_word as usize] {
+            let fill = span(simd, from, to, origin);
+            simd.store(simd.or(simd.load(&cell.fill), fill), &mut cell.fill);
+            origin += CELL_COLUMNS;
+        }
+    }
+}
 
-        let mut dots = [nowhere; 4];
-        let mut dot_count = 0;
-        let mut spans = [(zero, zero); 4];
-        let mut span_count = 0;
-        for edge in 0..4 {
-            let (first, count) = (outline.line_first[edge][part], outline.line_rows[edge][part]);
-            if count > 0 && meets(first, count) {
-                let active = simd.below(simd.sub(row_words, simd.splat(first as u32)), simd.splat(count as u32));
-                let from = if NEAR {
-                    simd.short_line(short_rows, outline.short_slope[edge][part], outline.short_from[edge][part])
-                } else {
-                    simd.line(rows, outline.line_slope[edge][part], outline.line_from[edge][part])
-                };
-                if outline.line_is_steep[edge][part] != 0 {
-                    // Past the picture's width a dot could still lie in the last word.
-                    let inside = simd.select(simd.below(from, limit), from, nowhere);
-                    dots[dot_count] = simd.select(active, inside, nowhere);
-                    dot_count += 1;
-                } else {
-                    let to = if NEAR {
-                        simd.short_line(short_rows, outline.short_slope[edge][part], outline.short_to[edge][part])
-                    } else {
-                        simd.line(rows, outline.line_slope[edge][part], outline.line_to[edge][part])
-                    };
-                    let from = simd.max(from, simd.splat(outline.line_left[edge][part].max(0) as u32));
-                    let to = simd.min(to, simd.splat(outline.line_right[edge][part].min(width) as u32));
-                    spans[span_count] = (from, simd.select(active, to, zero));
-                    span_count += 1;
-                }
-            }
-        }
+/// A column right of every picture.
+const FAR_RIGHT: u32 = 1 << 20;
 
-        for word in first_word..end_word {
-            let origin = simd.splat(word * CELL_COLUMNS);
-            let mut line = zero;
-            for &dot in &dots[..dot_count] {
-                line = simd.or(line, simd.shift_left(one, simd.sub(dot, origin)));
-            }
-            for &(from, to) in &spans[..span_count] {
-                line = simd.or(line, span(simd, ones, from, to, origin, zero));
-            }
-            let fill = span(simd, ones, fill_from, fill_to, origin, zero);
-            let cell = &mut cells[block as usize * columns + word as usize];
-            let covered = simd.load(&cell.fill);
-            simd.store(simd.or(simd.load(&cell.edge), simd.and_not(line, covered)), &mut cell.edge);
-            simd.store(simd.or(covered, fill), &mut cell.fill);
-        }
+impl Cell {
+    /// Removes the pixels outside of `inside`.
+    #[inline(always)]
+    fn keep<S: Simd>(&mut self, simd: S, inside: S::Words) {
+        simd.store(simd.and(simd.load(&self.fill), inside), &mut self.fill);
+        simd.store(simd.and(simd.load(&self.edge), inside), &mut self.edge);
+    }
+
+    /// Adds border pixels where no fill is yet.
+    #[inline(always)]
+    fn add_edge<S: Simd>(&mut self, simd: S, line: S::Words) {
+        let visible = simd.and_not(line, simd.load(&self.fill));
+        simd.store(simd.or(simd.load(&self.edge), visible), &mut self.edge);
     }
 }
 
 /// The bits of columns `from..to` in the word that begins at column `origin`; none where `to <= from`.
 #[inline(always)]
-fn span<S: Simd>(simd: S, ones: S::Words, from: S::Words, to: S::Words, origin: S::Words, zero: S::Words) -> S::Words {
+fn span<S: Simd>(simd: S, from: S::Words, to: S::Words, origin: u32) -> S::Words {
+    let (ones, zero, origin) = (simd.splat(u32::MAX), simd.splat(0), simd.splat(origin));
     let at_or_right = simd.shift_left(ones, simd.max(simd.sub(from, origin), zero));
     let past = simd.shift_left(ones, simd.max(simd.sub(to, origin), zero));
     simd.and_not(at_or_right, past)

@@ -182,10 +182,13 @@ impl OutlineChunk {
             let past = at_row_0 + rise * R::TWO + if rises { R::HALF } else { -R::HALF };
             let (begin, end) = ((past - half_row) * inverse, (past + half_row) * inverse);
             let (is_steep, level) = (dy > dx, dy == 0);
-            slopes[lane] = if level { R::from_pixel(0) } else { run * R::TWO * inverse };
-            let begin = if level { R::from_pixel(-100_000) } else { begin };
+            // A level line covers its one row from end to end: a slope that leaves the picture within a row either way.
+            slopes[lane] = if level { R::from_pixel(1 << 17) } else { run * R::TWO * inverse };
+            let level_from = R::from_pixel(-(1 << 17)) * R::from_pixel(top) - R::from_pixel(1 << 16);
+            let begin = if level { level_from } else { begin };
+            let end = if level { level_from + R::from_pixel(1 << 17) } else { end };
             froms[lane] = if is_steep { nearest } else { begin };
-            tos[lane] = if level { R::from_pixel(100_000) } else { end };
+            tos[lane] = end;
         }
     }
 }

@@ -15,6 +15,12 @@ fn zip(a: Lanes, b: Lanes, f: impl Fn(u32, u32) -> u32) -> Lanes {
     result
 }
 
+/// `a` where the mask holds, else `b`.
+#[inline(always)]
+fn select(mask: Lanes, a: Lanes, b: Lanes) -> Lanes {
+    zip(zip(a, mask, |a, mask| a & mask), zip(b, mask, |b, mask| b & !mask), |a, b| a | b)
+}
+
 impl Simd for Portable {
     type Words = Lanes;
     type Rows = [f64; 16];
@@ -67,8 +73,16 @@ impl Simd for Portable {
         zip(a, b, |a, b| if a < b { u32::MAX } else { 0 })
     }
     #[inline(always)]
-    fn select(self, mask: Lanes, a: Lanes, b: Lanes) -> Lanes {
-        self.or(self.and(a, mask), self.and_not(b, mask))
+    fn min_where(self, mask: Lanes, a: Lanes, b: Lanes) -> Lanes {
+        select(mask, self.min(a, b), a)
+    }
+    #[inline(always)]
+    fn max_where(self, mask: Lanes, a: Lanes, b: Lanes) -> Lanes {
+        select(mask, self.max(a, b), a)
+    }
+    #[inline(always)]
+    fn bit(self, mask: Lanes, count: Lanes) -> Lanes {
+        self.shift_left(self.and(mask, self.splat(1)), count)
     }
     #[inline(always)]
     fn is_zero(self, words: Lanes) -> bool {

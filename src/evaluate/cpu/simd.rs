@@ -37,8 +37,12 @@ pub(super) trait Simd: Copy + Send + Sync + 'static {
     fn shift_left(self, value: Self::Words, count: Self::Words) -> Self::Words;
     /// Unsigned `a < b`.
     fn below(self, a: Self::Words, b: Self::Words) -> Self::Mask;
-    /// `a` where the mask holds, else `b`.
-    fn select(self, mask: Self::Mask, a: Self::Words, b: Self::Words) -> Self::Words;
+    /// The smaller of both where the mask holds, else `a`; signed.
+    fn min_where(self, mask: Self::Mask, a: Self::Words, b: Self::Words) -> Self::Words;
+    /// The larger of both where the mask holds, else `a`; signed.
+    fn max_where(self, mask: Self::Mask, a: Self::Words, b: Self::Words) -> Self::Words;
+    /// `1 << count` where the mask holds and the unsigned count is under 32, else 0.
+    fn bit(self, mask: Self::Mask, count: Self::Words) -> Self::Words;
     /// Whether every bit is zero.
     fn is_zero(self, words: Self::Words) -> bool;
     /// The row numbers `first, first + 1, …` as words.

@@ -81,11 +81,6 @@ impl Workers {
         Ok(Self { shared, threads })
     }
 
-    /// The number of workers.
-    pub(super) fn count(&self) -> usize {
-        self.threads.len() + 1
-    }
-
     /// Calls `task` once on every worker, each with its number, and returns when all have returned. False when one
     /// panicked.
     pub(super) fn run(&mut self, task: &(dyn Fn(usize) + Sync)) -> bool {
