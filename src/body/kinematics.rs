@@ -154,7 +154,7 @@ impl Body {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use glam::{DMat4, DVec4};
     use proptest::prelude::*;
 
@@ -196,7 +196,7 @@ mod tests {
 
     /// Any tree, any degrees of freedom, any order of the bones in the file; written and read so that the loader's work
     /// is part of it. The pose comes with it.
-    pub(super) fn any_body() -> impl Strategy<Value = (Body, Vec<f64>)> {
+    pub(in crate::body) fn any_body() -> impl Strategy<Value = (Body, Vec<f64>)> {
         let bone = (any::<prop::sample::Index>(), prop::array::uniform3(-400.0..400.0), 0_u8..64, 0_usize..6);
         (prop::collection::vec(bone, 1..12), any::<u64>()).prop_flat_map(|(entries, shuffle)| {
             let count = entries.len();

@@ -2,6 +2,7 @@
 //! (SPEC A3, A4); poses, and where a pose puts bones, joints and markers in the world.
 
 mod adult;
+mod bvh;
 mod kinematics;
 mod loader;
 mod pose;
