@@ -1,8 +1,18 @@
 //! Sequences: the manifest, video and picture input, calibration files (SPEC A2, INTERFACES).
 
 mod calibration;
+mod coverage;
+mod frames;
+mod manifest;
+mod pictures;
+mod resample;
+mod video;
 
 pub use calibration::{
     cameras_toml, parse_cameras_toml, parse_opencv_xml, parse_opencv_yaml, parse_qualisys, read_cameras,
     write_cameras_toml,
 };
+pub use frames::{FrameReader, FrameSet, Source};
+pub use manifest::{Sequence, View};
+pub use pictures::PicturePattern;
+pub use video::{VideoInfo, probe_video};

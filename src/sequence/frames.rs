@@ -1,0 +1,228 @@
+//! The pictures of a sequence, frame by frame, read ahead by one thread a view.
+
+use std::ops::Range;
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::{self, JoinHandle};
+
+use anyhow::{Context, Result, anyhow, bail};
+use image::{GrayImage, RgbImage};
+
+use super::manifest::{Sequence, View};
+use super::pictures::{PicturePattern, read_picture};
+use super::resample::{area_average, nearest_mask};
+use super::video::{PixelFormat, Stopper, VideoDecoder};
+
+/// Frames a view's thread may be ahead of the reader. Together with the one it is working on this bounds the memory,
+/// however long the sequence is.
+const READ_AHEAD: usize = 3;
+
+/// One moment, seen by every camera.
+#[derive(Clone, Debug)]
+pub struct FrameSet {
+    /// Number of the frame in the sequence, from 0.
+    pub index: usize,
+    /// A picture a view, in the order of the views, at the working size.
+    pub pictures: Vec<RgbImage>,
+    /// A ready silhouette a view, where the view has any: 255 on the person, 0 elsewhere, at the working size.
+    pub masks: Vec<Option<GrayImage>>,
+}
+
+/// Where the pictures (or masks) of a view come from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// A file that ffmpeg reads.
+    Video(PathBuf),
+    /// Numbered pictures.
+    Pictures(PicturePattern),
+}
+
+/// Reads consecutive frames of a sequence. Dropping it ends its threads and their decoders.
+#[derive(Debug)]
+pub struct FrameReader {
+    views: Vec<ViewThread>,
+    next: usize,
+    end: usize,
+}
+
+/// A view's picture and mask of one frame.
+type ViewFrame = (RgbImage, Option<GrayImage>);
+
+#[derive(Debug)]
+struct ViewThread {
+    camera: String,
+    frames: Receiver<Result<ViewFrame>>,
+    thread: Option<JoinHandle<()>>,
+    /// The decoders the thread may be waiting for.
+    decoders: Vec<Stopper>,
+}
+
+impl Sequence {
+    /// Starts reading the frames of `range`.
+    ///
+    /// # Errors
+    /// When the range reaches past the last frame, or a decoder cannot be started.
+    pub fn read_frames(&self, range: Range<usize>) -> Result<FrameReader> {
+        if range.start > range.end || range.end > self.frame_count {
+            bail!(
+                "{}: frames {}..{} were asked for, expected a range within 0..{} (the sequence has {} frames)",
+                self.path.display(),
+                range.start,
+                range.end,
+                self.frame_count,
+                self.frame_count
+            );
+        }
+        let mut reader = FrameReader { views: Vec::new(), next: range.start, end: range.end };
+        if range.is_empty() {
+            return Ok(reader);
+        }
+        for (view, &size) in self.views.iter().zip(&self.sizes) {
+            let mut stream = ViewStream::open(view, range.clone(), size)?;
+            let (sender, frames) = sync_channel(READ_AHEAD);
+            let decoders = stream.stoppers();
+            let thread = thread::Builder::new()
+                .name(format!("read {}", view.camera))
+                .spawn(move || stream.send_all(&sender))
+                .context("cannot start a thread to read pictures")?;
+            reader.views.push(ViewThread { camera: view.camera.clone(), frames, thread: Some(thread), decoders });
+        }
+        Ok(reader)
+    }
+
+    /// The plate of each view's empty scene at the working size, where the view has one.
+    ///
+    /// # Errors
+    /// When a plate cannot be read, or is neither of the calibration's size nor of the working size.
+    pub fn backgrounds(&self) -> Result<Vec<Option<RgbImage>>> {
+        let plates = self.views.iter().zip(&self.sizes).map(|(view, &size)| {
+            let Some(path) = &view.background else { return Ok(None) };
+            Ok(Some(area_average(read_picture(path, &[view.size, size])?.into_rgb8(), size)))
+        });
+        plates.collect()
+    }
+}
+
+impl FrameReader {
+    /// The next frame of every view; `None` after the last of the range, and after an error.
+    ///
+    /// # Errors
+    /// One sentence with the file: a decoder that stopped, a picture that cannot be read or has another size.
+    pub fn next_frame(&mut self) -> Result<Option<FrameSet>> {
+        if self.next >= self.end {
+            return Ok(None);
+        }
+        let set = self.receive();
+        match &set {
+            Ok(_) => self.next += 1,
+            // The views would be out of step from here on.
+            Err(_) => self.end = self.next,
+        }
+        set.map(Some)
+    }
+
+    fn receive(&self) -> Result<FrameSet> {
+        let mut set = FrameSet { index: self.next, pictures: Vec::new(), masks: Vec::new() };
+        for view in &self.views {
+            let (picture, mask) = view
+                .frames
+                .recv()
+                .map_err(|_| anyhow!("the pictures of camera {:?} ended before frame {}", view.camera, self.next))??;
+            set.pictures.push(picture);
+            set.masks.push(mask);
+        }
+        Ok(set)
+    }
+}
+
+impl Drop for FrameReader {
+    fn drop(&mut self) {
+        for view in self.views.drain(..) {
+            let ViewThread { frames, thread, decoders, .. } = view;
+            // With the receiver gone the thread's next send fails, which ends it; and it waits for no decoder that is
+            // still on its way to the first frame of the range.
+            drop(frames);
+            decoders.iter().for_each(Stopper::stop);
+            if let Some(thread) = thread {
+                let _ = thread.join();
+            }
+        }
+    }
+}
+
+/// What a view's thread reads from.
+struct ViewStream {
+    size: [u32; 2],
+    frames: Range<usize>,
+    pictures: Stream,
+    picture_size: [u32; 2],
+    masks: Option<(Stream, [u32; 2])>,
+}
+
+enum Stream {
+    Video(VideoDecoder),
+    Pictures(PicturePattern),
+}
+
+impl Stream {
+    fn open(source: &Source, frames: Range<usize>, size: [u32; 2], format: PixelFormat) -> Result<Self> {
+        Ok(match source {
+            Source::Video(path) => Self::Video(VideoDecoder::open(path, frames, size, format)?),
+            Source::Pictures(pattern) => Self::Pictures(pattern.clone()),
+        })
+    }
+}
+
+impl ViewStream {
+    fn open(view: &View, frames: Range<usize>, size: [u32; 2]) -> Result<Self> {
+        let pictures = Stream::open(&view.source, frames.clone(), size, PixelFormat::Rgb)?;
+        let masks = match &view.mask {
+            // At the stored size: a silhouette is thinned out by us, never averaged.
+            Some((mask, stored)) => Some((Stream::open(mask, frames.clone(), *stored, PixelFormat::Grey)?, *stored)),
+            None => None,
+        };
+        Ok(Self { size, frames, pictures, picture_size: view.size, masks })
+    }
+
+    fn stoppers(&self) -> Vec<Stopper> {
+        let streams = [Some(&self.pictures), self.masks.as_ref().map(|(masks, _)| masks)];
+        let decoders = streams.into_iter().flatten().filter_map(|stream| match stream {
+            Stream::Video(decoder) => Some(decoder.stopper()),
+            Stream::Pictures(_) => None,
+        });
+        decoders.collect()
+    }
+
+    fn send_all(&mut self, sender: &SyncSender<Result<ViewFrame>>) {
+        for frame in self.frames.clone() {
+            let read = self.read(frame);
+            let failed = read.is_err();
+            if sender.send(read).is_err() || failed {
+                return;
+            }
+        }
+    }
+
+    fn read(&mut self, frame: usize) -> Result<ViewFrame> {
+        let [width, height] = self.size;
+        let picture = match &mut self.pictures {
+            Stream::Video(decoder) => {
+                let bytes = decoder.next_frame()?.unwrap_or_default();
+                RgbImage::from_raw(width, height, bytes).with_context(|| format!("frame {frame} has too few bytes"))?
+            }
+            Stream::Pictures(pattern) => {
+                area_average(read_picture(&pattern.file(frame), &[self.picture_size])?.into_rgb8(), self.size)
+            }
+        };
+        let Some((masks, stored)) = &mut self.masks else { return Ok((picture, None)) };
+        let mask = match masks {
+            Stream::Video(decoder) => {
+                let bytes = decoder.next_frame()?.unwrap_or_default();
+                GrayImage::from_raw(stored[0], stored[1], bytes)
+                    .with_context(|| format!("the mask of frame {frame} has too few bytes"))?
+            }
+            Stream::Pictures(pattern) => read_picture(&pattern.file(frame), &[*stored])?.into_luma8(),
+        };
+        Ok((picture, Some(nearest_mask(&mask, self.size))))
+    }
+}

@@ -1,0 +1,291 @@
+//! The manifest `sequence.toml`: which files make a sequence, checked before anything long is started.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, anyhow, bail};
+use serde::Deserialize;
+
+use super::calibration::read_cameras;
+use super::coverage::check_coverage;
+use super::frames::Source;
+use super::pictures::{PicturePattern, picture_size, shown};
+use super::video::{VideoInfo, probe_video};
+use crate::files::read_toml;
+use crate::geometry::Camera;
+
+/// A sequence: synchronised pictures of calibrated cameras, and what belongs to them (SPEC A2, INTERFACES).
+#[derive(Clone, Debug)]
+pub struct Sequence {
+    /// The manifest's file.
+    pub path: PathBuf,
+    /// The manifest's folder; relative paths in the manifest start here.
+    pub dir: PathBuf,
+    /// The sequence's name.
+    pub name: String,
+    /// Frames per second.
+    pub fps: f64,
+    /// Working size over stored size, in (0, 1].
+    pub scale: f64,
+    /// The views' cameras in the order of the views, already scaled to the working size.
+    pub cameras: Vec<Camera>,
+    /// The views' working sizes, pixels, width then height: the stored size times `scale`, rounded, at least 1.
+    pub sizes: Vec<[u32; 2]>,
+    /// The body file.
+    pub body: PathBuf,
+    /// A poses.csv with the first pose.
+    pub start: Option<PathBuf>,
+    /// Reference motion.
+    pub truth: Option<PathBuf>,
+    /// What each camera saw.
+    pub views: Vec<View>,
+    /// Frames in every view.
+    pub frame_count: usize,
+    /// The `[objective]` table as written, for the search to read.
+    pub objective: Option<toml::Table>,
+    /// The `[features]` table as written, for the features to read.
+    pub features: Option<toml::Table>,
+}
+
+/// What one camera saw.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// The camera's name.
+    pub camera: String,
+    /// The size of its pictures as they are stored, pixels, width then height: that of the calibration.
+    pub size: [u32; 2],
+    /// Its pictures.
+    pub source: Source,
+    /// A picture of the empty scene.
+    pub background: Option<PathBuf>,
+    /// Ready silhouettes and the size they are stored at.
+    pub mask: Option<(Source, [u32; 2])>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ManifestFile {
+    name: String,
+    fps: f64,
+    cameras: PathBuf,
+    body: PathBuf,
+    start: Option<PathBuf>,
+    truth: Option<PathBuf>,
+    #[serde(default = "full_size")]
+    scale: f64,
+    #[serde(default)]
+    view: Vec<ViewTable>,
+    objective: Option<toml::Table>,
+    features: Option<toml::Table>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ViewTable {
+    camera: String,
+    source: PathBuf,
+    background: Option<PathBuf>,
+    mask: Option<PathBuf>,
+}
+
+fn full_size() -> f64 {
+    1.0
+}
+
+impl Sequence {
+    /// Opens a sequence: `path` is its manifest, or the folder with a `sequence.toml` in it. Every file it names is
+    /// looked at (videos are counted, not decoded).
+    ///
+    /// # Errors
+    /// One sentence naming the manifest (or the file at fault), the key, what was found and what was expected: an
+    /// unknown key, an unknown or repeated camera, no views, views of different length, pictures of another size than
+    /// the calibration's, a missing or unreadable file, a scale or frame rate out of range, a camera that does not see
+    /// what the others see.
+    pub fn open(path: &Path) -> Result<Self> {
+        let path = if path.is_dir() { path.join("sequence.toml") } else { path.to_path_buf() };
+        let file: ManifestFile = read_toml(&path)?;
+        let shown_path = path.display();
+        let dir = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        if !(file.fps.is_finite() && file.fps > 0.0) {
+            bail!("{shown_path}: fps is {}, expected a positive number of frames per second", file.fps);
+        }
+        if !(file.scale > 0.0 && file.scale <= 1.0) {
+            bail!("{shown_path}: scale is {}, expected more than 0 and at most 1", file.scale);
+        }
+        if file.view.is_empty() {
+            bail!("{shown_path} has no views, expected a [[view]] with `camera` and `source` for each camera");
+        }
+        let existing = |key: &str, relative: &Path| -> Result<PathBuf> {
+            let file = dir.join(relative);
+            if !file.is_file() {
+                bail!("{shown_path}: {key} is {:?}, and there is no file {}", relative.display(), file.display());
+            }
+            Ok(file)
+        };
+        let cameras_path = existing("cameras", &file.cameras)?;
+        let body = existing("body", &file.body)?;
+        let start = file.start.as_deref().map(|start| existing("start", start)).transpose()?;
+        let truth = file.truth.as_deref().map(|truth| existing("truth", truth)).transpose()?;
+        let calibrated = read_cameras(&cameras_path)?;
+
+        let mut opened = Vec::new();
+        let mut cameras = Vec::new();
+        for (index, table) in file.view.iter().enumerate() {
+            if file.view[..index].iter().any(|earlier| earlier.camera == table.camera) {
+                bail!("{shown_path}: camera {:?} has two views, expected one", table.camera);
+            }
+            let camera = find_camera(&calibrated, &table.camera)
+                .ok_or_else(|| unknown_camera(&path, &cameras_path, &calibrated, &table.camera))?;
+            opened.push(open_view(table, camera, &existing, &dir, file.scale)?);
+            cameras.push(camera.clone());
+        }
+        let frame_count = common_length(&path, &opened)?;
+        check_coverage(&path, &cameras)?;
+
+        let views: Vec<View> = opened.into_iter().map(|(view, _)| view).collect();
+        let sizes: Vec<[u32; 2]> = views.iter().map(|view| working_size(view.size, file.scale)).collect();
+        let cameras = cameras.iter().zip(&sizes).map(|(camera, &size)| camera.scaled(size)).collect();
+        Ok(Self {
+            name: file.name,
+            fps: file.fps,
+            scale: file.scale,
+            cameras,
+            sizes,
+            body,
+            start,
+            truth,
+            views,
+            frame_count,
+            objective: file.objective,
+            features: file.features,
+            dir,
+            path,
+        })
+    }
+}
+
+/// The size pictures are worked on at.
+fn working_size(size: [u32; 2], scale: f64) -> [u32; 2] {
+    size.map(|length| ((f64::from(length) * scale).round() as u32).max(1))
+}
+
+fn find_camera<'a>(cameras: &'a [Camera], name: &str) -> Option<&'a Camera> {
+    cameras.iter().find(|camera| camera.name == name)
+}
+
+fn unknown_camera(path: &Path, cameras_path: &Path, cameras: &[Camera], name: &str) -> anyhow::Error {
+    let nearest = cameras.iter().min_by_key(|camera| strsim::damerau_levenshtein(&camera.name, name));
+    let nearest =
+        nearest.map_or_else(|| "it has no cameras".to_string(), |near| format!("the nearest is {:?}", near.name));
+    anyhow!("{}: {} has no camera {name:?}, {nearest}", path.display(), cameras_path.display())
+}
+
+/// Looks at everything a view names; with the view, its number of frames.
+fn open_view(
+    table: &ViewTable,
+    camera: &Camera,
+    existing: &impl Fn(&str, &Path) -> Result<PathBuf>,
+    dir: &Path,
+    scale: f64,
+) -> Result<(View, usize)> {
+    let name = &table.camera;
+    let key = |part: &str| format!("the {part} of camera {name:?}");
+    let source = open_source(&key("source"), &table.source, existing, dir)?;
+    if source.size != camera.size {
+        let turned = if source.rotation % 180 != 0 && source.size == [camera.size[1], camera.size[0]] {
+            ", which are stored lying and marked to be turned for display: re-encode them upright"
+        } else {
+            ""
+        };
+        bail!(
+            "{} has pictures of {} pixels, but camera {name:?} is calibrated for {}{turned}",
+            source.shown,
+            shown(source.size),
+            shown(camera.size)
+        );
+    }
+    let background = table.background.as_deref().map(|plate| existing(&key("background"), plate)).transpose()?;
+    if let Some(plate) = &background {
+        let (found, working) = (picture_size(plate)?, working_size(camera.size, scale));
+        if found != camera.size && found != working {
+            bail!(
+                "{} is {} pixels, expected {} (as camera {name:?} is calibrated) or {} (the working size)",
+                plate.display(),
+                shown(found),
+                shown(camera.size),
+                shown(working)
+            );
+        }
+    }
+    let mask = match &table.mask {
+        None => None,
+        Some(mask) => {
+            let mask = open_source(&key("mask"), mask, existing, dir)?;
+            check_mask(name, camera.size, source.frame_count, &mask)?;
+            Some((mask.source, mask.size))
+        }
+    };
+    let view = View { camera: name.clone(), size: camera.size, source: source.source, background, mask };
+    Ok((view, source.frame_count))
+}
+
+/// Masks may be smaller or larger than the pictures, but of the same shape, to a pixel, and as many.
+fn check_mask(camera: &str, size: [u32; 2], frame_count: usize, mask: &OpenedSource) -> Result<()> {
+    let ([width, height], [mask_width, mask_height]) = (size.map(u64::from), mask.size.map(u64::from));
+    if (width * mask_height).abs_diff(height * mask_width) > width.max(height) {
+        bail!("{} has masks of {} pixels, expected the shape of {}", mask.shown, shown(mask.size), shown(size));
+    }
+    if mask.frame_count != frame_count {
+        bail!(
+            "camera {camera:?} has {frame_count} pictures and {} masks ({}), expected as many",
+            mask.frame_count,
+            mask.shown
+        );
+    }
+    Ok(())
+}
+
+struct OpenedSource {
+    /// Its name in messages.
+    shown: String,
+    source: Source,
+    size: [u32; 2],
+    frame_count: usize,
+    rotation: i32,
+}
+
+fn open_source(
+    key: &str,
+    relative: &Path,
+    existing: &impl Fn(&str, &Path) -> Result<PathBuf>,
+    dir: &Path,
+) -> Result<OpenedSource> {
+    let file = dir.join(relative);
+    let shown = file.display().to_string();
+    // A file may carry a percent sign in its plain name; then it is that file.
+    if file.file_name().is_some_and(|name| name.to_string_lossy().contains('%')) && !file.is_file() {
+        let pattern = PicturePattern::open(&file)?;
+        let (size, frame_count) = (picture_size(&pattern.file(0))?, pattern.frame_count());
+        return Ok(OpenedSource { shown, source: Source::Pictures(pattern), size, frame_count, rotation: 0 });
+    }
+    let video = probe_video(&existing(key, relative)?)?;
+    let VideoInfo { size, frame_count, rotation } = video;
+    Ok(OpenedSource { shown, source: Source::Video(file), size, frame_count, rotation })
+}
+
+/// The number of frames all views have.
+fn common_length(path: &Path, views: &[(View, usize)]) -> Result<usize> {
+    let Some((first, length)) = views.first() else { return Ok(0) };
+    if let Some((other, other_length)) = views.iter().find(|(_, other)| other != length) {
+        bail!(
+            "{}: camera {:?} has {length} frames and camera {:?} has {other_length}, expected views of the same length",
+            path.display(),
+            first.camera,
+            other.camera
+        );
+    }
+    Ok(*length)
+}
+
+#[cfg(test)]
+#[path = "manifest_tests.rs"]
+mod tests;

@@ -1,0 +1,196 @@
+//! Numbered pictures (`frames/cam01_%04d.png`) and single ones, PNG or JPEG.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, anyhow, bail};
+use image::{DynamicImage, ImageDecoder, ImageReader};
+
+/// A name with a number in it, as printf writes it, and the pictures that are there under it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PicturePattern {
+    folder: PathBuf,
+    prefix: String,
+    suffix: String,
+    /// Numbers are padded with zeros to this many digits.
+    digits: usize,
+    /// The smallest number that is there: the name of frame 0.
+    first: u64,
+    count: usize,
+}
+
+impl PicturePattern {
+    /// Finds the pictures of a pattern: one `%d` or `%0Nd` in the file name, `%%` for a percent sign. Frame 0 is the
+    /// smallest number there is.
+    ///
+    /// # Errors
+    /// One sentence naming the pattern when it is not one, when no picture is there, or when a number is missing
+    /// between the smallest and the largest.
+    pub fn open(pattern: &Path) -> Result<Self> {
+        let shown = pattern.display();
+        let name = pattern.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let (prefix, digits, suffix) = split_pattern(name)
+            .ok_or_else(|| anyhow!("{shown}: expected one %d or %0Nd in the file name (frames/cam01_%04d.png)"))?;
+        let folder = match pattern.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
+            _ => PathBuf::from("."),
+        };
+        let mut numbers = Vec::new();
+        let listing =
+            fs::read_dir(&folder).with_context(|| format!("cannot read the folder of the pictures {shown}"))?;
+        for entry in listing {
+            let entry = entry.with_context(|| format!("cannot read the folder of the pictures {shown}"))?;
+            let Ok(name) = entry.file_name().into_string() else { continue };
+            let number = name.strip_prefix(&prefix).and_then(|rest| rest.strip_suffix(&suffix));
+            numbers.extend(number.and_then(|number| number_of(number, digits)));
+        }
+        numbers.sort_unstable();
+        let Some(&first) = numbers.first() else { bail!("there are no pictures {shown}") };
+        if let Some(pair) = numbers.windows(2).find(|pair| pair[1] != pair[0] + 1) {
+            bail!("the pictures {shown} have a gap: number {} is missing, number {} is there", pair[0] + 1, pair[1]);
+        }
+        Ok(Self { folder, prefix, suffix, digits, first, count: numbers.len() })
+    }
+
+    /// How many pictures there are.
+    pub fn frame_count(&self) -> usize {
+        self.count
+    }
+
+    /// The file of one frame, counted from 0.
+    pub fn file(&self, frame: usize) -> PathBuf {
+        let number = self.first + frame as u64;
+        self.folder.join(format!("{}{number:0digits$}{}", self.prefix, self.suffix, digits = self.digits))
+    }
+}
+
+/// A pattern's text before the number, its digits, and the text after.
+fn split_pattern(name: &str) -> Option<(String, usize, String)> {
+    let (mut before, mut after, mut digits) = (String::new(), String::new(), None);
+    let mut rest = name;
+    while let Some(at) = rest.find('%') {
+        let text = if digits.is_none() { &mut before } else { &mut after };
+        text.push_str(&rest[..at]);
+        rest = &rest[at + 1..];
+        if let Some(tail) = rest.strip_prefix('%') {
+            text.push('%');
+            rest = tail;
+            continue;
+        }
+        let (width, tail) = rest.split_once('d')?;
+        let width = match width {
+            "" => 0,
+            // More digits than a number can have are a mistake, and would only cost memory.
+            _ => width.strip_prefix('0')?.parse::<usize>().ok().filter(|width| (1..=19).contains(width))?,
+        };
+        if digits.replace(width).is_some() {
+            return None;
+        }
+        rest = tail;
+    }
+    after.push_str(rest);
+    Some((before, digits?, after))
+}
+
+/// The number printf would have written so with that many digits.
+fn number_of(text: &str, digits: usize) -> Option<u64> {
+    if text.is_empty() || !text.bytes().all(|byte| byte.is_ascii_digit()) {
+        return None;
+    }
+    // The largest number is left out so that the one after it always exists.
+    let number: u64 = text.parse().ok().filter(|&number| number < u64::MAX)?;
+    (format!("{number:0digits$}") == text).then_some(number)
+}
+
+/// The size of a picture, from its header.
+///
+/// # Errors
+/// When the file is missing or neither PNG nor JPEG.
+pub(super) fn picture_size(path: &Path) -> Result<[u32; 2]> {
+    Ok(decoder(path)?.dimensions().into())
+}
+
+/// Reads a picture as it is stored.
+///
+/// # Errors
+/// When it cannot be read, or its size is none of `sizes`; the message names the file and both sizes.
+pub(super) fn read_picture(path: &Path, sizes: &[[u32; 2]]) -> Result<DynamicImage> {
+    let decoder = decoder(path)?;
+    let found: [u32; 2] = decoder.dimensions().into();
+    // Checked before anything is decoded: a header may promise more pixels than there is memory.
+    if !sizes.contains(&found) {
+        let expected: Vec<String> = sizes.iter().map(|size| shown(*size)).collect();
+        bail!("{} is {} pixels, expected {}", path.display(), shown(found), expected.join(" or "));
+    }
+    DynamicImage::from_decoder(decoder).with_context(|| format!("cannot read the picture {}", path.display()))
+}
+
+fn decoder(path: &Path) -> Result<impl ImageDecoder + use<>> {
+    ImageReader::open(path)
+        .and_then(ImageReader::with_guessed_format)
+        .map_err(anyhow::Error::from)
+        .and_then(|reader| Ok(reader.into_decoder()?))
+        .with_context(|| format!("cannot read the picture {} (PNG and JPEG are read)", path.display()))
+}
+
+/// A size as messages show it.
+pub(super) fn shown(size: [u32; 2]) -> String {
+    format!("{}x{}", size[0], size[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn touch(folder: &Path, names: &[&str]) {
+        for name in names {
+            fs::write(folder.join(name), b"").unwrap();
+        }
+    }
+
+    #[test]
+    fn numbering_starts_at_the_smallest_and_ignores_other_names() {
+        let folder = tempfile::tempdir().unwrap();
+        touch(
+            folder.path(),
+            &["c_0098.png", "c_0099.png", "c_0100.png", "c_99.png", "c_x.png", "d_0001.png", "c_00098.png"],
+        );
+        let pattern = PicturePattern::open(&folder.path().join("c_%04d.png")).unwrap();
+        assert_eq!(pattern.frame_count(), 3);
+        assert_eq!(pattern.file(0), folder.path().join("c_0098.png"));
+        assert_eq!(pattern.file(2), folder.path().join("c_0100.png"));
+        touch(folder.path(), &["50%_9.png", "50%_10.png"]);
+        let plain = PicturePattern::open(&folder.path().join("50%%_%d.png")).unwrap();
+        assert_eq!((plain.frame_count(), plain.file(1)), (2, folder.path().join("50%_10.png")));
+    }
+
+    #[test]
+    fn bad_patterns_are_sentences() {
+        let folder = tempfile::tempdir().unwrap();
+        touch(folder.path(), &["c_1.png", "c_3.png"]);
+        let message = |name: &str| format!("{:#}", PicturePattern::open(&folder.path().join(name)).unwrap_err());
+        assert!(message("c_%d.png").contains("number 2 is missing"), "{}", message("c_%d.png"));
+        assert!(message("e_%d.png").contains("there are no pictures"), "{}", message("e_%d.png"));
+        assert!(message("no/c_%d.png").contains("no/c_%d.png"), "{}", message("no/c_%d.png"));
+        for name in ["c.png", "c_%s.png", "c_%d_%d.png", "c_%4d.png", "c_%099999d.png", "c_%", "c_%0d.png"] {
+            assert!(message(name).contains("expected one %d or %0Nd"), "{name}: {}", message(name));
+        }
+    }
+
+    #[test]
+    fn broken_pictures_are_sentences() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("p.png");
+        image::RgbImage::new(40, 30).save(&path).unwrap();
+        assert_eq!(picture_size(&path).unwrap(), [40, 30]);
+        let error = format!("{:#}", read_picture(&path, &[[80, 60], [20, 15]]).unwrap_err());
+        assert!(error.contains("p.png is 40x30 pixels, expected 80x60 or 20x15"), "{error}");
+        let whole = fs::read(&path).unwrap();
+        fs::write(&path, &whole[..whole.len() / 2]).unwrap();
+        let error = format!("{:#}", read_picture(&path, &[[40, 30]]).unwrap_err());
+        assert!(error.contains("cannot read the picture") && error.contains("p.png"), "{error}");
+        fs::write(&path, b"no picture").unwrap();
+        let error = format!("{:#}", picture_size(&path).unwrap_err());
+        assert!(error.contains("p.png (PNG and JPEG are read)"), "{error}");
+    }
+}

@@ -1,0 +1,297 @@
+//! Video files, read through the `ffmpeg` and `ffprobe` programs: every stored frame once, in decoding order, in the
+//! orientation it is stored in (a calibration is made for the file as it is, not for how a player would turn it).
+
+use std::fmt;
+use std::io::{BufRead, BufReader, ErrorKind, Read};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::thread::{self, JoinHandle};
+
+use anyhow::{Context, Result, anyhow, bail};
+
+/// What a video file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VideoInfo {
+    /// Size of its pictures as they are stored, pixels, width then height.
+    pub size: [u32; 2],
+    /// Number of frames.
+    pub frame_count: usize,
+    /// What a player would turn the pictures by, degrees; ignored when reading.
+    pub rotation: i32,
+}
+
+/// Reads the size and counts the frames of a video without decoding it.
+///
+/// # Errors
+/// One sentence when ffprobe is missing, or when the file is no video, has no frames or is cut short; the last line
+/// ffprobe wrote is part of it.
+pub fn probe_video(path: &Path) -> Result<VideoInfo> {
+    probe_with(&ffmpeg_sidecar::ffprobe::ffprobe_path(), path)
+}
+
+fn probe_with(program: &Path, path: &Path) -> Result<VideoInfo> {
+    let mut command = Command::new(program);
+    command.args(["-v", "error", "-select_streams", "v:0", "-of", "flat", "-show_entries"]);
+    // Packets are listed rather than counted: those an edit list cuts off are marked, and never become frames.
+    command.arg("stream=width,height,nb_frames:stream_side_data=rotation:packet=flags");
+    command.args(["-protocol_whitelist", "file", "-i"]).arg(file_url(path));
+    let mut process = Process::spawn(command)?;
+    let (mut size, mut promised, mut rotation) = ([0_u32; 2], 0_usize, 0);
+    let (mut packets, mut discarded, mut corrupt) = (0_usize, 0_usize, 0_usize);
+    for line in BufReader::new(&mut process.output).lines() {
+        let line = line.with_context(|| format!("cannot read what ffprobe says of {}", path.display()))?;
+        let Some((key, value)) = line.split_once('=') else { continue };
+        let value = value.trim_matches('"');
+        match key.rsplit('.').next() {
+            Some("flags") => {
+                packets += 1;
+                discarded += usize::from(value.contains('D'));
+                corrupt += usize::from(value.contains('C'));
+            }
+            Some("width") => size[0] = value.parse().unwrap_or(0),
+            Some("height") => size[1] = value.parse().unwrap_or(0),
+            Some("nb_frames") => promised = value.parse().unwrap_or(0),
+            Some("rotation") => rotation = value.parse().unwrap_or(0),
+            _ => {}
+        }
+    }
+    let ended = process.finish();
+    if !ended.success() || size.contains(&0) {
+        bail!("{} cannot be read as a video: {ended}", path.display());
+    }
+    if packets < promised || corrupt > 0 {
+        bail!(
+            "{} is damaged or cut short: its header promises {promised} frames, {} whole ones are there: {ended}",
+            path.display(),
+            packets - corrupt
+        );
+    }
+    if packets == discarded {
+        bail!("{} holds a video of no frames", path.display());
+    }
+    Ok(VideoInfo { size, frame_count: packets - discarded, rotation })
+}
+
+/// What each pixel of a decoded picture holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PixelFormat {
+    /// Red, green, blue; scaled by area averaging.
+    Rgb,
+    /// Grey, one byte; at the stored size it is left as it is.
+    Grey,
+}
+
+/// Decodes consecutive frames of one video. The decoder is another process; dropping this ends it.
+#[derive(Debug)]
+pub(super) struct VideoDecoder {
+    path: PathBuf,
+    process: Process,
+    next: usize,
+    end: usize,
+    frame_bytes: usize,
+}
+
+impl VideoDecoder {
+    /// Starts decoding the frames of `range`, each delivered at `size` (width, height).
+    ///
+    /// Everything before the range is decoded and dropped: seeking by time lands on the wrong frame in files whose time
+    /// stamps are not regular, and here frame A has to be the A-th picture of the file in every view.
+    ///
+    /// # Errors
+    /// When ffmpeg is missing or cannot be started.
+    pub(super) fn open(path: &Path, range: Range<usize>, size: [u32; 2], format: PixelFormat) -> Result<Self> {
+        let program = ffmpeg_sidecar::paths::ffmpeg_path();
+        let [width, height] = size;
+        let (pixels, channels) = match format {
+            PixelFormat::Rgb => ("rgb24", 3),
+            PixelFormat::Grey => ("gray", 1),
+        };
+        let mut command = Command::new(&program);
+        // A picture that could not be decoded would shift all later ones against the other views, so it ends the run.
+        command.args(["-v", "error", "-nostdin", "-xerror", "-noautorotate"]);
+        // A change of format inside the file must not restart the count of `select`.
+        command.args(["-reinit_filter", "0", "-protocol_whitelist", "file", "-i"]).arg(file_url(path));
+        command.args(["-map", "0:v:0", "-an", "-sn", "-dn"]).args(passthrough_option(&program)?);
+        // One conversion with rounding that does not depend on the processor's instruction set.
+        command.arg("-vf").arg(format!(
+            "select=gte(n\\,{}),scale={width}:{height}:flags=area+accurate_rnd+full_chroma_int+bitexact,format={pixels}",
+            range.start
+        ));
+        command.arg("-frames:v").arg(range.len().to_string()).args(["-bitexact", "-f", "rawvideo", "pipe:1"]);
+        Ok(Self {
+            path: path.to_path_buf(),
+            process: Process::spawn(command)?,
+            next: range.start,
+            end: range.end,
+            frame_bytes: width as usize * height as usize * channels,
+        })
+    }
+
+    /// What ends the decoder from another thread: a reader blocked in [`Self::next_frame`] then gets an error.
+    pub(super) fn stopper(&self) -> Stopper {
+        Stopper(Arc::clone(&self.process.child))
+    }
+
+    /// The next frame, row-major bytes; `None` after the last of the range.
+    ///
+    /// # Errors
+    /// When the decoder ends early: the file, the frame and the last line ffmpeg wrote.
+    pub(super) fn next_frame(&mut self) -> Result<Option<Vec<u8>>> {
+        if self.next >= self.end {
+            return Ok(None);
+        }
+        let mut bytes = vec![0; self.frame_bytes];
+        match self.process.output.read_exact(&mut bytes) {
+            Ok(()) => {
+                self.next += 1;
+                Ok(Some(bytes))
+            }
+            Err(error) if error.kind() == ErrorKind::UnexpectedEof => {
+                let ended = self.process.finish();
+                Err(anyhow!(
+                    "{}: decoding stopped before frame {}, expected frames up to {} (re-encoding the file may help): {ended}",
+                    self.path.display(),
+                    self.next,
+                    self.end - 1
+                ))
+            }
+            Err(error) => {
+                Err(error).with_context(|| format!("cannot read frame {} of {}", self.next, self.path.display()))
+            }
+        }
+    }
+}
+
+/// Ends a decoder from another thread.
+#[derive(Debug)]
+pub(super) struct Stopper(Arc<Mutex<Child>>);
+
+impl Stopper {
+    pub(super) fn stop(&self) {
+        // Fails only when the program has ended already.
+        let _ = lock(&self.0).kill();
+    }
+}
+
+/// A child is never left half changed, so a lock that a dying thread held is as good as any.
+fn lock(child: &Mutex<Child>) -> MutexGuard<'_, Child> {
+    child.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A running program whose output we read; killed when dropped.
+#[derive(Debug)]
+struct Process {
+    child: Arc<Mutex<Child>>,
+    output: ChildStdout,
+    /// Drains what the program complains about, so that it never blocks on a full pipe, and keeps the last line.
+    complaints: Option<JoinHandle<String>>,
+}
+
+impl Process {
+    fn spawn(mut command: Command) -> Result<Self> {
+        let program = command.get_program().to_string_lossy().into_owned();
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().map_err(|error| missing_program(&program, &error))?;
+        let (Some(output), Some(errors)) = (child.stdout.take(), child.stderr.take()) else {
+            bail!("cannot read the output of `{program}`");
+        };
+        let complaints = thread::spawn(move || {
+            let mut last = String::new();
+            let mut errors = BufReader::new(errors);
+            let mut line = Vec::new();
+            while errors.read_until(b'\n', &mut line).is_ok_and(|read| read > 0) {
+                let text = String::from_utf8_lossy(&line).trim().to_string();
+                if !text.is_empty() {
+                    last = text;
+                }
+                line.clear();
+            }
+            last
+        });
+        Ok(Self { child: Arc::new(Mutex::new(child)), output, complaints: Some(complaints) })
+    }
+
+    /// Ends the program (it normally has ended by itself) and says how it went.
+    fn finish(&mut self) -> Ended {
+        // Its output is closed by now, so this waits for no more than the program's own farewell.
+        let status = lock(&self.child).wait().ok();
+        let last_line = self.complaints.take().and_then(|thread| thread.join().ok()).unwrap_or_default();
+        Ended { status, last_line }
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        let mut child = lock(&self.child);
+        // Both fail only when the program has ended already.
+        let _ = child.kill();
+        let _ = child.wait();
+        drop(child);
+        if let Some(thread) = self.complaints.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+/// How a program ended, and the last line it complained with.
+struct Ended {
+    status: Option<ExitStatus>,
+    last_line: String,
+}
+
+impl Ended {
+    fn success(&self) -> bool {
+        self.status.is_some_and(|status| status.success())
+    }
+}
+
+impl fmt::Display for Ended {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.status, self.last_line.as_str()) {
+            (Some(status), "") => write!(f, "ffmpeg gave no reason ({status})"),
+            (None, "") => write!(f, "ffmpeg gave no reason"),
+            (_, line) => write!(f, "ffmpeg says \"{line}\""),
+        }
+    }
+}
+
+fn missing_program(program: &str, error: &std::io::Error) -> anyhow::Error {
+    if error.kind() == ErrorKind::NotFound {
+        anyhow!(
+            "the program `{program}` was not found, and videos are read with it: install ffmpeg (apt install ffmpeg, \
+             brew install ffmpeg, winget install ffmpeg) so that it is on the PATH, or give pictures (frames/cam_%04d.png)"
+        )
+    } else {
+        anyhow!("cannot start `{program}`: {error}")
+    }
+}
+
+/// The option that hands on every frame exactly once, whatever its time stamp. It was renamed in ffmpeg 5.1, and later
+/// versions drop the old name.
+fn passthrough_option(program: &Path) -> Result<[&'static str; 2]> {
+    static NEW_NAME: OnceLock<bool> = OnceLock::new();
+    let known = match NEW_NAME.get() {
+        Some(known) => *known,
+        None => {
+            let help = Command::new(program)
+                .args(["-hide_banner", "-h", "long"])
+                .output()
+                .map_err(|error| missing_program(&program.to_string_lossy(), &error))?;
+            *NEW_NAME.get_or_init(|| String::from_utf8_lossy(&help.stdout).contains("-fps_mode"))
+        }
+    };
+    Ok(if known { ["-fps_mode", "passthrough"] } else { ["-vsync", "0"] })
+}
+
+/// The path as a `file:` address: a name like `-y` or `http:x` is then still a file.
+fn file_url(path: &Path) -> std::ffi::OsString {
+    let mut url = std::ffi::OsString::from("file:");
+    url.push(path);
+    url
+}
+
+#[cfg(test)]
+#[path = "video_tests.rs"]
+pub(super) mod tests;

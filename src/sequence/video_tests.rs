@@ -1,0 +1,155 @@
+use std::fs;
+
+use super::*;
+
+/// Whether the programs are there; says so where not, so that a skipped test is seen.
+pub(in crate::sequence) fn ffmpeg_is_here(test: &str) -> bool {
+    let here = Command::new("ffmpeg").arg("-version").output().is_ok() && Command::new("ffprobe").output().is_ok();
+    if !here {
+        println!("SKIPPED {test}: ffmpeg is not installed");
+    }
+    here
+}
+
+/// Makes a video with ffmpeg's own test picture, which differs from frame to frame.
+pub(in crate::sequence) fn make_video(path: &Path, size: &str, frames: usize, options: &[&str]) {
+    let status = Command::new("ffmpeg")
+        .args(["-v", "error", "-nostdin", "-y", "-f", "lavfi", "-i", &format!("testsrc2=size={size}:rate=25")])
+        .args(options)
+        .args(["-frames:v", &frames.to_string()])
+        .arg(path)
+        .status()
+        .unwrap();
+    assert!(status.success(), "ffmpeg cannot make {}", path.display());
+}
+
+fn decode(path: &Path, range: Range<usize>, size: [u32; 2]) -> Result<Vec<Vec<u8>>> {
+    let mut decoder = VideoDecoder::open(path, range, size, PixelFormat::Rgb)?;
+    let mut frames = Vec::new();
+    while let Some(frame) = decoder.next_frame()? {
+        frames.push(frame);
+    }
+    Ok(frames)
+}
+
+#[test]
+fn every_frame_is_found_by_its_number() {
+    if !ffmpeg_is_here("every_frame_is_found_by_its_number") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("-a 100%.mp4");
+    make_video(&path.with_file_name("plain.mp4"), "320x240", 30, &["-bf", "2", "-g", "7"]);
+    fs::rename(path.with_file_name("plain.mp4"), &path).unwrap();
+    assert_eq!(probe_video(&path).unwrap(), VideoInfo { size: [320, 240], frame_count: 30, rotation: 0 });
+    let all = decode(&path, 0..30, [160, 120]).unwrap();
+    assert_eq!(all.len(), 30);
+    assert!(all.windows(2).all(|pair| pair[0] != pair[1]), "the frames differ, so that a shift is seen");
+    for range in [0..1, 6..9, 13..20, 29..30] {
+        assert_eq!(decode(&path, range.clone(), [160, 120]).unwrap(), all[range]);
+    }
+}
+
+#[test]
+fn irregular_time_stamps_neither_repeat_nor_drop_frames() {
+    if !ffmpeg_is_here("irregular_time_stamps_neither_repeat_nor_drop_frames") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("irregular.mkv");
+    // Gaps of one to several frame times, as telephones record them.
+    let stamps = ["-vf", "setpts=(N+floor(N*N/7))/(25*TB)", "-fps_mode", "passthrough", "-c:v", "mpeg4"];
+    if !passthrough_option(Path::new("ffmpeg")).unwrap().contains(&"-fps_mode") {
+        println!("SKIPPED irregular_time_stamps_neither_repeat_nor_drop_frames: ffmpeg is older than 5.1");
+        return;
+    }
+    make_video(&path, "320x240", 12, &stamps);
+    assert_eq!(probe_video(&path).unwrap().frame_count, 12);
+    let all = decode(&path, 0..12, [320, 240]).unwrap();
+    assert_eq!(all.len(), 12);
+    assert!(all.windows(2).all(|pair| pair[0] != pair[1]));
+}
+
+#[test]
+fn broken_videos_are_sentences() {
+    if !ffmpeg_is_here("broken_videos_are_sentences") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let probe = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        format!("{:#}", probe_video(&path).unwrap_err())
+    };
+    let error = probe("garbage.mp4", &[7; 5000]);
+    assert!(error.contains("garbage.mp4 cannot be read as a video: ffmpeg says"), "{error}");
+    let error = probe("empty.mp4", b"");
+    assert!(error.contains("empty.mp4 cannot be read as a video"), "{error}");
+    let path = folder.path().join("whole.mp4");
+    make_video(&path, "320x240", 40, &["-movflags", "+faststart", "-g", "10"]);
+    let whole = fs::read(&path).unwrap();
+    // Its index is at the front and promises all frames.
+    let error = probe("half.mp4", &whole[..whole.len() / 2]);
+    assert!(error.contains("half.mp4 is damaged or cut short") && error.contains("promises 40 frames"), "{error}");
+    let error = probe("index_cut.mp4", &whole[..200]);
+    assert!(error.contains("index_cut.mp4 cannot be read as a video"), "{error}");
+    let sound = folder.path().join("sound.wav");
+    let made =
+        Command::new("ffmpeg").args(["-v", "error", "-f", "lavfi", "-i", "sine=duration=0.1"]).arg(&sound).status();
+    assert!(made.unwrap().success());
+    let error = format!("{:#}", probe_video(&sound).unwrap_err());
+    assert!(error.contains("sound.wav cannot be read as a video"), "{error}");
+}
+
+#[test]
+fn a_decoder_that_stops_names_the_frame() {
+    if !ffmpeg_is_here("a_decoder_that_stops_names_the_frame") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("spoilt.mp4");
+    make_video(&path, "320x240", 40, &["-movflags", "+faststart", "-g", "10"]);
+    let mut bytes = fs::read(&path).unwrap();
+    let (from, to) = (bytes.len() / 2, bytes.len() / 2 + 4000);
+    bytes[from..to].fill(0x55);
+    fs::write(&path, bytes).unwrap();
+    assert_eq!(probe_video(&path).unwrap().frame_count, 40, "the index is whole");
+    let error = format!("{:#}", decode(&path, 0..40, [32, 24]).unwrap_err());
+    assert!(error.contains("spoilt.mp4: decoding stopped before frame") && error.contains("ffmpeg says"), "{error}");
+    // A range past the end ends the same way.
+    let short = folder.path().join("short.mp4");
+    make_video(&short, "64x48", 5, &[]);
+    let error = format!("{:#}", decode(&short, 0..9, [64, 48]).unwrap_err());
+    assert!(error.contains("decoding stopped before frame 5, expected frames up to 8"), "{error}");
+}
+
+#[test]
+fn a_dropped_decoder_ends_its_process() {
+    if !ffmpeg_is_here("a_dropped_decoder_ends_its_process") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("long.mp4");
+    make_video(&path, "320x240", 200, &[]);
+    let mut decoder = VideoDecoder::open(&path, 0..200, [320, 240], PixelFormat::Rgb).unwrap();
+    decoder.next_frame().unwrap();
+    let entry = format!("/proc/{}", lock(&decoder.process.child).id());
+    assert!(!Path::new("/proc/self").exists() || Path::new(&entry).exists());
+    // A stopped decoder hands out what the pipe still holds, then an error; it never blocks.
+    decoder.stopper().stop();
+    let error = loop {
+        match decoder.next_frame() {
+            Ok(frame) => assert!(frame.is_some(), "the decoder was stopped before the last frame"),
+            Err(error) => break format!("{error:#}"),
+        }
+    };
+    assert!(error.contains("long.mp4: decoding stopped before frame"), "{error}");
+    drop(decoder);
+    assert!(!Path::new(&entry).exists(), "the child was killed and reaped");
+}
+
+#[test]
+fn a_missing_program_says_how_to_install_it() {
+    let error = format!("{:#}", probe_with(Path::new("no-such-ffprobe"), Path::new("x.mp4")).unwrap_err());
+    assert!(error.contains("`no-such-ffprobe` was not found") && error.contains("apt install ffmpeg"), "{error}");
+}
