@@ -3,6 +3,9 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "this room is the one that talks to the user")]
 
 mod convert;
+mod features;
+mod frame_range;
+mod progress;
 mod score;
 
 use std::ffi::OsString;
@@ -25,6 +28,7 @@ enum Command {
     Convert(convert::ConvertArgs),
     /// Measure the error of tracked points against a truth: per point, per frame, mean and standard deviation, mm.
     Score(score::ScoreArgs),
+    Features(features::FeaturesArgs),
 }
 
 /// Runs the program on its arguments (the program's name first). Exit status: 0 done, 1 failed, 2 wrong usage.
@@ -50,5 +54,6 @@ fn dispatch(command: Command) -> Result<()> {
     match command {
         Command::Convert(args) => convert::run(&args),
         Command::Score(args) => score::run(&args),
+        Command::Features(args) => features::run(&args),
     }
 }

@@ -1,0 +1,88 @@
+//! `pantin features`: what the tracker would see of a sequence, as pictures to look at.
+
+use std::path::PathBuf;
+
+use anyhow::{Context, Result};
+use image::codecs::png::PngEncoder;
+use rayon::prelude::*;
+
+use super::frame_range::FrameRange;
+use super::progress::Progress;
+use crate::features::{Extractor, FeatureSettings, ViewSource};
+use crate::files::{OutputFolder, Overwrite};
+use crate::sequence::Sequence;
+
+/// Writes silhouettes, edges, distance maps and packed observations as PNG.
+///
+/// For every frame and camera, CAMERA/STAGE_NNNNNN.png with the stages input, foreground, silhouette, edges, distance,
+/// proximity, observation and region, and frame_NNNNNN/CAMERA.png, the packed observations of a frame in one folder
+/// as `evaluate --observations` reads them.
+#[derive(clap::Args, Debug)]
+pub struct FeaturesArgs {
+    /// The sequence: a sequence.toml
+    sequence: PathBuf,
+    /// Frames A to B - 1, counted from 0; all without it
+    #[arg(long, value_name = "A..B", default_value = "..")]
+    frames: FrameRange,
+    /// The folder to write into
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Write into a folder that is not empty, replacing its files
+    #[arg(long)]
+    force: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// When the sequence cannot be read, its `[features]` make no sense, or a picture cannot be written.
+pub fn run(args: &FeaturesArgs) -> Result<()> {
+    let sequence = Sequence::open(&args.sequence)?;
+    let frames = args.frames.within(sequence.frame_count)?;
+    let name = args.sequence.display().to_string();
+    let settings = match &sequence.features {
+        Some(table) => FeatureSettings::from_table(table, &name)?,
+        None => FeatureSettings::default(),
+    };
+    let views = sequence
+        .sizes
+        .iter()
+        .zip(sequence.backgrounds()?)
+        .map(|(&[width, height], plate)| ViewSource { width, height, plate })
+        .collect();
+    let mut extractor = Extractor::new(settings, views).with_context(|| name.clone())?;
+    let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;
+
+    // A background that is learnt needs the frames before the first one wanted.
+    let learns = sequence.views.iter().any(|view| view.background.is_none() && view.mask.is_none());
+    let mut reader = sequence.read_frames(if learns { 0 } else { frames.start }..frames.end)?;
+    let mut progress = Progress::new("features", frames.len());
+    let mut features = Vec::new();
+    while let Some(set) = reader.next_frame()? {
+        if set.index < frames.start {
+            extractor.prime(&set.pictures)?;
+            continue;
+        }
+        extractor.extract_into(&set.pictures, &set.masks, &mut features)?;
+        let views = sequence.views.par_iter().zip(&set.pictures).zip(&features);
+        views.try_for_each(|((view, picture), features)| -> Result<()> {
+            let frame = set.index;
+            for (stage, picture) in features.pictures(picture) {
+                output.write(&format!("{}/{stage}_{frame:06}.png", view.camera), |writer| {
+                    Ok(picture.write_with_encoder(PngEncoder::new(writer))?)
+                })?;
+            }
+            let path = output.file(&format!("frame_{frame:06}/{}.png", view.camera))?;
+            features.observation.write_png(&path, Overwrite::Replace)
+        })?;
+        progress.advance();
+    }
+    drop(progress);
+    println!(
+        "wrote the features of {} frames in {} views to {}",
+        frames.len(),
+        sequence.views.len(),
+        output.path().display()
+    );
+    Ok(())
+}
