@@ -107,7 +107,7 @@ fn what_is_wrong_is_named() {
     for (features, frames, expected) in [
         ("features = { edges = { treshold = 5 } }", "0..2", "`treshold`, the nearest known key is `threshold`"),
         ("features = { edges = { dilate = 4 } }", "0..2", "edges.dilate is 4"),
-        ("", "2..9", "sequence of 4"),
+        ("", "2..9", "which has frames 0..4"),
         ("", "3..3", "expected A..B"),
     ] {
         write_sequence(folder.path(), features);

@@ -6,11 +6,11 @@ use anyhow::{Context, Result};
 use image::codecs::png::PngEncoder;
 use rayon::prelude::*;
 
-use super::frame_range::FrameRange;
 use super::progress::Progress;
 use crate::features::{Extractor, FeatureSettings, ViewSource};
 use crate::files::{OutputFolder, Overwrite};
 use crate::sequence::Sequence;
+use crate::track::FrameRange;
 
 /// Writes silhouettes, edges, distance maps and packed observations as PNG.
 ///
@@ -38,7 +38,7 @@ pub struct FeaturesArgs {
 /// When the sequence cannot be read, its `[features]` make no sense, or a picture cannot be written.
 pub fn run(args: &FeaturesArgs) -> Result<()> {
     let sequence = Sequence::open(&args.sequence)?;
-    let frames = args.frames.within(sequence.frame_count)?;
+    let frames = args.frames.within(sequence.frame_count, &sequence.path.display().to_string())?;
     let name = args.sequence.display().to_string();
     let settings = match &sequence.features {
         Some(table) => FeatureSettings::from_table(table, &name)?,

@@ -3,10 +3,12 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "this room is the one that talks to the user")]
 
 mod convert;
+mod evaluate;
 mod features;
-mod frame_range;
+mod objective_flags;
 mod progress;
 mod score;
+mod track;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -26,9 +28,13 @@ struct Arguments {
 enum Command {
     /// Convert a recording between C3D, TRC, BVH and CSV.
     Convert(convert::ConvertArgs),
+    /// Score given poses against one frame: components and fitness.
+    Evaluate(evaluate::EvaluateArgs),
     /// Measure the error of tracked points against a truth: per point, per frame, mean and standard deviation, mm.
     Score(score::ScoreArgs),
     Features(features::FeaturesArgs),
+    /// Track a person through a sequence of calibrated pictures.
+    Track(track::TrackArgs),
 }
 
 /// Runs the program on its arguments (the program's name first). Exit status: 0 done, 1 failed, 2 wrong usage.
@@ -53,7 +59,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 fn dispatch(command: Command) -> Result<()> {
     match command {
         Command::Convert(args) => convert::run(&args),
+        Command::Evaluate(args) => evaluate::run(&args),
         Command::Score(args) => score::run(&args),
         Command::Features(args) => features::run(&args),
+        Command::Track(args) => track::run(&args),
     }
 }

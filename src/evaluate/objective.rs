@@ -69,6 +69,12 @@ impl Objective {
         }
     }
 
+    /// f1 and f2 (SPEC A7) of one camera by itself.
+    pub fn view_terms(&self, view: &Components) -> [f32; 2] {
+        let sums = Sums::of(view);
+        [sums.silhouette(self.beta), sums.edge()]
+    }
+
     fn weighted_sum(&self, sums: &Sums) -> f32 {
         if sums.is_nothing() {
             return 0.0;
@@ -163,6 +169,8 @@ mod tests {
         ];
         for (kind, expected) in ObjectiveKind::ALL.into_iter().zip(expected) {
             let objective = Objective { kind, beta: 0.3, w1: 0.6, w2: 0.4 };
+            let [term1, term2] = objective.view_terms(&views()[1]).map(f64::from);
+            assert!((term1 - f1[1]).abs() < 1e-6 && (term2 - f2[1]).abs() < 1e-6, "{term1} {term2}");
             let found = f64::from(objective.fitness(&views()));
             assert!((found - expected).abs() < 1e-6, "{}: {found} is not {expected}", kind.name());
         }

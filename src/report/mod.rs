@@ -1,1 +1,11 @@
 //! What people look at: overlays, plots, the HTML page.
+
+mod html;
+mod overlay;
+mod plot;
+
+pub use html::{
+    CameraFrame, Headline, JointError, OverlayFrame, Player, ReportData, Skeleton, StageTime, page, write_page,
+};
+pub use overlay::{Canvas, OverlayPolygon, part_colour, side_by_side};
+pub use plot::{Series, bar_chart, line_chart};

@@ -1,1 +1,31 @@
-//! Tracking: one frame after the other from features through search to pose and confidence.
+//! Tracking: one frame in order (features, search, pose, confidence) and the drivers that take a sequence through it
+//! (SPEC A1, A8), with everything a track's folder holds (INTERFACES).
+//!
+//! [`track`] is the offline driver. [`score_poses`] scores given poses of one frame.
+
+mod backend;
+mod confidence;
+mod driver;
+mod feed;
+mod frame_range;
+mod journal;
+mod objective_choice;
+mod overlay;
+mod page;
+mod plan;
+mod results;
+mod run_record;
+mod scoring;
+mod settings;
+mod stages;
+mod truth;
+
+pub use backend::{Backend, BuiltBackend};
+pub use confidence::Confidence;
+pub use driver::{ErrorSummary, FrameDone, Progress, RunStart, Silent, TrackSummary, track};
+pub use frame_range::FrameRange;
+pub use journal::FrameResult;
+pub use objective_choice::ObjectiveChoice;
+pub use scoring::{ScoredFrame, score_poses, write_fitness};
+pub use settings::TrackSettings;
+pub use stages::StageSummary;

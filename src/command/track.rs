@@ -1,0 +1,218 @@
+//! `pantin track`.
+
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::objective_flags::ObjectiveFlags;
+use crate::files::{OutputFolder, Overwrite};
+use crate::search::{SearchKind, SearchSettings};
+use crate::sequence::Sequence;
+use crate::track::{Backend, FrameDone, FrameRange, Progress, RunStart, TrackSettings, TrackSummary, track};
+
+/// Tracks a person through a sequence: poses, joints and markers over time (CSV, TRC, C3D, BVH), how far they can be
+/// trusted, the model drawn over the pictures, and a report. A run that was stopped or killed goes on with --resume and
+/// ends with the same files. The same seed, inputs and backend give the same bytes.
+#[derive(clap::Args, Debug)]
+pub struct TrackArgs {
+    /// The sequence: its sequence.toml, or the folder that holds it.
+    #[arg(value_name = "SEQUENCE")]
+    sequence: PathBuf,
+    /// The folder for the results.
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Who scores the poses: auto, reference or cpu.
+    #[arg(long, value_name = "NAME", default_value = "auto", value_parser = Backend::from_name)]
+    backend: Backend,
+    /// Poses scored at once.
+    #[arg(long, value_name = "N", default_value_t = SearchSettings::default().particles)]
+    particles: usize,
+    /// Times that many poses are scored a frame.
+    #[arg(long, value_name = "K", default_value_t = SearchSettings::default().iterations)]
+    iterations: usize,
+    #[command(flatten)]
+    objective: ObjectiveFlags,
+    /// How poses are searched: pso (particle swarm) or pf (bootstrap particle filter).
+    #[arg(long, value_name = "NAME", default_value = "pso", value_parser = search_kind)]
+    search: SearchKind,
+    /// Seed of all random numbers.
+    #[arg(long, value_name = "S", default_value_t = SearchSettings::default().seed)]
+    seed: u64,
+    /// Factor on the width of the search round the previous pose (the body's steps, scaled to the time between frames).
+    #[arg(long, value_name = "F", default_value_t = 1.0)]
+    spread: f64,
+    /// Which frames: A..B without B, A.., or ..B; counted from 0.
+    #[arg(long, value_name = "A..B", default_value = "..")]
+    frames: FrameRange,
+    /// A poses.csv to start from instead of the sequence's: one row, or one whose frame is the first.
+    #[arg(long, value_name = "FILE")]
+    start: Option<PathBuf>,
+    /// Draw the model over the pictures every N frames; 0 for never.
+    #[arg(long, value_name = "N", default_value_t = TrackSettings::default().overlay_every)]
+    overlay_every: usize,
+    /// Go on with the run that the folder holds.
+    #[arg(long, conflicts_with = "force")]
+    resume: bool,
+    /// Replace what the folder holds.
+    #[arg(long)]
+    force: bool,
+}
+
+fn search_kind(name: &str) -> Result<SearchKind> {
+    match SearchKind::from_name(name) {
+        Some(kind) => Ok(kind),
+        None => bail!("there is no search `{name}`, expected one of {}", SearchKind::ALL.map(|k| k.name()).join(", ")),
+    }
+}
+
+impl TrackArgs {
+    fn settings(&self) -> TrackSettings {
+        TrackSettings {
+            backend: self.backend,
+            objective: self.objective.choice(),
+            search: SearchSettings {
+                kind: self.search,
+                particles: self.particles,
+                iterations: self.iterations,
+                seed: self.seed,
+                ..SearchSettings::default()
+            },
+            spread: self.spread,
+            frames: self.frames,
+            start: self.start.clone(),
+            overlay_every: self.overlay_every,
+            resume: self.resume,
+        }
+    }
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// As [`track`]; and when it was interrupted: the sentence says how to go on.
+pub fn run(args: &TrackArgs) -> Result<()> {
+    let settings = args.settings();
+    settings.check()?;
+    let sequence = Sequence::open(&args.sequence)?;
+    let output = if args.resume {
+        if !args.output.is_dir() {
+            bail!("there is no folder {} to resume a run in: leave out --resume", args.output.display());
+        }
+        OutputFolder::open(&args.output)?
+    } else {
+        OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?
+    };
+    let mut bar = TrackProgress::new()?;
+    let summary = track(&sequence, &settings, &output, &mut bar);
+    bar.clear();
+    let summary = summary?;
+    if let Some(next) = summary.stopped_before {
+        bail!(
+            "stopped before frame {next}, {} frames are safe in {}: run the same command with --resume to go on",
+            summary.frames.len(),
+            args.output.display()
+        );
+    }
+    print_summary(&summary, &args.output);
+    Ok(())
+}
+
+/// What the user sees when all is done.
+fn print_summary(summary: &TrackSummary, folder: &std::path::Path) {
+    for warning in &summary.warnings {
+        eprintln!("note: {warning}");
+    }
+    let [name, variant] = summary.backend;
+    println!("{} frames at {:.1} frames/s with {name} ({variant})", summary.frames.len(), summary.frames_per_second);
+    println!("fitness {:.3}, confidence {:.2} on average", summary.mean_fitness, summary.mean_confidence);
+    if let Some(error) = &summary.error {
+        let count = error.error.points.len();
+        println!("error {:.2} ± {:.2} mm over {count} {}", error.error.mean, error.error.std, error.compared);
+    }
+    if summary.new_frames > 0 {
+        let shares = summary.stages.iter().map(|stage| {
+            format!("{} {:.1} ms", stage.name, if stage.count > 0 { stage.total / stage.count as f64 } else { 0.0 })
+        });
+        println!("a frame: {}", shares.collect::<Vec<_>>().join(", "));
+    }
+    println!("results in {}, start with {}", folder.display(), folder.join("report.html").display());
+}
+
+/// A bar on a terminal, a line now and then elsewhere; and Ctrl-C.
+struct TrackProgress {
+    stop: Arc<AtomicBool>,
+    bar: Option<ProgressBar>,
+    begin: Instant,
+    last_line: Instant,
+    first: usize,
+    total: usize,
+}
+
+/// Between two plain lines.
+const LINE_INTERVAL: Duration = Duration::from_secs(10);
+
+impl TrackProgress {
+    fn new() -> Result<Self> {
+        let stop = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&stop);
+        ctrlc::set_handler(move || {
+            // A second Ctrl-C does not wait for the frame: the journal keeps those before.
+            if flag.swap(true, Ordering::SeqCst) {
+                std::process::exit(130);
+            }
+            eprintln!("stopping after this frame (again to stop at once)");
+        })
+        .context("cannot listen for Ctrl-C")?;
+        let now = Instant::now();
+        Ok(Self { stop, bar: None, begin: now, last_line: now, first: 0, total: 0 })
+    }
+
+    fn clear(&mut self) {
+        if let Some(bar) = self.bar.take() {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+impl Progress for TrackProgress {
+    fn start(&mut self, run: &RunStart) {
+        eprintln!("{}", run.backend);
+        if run.done > 0 {
+            eprintln!("going on from frame {}, {} of {} are done", run.first_frame + run.done, run.done, run.frames);
+        }
+        (self.first, self.total) = (run.done, run.frames);
+        (self.begin, self.last_line) = (Instant::now(), Instant::now());
+        if std::io::stderr().is_terminal() {
+            let bar = ProgressBar::new(run.frames as u64).with_position(run.done as u64);
+            bar.reset_eta();
+            if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} frames, {per_sec}, {eta} left  {msg}")
+            {
+                bar.set_style(style);
+            }
+            self.bar = Some(bar);
+        }
+    }
+
+    fn frame(&mut self, frame: &FrameDone) {
+        let error = frame.mean_error.map(|error| format!(", mean error {error:.1} mm")).unwrap_or_default();
+        let message = format!("fitness {:.3}, confidence {:.2}{error}", frame.fitness, frame.confidence);
+        if let Some(bar) = &self.bar {
+            bar.set_message(message);
+            bar.set_position(frame.done as u64);
+        } else if self.last_line.elapsed() >= LINE_INTERVAL {
+            self.last_line = Instant::now();
+            let each = self.begin.elapsed().as_secs_f64() / (frame.done - self.first).max(1) as f64;
+            let left = each * (self.total - frame.done) as f64;
+            eprintln!("frame {}, {}/{}, {left:.0} s left: {message}", frame.frame, frame.done, self.total);
+        }
+    }
+
+    fn should_stop(&self) -> bool {
+        self.stop.load(Ordering::SeqCst)
+    }
+}

@@ -1,0 +1,186 @@
+//! What the actor takes away from the light: shadows on himself and a soft one on the floor.
+
+use glam::{DVec2, DVec3};
+
+use super::solid::{PlacedSolid, Ray};
+
+/// Width of a bin in the plane across the light, mm.
+const BIN: f64 = 45.0;
+
+/// Solids sorted by where they stand in the light, to ask quickly whether a point is in their shadow.
+pub struct LightBins<'a> {
+    solids: &'a [PlacedSolid],
+    /// Towards the light, unit length.
+    to_light: DVec3,
+    across: [DVec3; 2],
+    origin: DVec2,
+    size: [usize; 2],
+    bins: Vec<Vec<u16>>,
+}
+
+impl<'a> LightBins<'a> {
+    /// Sorts the solids for parallel light from the direction `to_light`.
+    pub fn new(solids: &'a [PlacedSolid], to_light: DVec3) -> Self {
+        let across = to_light.any_orthonormal_pair();
+        let across = [across.0, across.1];
+        let flat = |p: DVec3| DVec2::new(p.dot(across[0]), p.dot(across[1]));
+        let boxes: Vec<(DVec2, DVec2)> = solids
+            .iter()
+            .map(|solid| {
+                let [(a, radius_a), (b, radius_b)] = solid.bounding_balls();
+                let (a, b) = (flat(a), flat(b));
+                ((a - radius_a).min(b - radius_b), (a + radius_a).max(b + radius_b))
+            })
+            .collect();
+        let origin = boxes.iter().map(|b| b.0).reduce(DVec2::min).unwrap_or_default();
+        let end = boxes.iter().map(|b| b.1).reduce(DVec2::max).unwrap_or_default();
+        let size = ((end - origin) / BIN).to_array().map(|extent| extent as usize + 1);
+        let mut bins = vec![Vec::new(); size[0] * size[1]];
+        for (index, (low, high)) in boxes.iter().enumerate() {
+            let (first, last) = ((*low - origin) / BIN, (*high - origin) / BIN);
+            for y in first.y as usize..=(last.y as usize).min(size[1] - 1) {
+                for x in first.x as usize..=(last.x as usize).min(size[0] - 1) {
+                    bins[y * size[0] + x].push(index as u16);
+                }
+            }
+        }
+        Self { solids, to_light, across, origin, size, bins }
+    }
+
+    /// Whether a solid stands between the point and the light.
+    pub fn in_shadow(&self, point: DVec3) -> bool {
+        let at = (DVec2::new(point.dot(self.across[0]), point.dot(self.across[1])) - self.origin) / BIN;
+        if at.x < 0.0 || at.y < 0.0 || at.x >= self.size[0] as f64 || at.y >= self.size[1] as f64 {
+            return false;
+        }
+        let ray = Ray { origin: point, direction: self.to_light };
+        let bin = &self.bins[at.y as usize * self.size[0] + at.x as usize];
+        bin.iter().any(|&index| self.solids[usize::from(index)].first_hit(&ray).is_some())
+    }
+}
+
+/// How much of the light reaches the floor round the actor: a grid of factors, 1 in the open.
+pub struct FloorShadow {
+    origin: DVec2,
+    side: usize,
+    /// (key light, light from all around) as fractions of the unshaded, row-major.
+    cells: Vec<[f32; 2]>,
+}
+
+/// Width of a cell on the floor, mm, and cells a side.
+const CELL: f64 = 22.0;
+const SIDE: usize = 130;
+
+impl FloorShadow {
+    /// The shadow of the solids in `bins`, in a square of the floor round `middle`.
+    pub fn new(bins: &LightBins, middle: DVec2) -> Self {
+        let origin = middle - 0.5 * CELL * SIDE as f64;
+        let at = |index: usize| origin + DVec2::new((index % SIDE) as f64 + 0.5, (index / SIDE) as f64 + 0.5) * CELL;
+        let mut key: Vec<f32> =
+            (0..SIDE * SIDE).map(|i| if bins.in_shadow(at(i).extend(0.0)) { 0.0 } else { 1.0 }).collect();
+        // A lamp of some width: three box blurs are nearly a bell.
+        for _ in 0..3 {
+            key = blurred(&blurred(&key, 1, SIDE), SIDE, 1);
+        }
+        let cells = key
+            .iter()
+            .enumerate()
+            .map(|(index, &key)| {
+                let point = at(index).extend(0.0);
+                let hidden: f64 = bins.solids.iter().map(|solid| hidden_sky(solid, point)).sum();
+                // The grid ends softly, so that its border cannot be seen.
+                let rim = (at(index) - middle).abs().max_element() / (0.5 * CELL * SIDE as f64);
+                let fade = ((1.0 - rim) * 6.0).clamp(0.0, 1.0);
+                [1.0 - (1.0 - key) * fade as f32, (1.0 - (hidden * fade).min(0.75)) as f32]
+            })
+            .collect();
+        Self { origin, side: SIDE, cells }
+    }
+
+    /// Fractions of (key light, light from all around) at a point of the floor.
+    pub fn at(&self, x: f64, y: f64) -> [f32; 2] {
+        let p = (DVec2::new(x, y) - self.origin) / CELL - 0.5;
+        let limit = (self.side - 1) as f64;
+        if !(p.x >= 0.0 && p.y >= 0.0 && p.x < limit && p.y < limit) {
+            return [1.0, 1.0];
+        }
+        let (i, j) = (p.x as usize, p.y as usize);
+        let (fx, fy) = ((p.x - i as f64) as f32, (p.y - j as f64) as f32);
+        let row = |j: usize, k: usize| {
+            let (a, b) = (self.cells[j * self.side + i][k], self.cells[j * self.side + i + 1][k]);
+            a + (b - a) * fx
+        };
+        [0, 1].map(|k| row(j, k) + (row(j + 1, k) - row(j, k)) * fy)
+    }
+}
+
+/// The fraction of the sky that a solid hides from a point of the floor, taking its two balls for it.
+fn hidden_sky(solid: &PlacedSolid, point: DVec3) -> f64 {
+    let [first, second] = solid.bounding_balls();
+    // A ball of radius r at distance d hides (r/d)^2 of the sky, weighted by the sine of its height.
+    let ball = |(centre, radius): (DVec3, f64)| {
+        let offset = centre - point;
+        let distance = offset.length().max(radius);
+        (radius / distance).powi(2) * (offset.z / distance).max(0.0)
+    };
+    // Solids overlap; counting each at a part of its weight keeps the sum right on the whole.
+    if first == second { 0.3 * ball(first) } else { 0.3 * (ball(first) + ball(second)) }
+}
+
+/// One pass of a box of 3 along a row (`step` 1, `across` side) or a column of a square grid; ends repeat.
+fn blurred(values: &[f32], step: usize, across: usize) -> Vec<f32> {
+    let side = SIDE;
+    let mut out = vec![0.0; values.len()];
+    for line in 0..side {
+        for i in 0..side {
+            let at = |k: usize| values[line * across + k.min(side - 1) * step];
+            out[line * across + i * step] = (at(i.saturating_sub(1)) + at(i) + at(i + 1)) / 3.0;
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DAffine3;
+
+    use super::*;
+    use crate::synth::solid::Solid;
+
+    fn ball(at: DVec3, radius: f64) -> PlacedSolid {
+        let map = DAffine3::from_scale_rotation_translation(DVec3::splat(radius), glam::DQuat::IDENTITY, at);
+        PlacedSolid::new(Solid::Ball, map)
+    }
+
+    #[test]
+    fn bins_answer_as_all_solids_do() {
+        let solids: Vec<PlacedSolid> = (0..30)
+            .map(|i| {
+                let i = f64::from(i);
+                ball(DVec3::new((i * 1.7).sin(), (i * 2.3).cos(), 1.2 + i.sin()) * 500.0, 60.0 + 4.0 * i)
+            })
+            .collect();
+        let to_light = DVec3::new(0.3, -0.4, 1.0).normalize();
+        let bins = LightBins::new(&solids, to_light);
+        let mut shaded = 0;
+        for i in 0..4000 {
+            let i = f64::from(i);
+            let point = DVec3::new((i * 0.71).sin() * 1500.0, (i * 0.37).cos() * 1500.0, 0.0);
+            let all = solids.iter().any(|s| s.first_hit(&Ray { origin: point, direction: to_light }).is_some());
+            assert_eq!(bins.in_shadow(point), all, "{point}");
+            shaded += usize::from(all);
+        }
+        assert!(shaded > 200 && shaded < 3800, "{shaded}");
+    }
+
+    #[test]
+    fn the_floor_is_darkest_under_the_ball_and_open_far_away() {
+        let solids = [ball(DVec3::new(100.0, 50.0, 150.0), 140.0)];
+        let bins = LightBins::new(&solids, DVec3::Z);
+        let shadow = FloorShadow::new(&bins, DVec2::new(100.0, 50.0));
+        assert!(shadow.at(100.0, 50.0)[0] < 0.01 && shadow.at(100.0, 50.0)[1] < 0.85);
+        assert!(shadow.at(400.0, 50.0)[0] > 0.99);
+        assert_eq!(shadow.at(9000.0, 0.0), [1.0, 1.0]);
+        assert_eq!(shadow.at(f64::NAN, 0.0), [1.0, 1.0]);
+    }
+}

@@ -1,0 +1,107 @@
+//! The evaluators by name, and which one `auto` takes.
+
+use anyhow::{Result, bail};
+
+use crate::body::Body;
+use crate::evaluate::cpu::Cpu;
+use crate::evaluate::{Evaluator, Reference};
+use crate::geometry::Camera;
+
+/// An evaluator as `--backend` names it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Backend {
+    /// The fastest one that works on this machine.
+    #[default]
+    Auto,
+    /// The simplest code that is obviously right; slow.
+    Reference,
+    /// The fast one on the processor.
+    Cpu,
+}
+
+/// An evaluator and why it was taken.
+pub struct BuiltBackend {
+    /// The evaluator.
+    pub evaluator: Box<dyn Evaluator>,
+    /// A sentence for the user.
+    pub reason: String,
+}
+
+impl Backend {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Auto, Self::Reference, Self::Cpu];
+
+    /// The name as `--backend` takes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Reference => "reference",
+            Self::Cpu => "cpu",
+        }
+    }
+
+    /// The backend of that name.
+    ///
+    /// # Errors
+    /// When there is none; the sentence names those there are.
+    pub fn from_name(name: &str) -> Result<Self> {
+        match Self::ALL.into_iter().find(|backend| backend.name() == name) {
+            Some(backend) => Ok(backend),
+            None => bail!("there is no backend `{name}`, expected one of {}", Self::ALL.map(Self::name).join(", ")),
+        }
+    }
+
+    /// Makes the evaluator for a body and its cameras at working size. Every backend gives the same integers, so which
+    /// one it is changes the time alone.
+    ///
+    /// # Errors
+    /// When there is no camera, no degree of freedom, or the evaluator cannot be made.
+    pub fn build(self, body: &Body, cameras: &[Camera]) -> Result<BuiltBackend> {
+        if cameras.is_empty() {
+            bail!("there are no cameras, expected at least one to compare poses with");
+        }
+        if body.dof_count() == 0 {
+            bail!("the body `{}` has no degree of freedom, expected at least one to move", body.name);
+        }
+        Ok(match self {
+            Self::Reference => BuiltBackend {
+                evaluator: Box::new(Reference::new(body, cameras)),
+                reason: "the reference evaluator, as asked".to_string(),
+            },
+            Self::Cpu => {
+                let cpu = Cpu::new(body, cameras)?;
+                let reason = format!("the processor with {} instructions, as asked", cpu.variant());
+                BuiltBackend { evaluator: Box::new(cpu), reason }
+            }
+            Self::Auto => {
+                let cpu = Cpu::new(body, cameras)?;
+                let reason = format!(
+                    "auto chose cpu: the fastest evaluator of this build, with {} instructions, the best this processor has",
+                    cpu.variant()
+                );
+                BuiltBackend { evaluator: Box::new(cpu), reason }
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_backend_names_the_known_ones() {
+        let error = Backend::from_name("cuda").unwrap_err().to_string();
+        assert_eq!(error, "there is no backend `cuda`, expected one of auto, reference, cpu");
+        for backend in Backend::ALL {
+            assert_eq!(Backend::from_name(backend.name()).unwrap(), backend);
+        }
+    }
+
+    #[test]
+    fn auto_says_what_it_chose() {
+        let body = Body::adult(1750.0).unwrap();
+        let error = Backend::Auto.build(&body, &[]).err().unwrap().to_string();
+        assert!(error.contains("no cameras"), "{error}");
+    }
+}

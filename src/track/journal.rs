@@ -1,0 +1,227 @@
+//! The journal of a run: what each frame yielded, bit for bit, appended a frame at a time. A run that is killed loses at
+//! most the frame in work, and one that goes on from here ends with the same bytes as one that was never stopped.
+
+use std::fs::{File, OpenOptions};
+use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail, ensure};
+
+/// What a frame's search found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameResult {
+    /// Index of the frame in the sequence, from 0.
+    pub frame: usize,
+    /// The pose: mm, radians, in state-vector order.
+    pub pose: Vec<f32>,
+    /// Its fitness, in [0, 1].
+    pub fitness: f32,
+    /// Standard deviation of the candidates behind it, one a degree of freedom: mm, radians.
+    pub spread: Vec<f32>,
+    /// f1 and f2 (SPEC A7) of each view.
+    pub views: Vec<[f32; 2]>,
+}
+
+impl FrameResult {
+    /// A line of the journal: the frame, the bits of every number in hexadecimal, a checksum of all that.
+    fn to_line(&self) -> String {
+        let mut line = format!("{} {:08x}", self.frame, self.fitness.to_bits());
+        for value in self.pose.iter().chain(&self.spread).chain(self.views.as_flattened()) {
+            line.push_str(&format!(" {:08x}", value.to_bits()));
+        }
+        let sum = checksum(line.as_bytes());
+        line.push_str(&format!(" {sum:016x}\n"));
+        line
+    }
+
+    /// The inverse; `None` for anything that [`Self::to_line`] does not write.
+    fn from_line(line: &str, dof_count: usize, view_count: usize) -> Option<Self> {
+        let (values, sum) = line.rsplit_once(' ')?;
+        if u64::from_str_radix(sum, 16).ok()? != checksum(values.as_bytes()) {
+            return None;
+        }
+        let mut words = values.split(' ');
+        let frame = words.next()?.parse().ok()?;
+        let bits: Option<Vec<f32>> =
+            words.map(|word| Some(f32::from_bits(u32::from_str_radix(word, 16).ok()?))).collect();
+        let bits = bits?;
+        if bits.len() != 1 + 2 * dof_count + 2 * view_count {
+            return None;
+        }
+        let (pose, rest) = bits[1..].split_at(dof_count);
+        let (spread, views) = rest.split_at(dof_count);
+        Some(Self {
+            frame,
+            fitness: bits[0],
+            pose: pose.to_vec(),
+            spread: spread.to_vec(),
+            views: views.as_chunks().0.to_vec(),
+        })
+    }
+}
+
+/// FNV-1a, 64 bits: enough to tell a line that was written whole from one that was not.
+pub(super) fn checksum(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+/// The open journal of a run.
+#[derive(Debug)]
+pub(super) struct Journal {
+    path: PathBuf,
+    file: File,
+}
+
+impl Journal {
+    /// Its name in a track's folder.
+    pub(super) const NAME: &'static str = "journal.txt";
+
+    /// Starts an empty journal.
+    pub(super) fn create(path: &Path) -> Result<Self> {
+        let file = File::create(path).with_context(|| format!("cannot write {}", path.display()))?;
+        Ok(Self { path: path.to_path_buf(), file })
+    }
+
+    /// Opens the journal of an earlier run, which tracked from frame `first` on, and yields its frames. A last line that
+    /// was not written whole is cut off; a missing file is an empty journal.
+    ///
+    /// # Errors
+    /// When a line before the last is damaged, frames do not follow each other, or the file cannot be used.
+    pub(super) fn resume(
+        path: &Path,
+        first: usize,
+        dof_count: usize,
+        view_count: usize,
+    ) -> Result<(Self, Vec<FrameResult>)> {
+        let cannot = || format!("cannot read {}", path.display());
+        let mut file =
+            OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path).with_context(cannot)?;
+        let mut reader = BufReader::new(&file);
+        let mut results: Vec<FrameResult> = Vec::new();
+        let mut whole = 0;
+        let mut line = Vec::new();
+        loop {
+            line.clear();
+            if reader.read_until(b'\n', &mut line).with_context(cannot)? == 0 {
+                break;
+            }
+            let number = results.len() + 1;
+            let text = std::str::from_utf8(&line).ok().and_then(|line| line.strip_suffix('\n'));
+            let Some(result) = text.and_then(|text| FrameResult::from_line(text, dof_count, view_count)) else {
+                let is_last = reader.fill_buf().with_context(cannot)?.is_empty();
+                ensure!(
+                    is_last,
+                    "{}, line {number}: it is damaged, expected a frame's result; track again with --force",
+                    path.display()
+                );
+                break;
+            };
+            let expected = first + results.len();
+            if result.frame != expected {
+                bail!("{}, line {number}: it is of frame {}, expected {expected}", path.display(), result.frame);
+            }
+            whole += line.len() as u64;
+            results.push(result);
+        }
+        file.set_len(whole).with_context(cannot)?;
+        file.seek(SeekFrom::End(0)).with_context(cannot)?;
+        Ok((Self { path: path.to_path_buf(), file }, results))
+    }
+
+    /// Adds a frame; after this it survives whatever happens to the process.
+    ///
+    /// # Errors
+    /// When it cannot be written (a full disk, say). What was there before stays.
+    pub(super) fn append(&mut self, result: &FrameResult) -> Result<()> {
+        // One write of a whole line to the file itself: nothing waits in a buffer of ours.
+        self.file.write_all(result.to_line().as_bytes()).with_context(|| {
+            format!("cannot write frame {} to {}; the frames before it are safe", result.frame, self.path.display())
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn result(frame: usize) -> FrameResult {
+        let at = frame as f32;
+        FrameResult {
+            frame,
+            pose: vec![0.1 + at, -0.0, f32::MIN_POSITIVE / 2.0],
+            fitness: 0.1 * at,
+            spread: vec![1.0 / 3.0, 0.0, 7.0],
+            views: vec![[0.5, 0.25], [at, 1.0]],
+        }
+    }
+
+    fn written(frames: std::ops::Range<usize>) -> (tempfile::TempDir, PathBuf) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(Journal::NAME);
+        let mut journal = Journal::create(&path).unwrap();
+        frames.for_each(|frame| journal.append(&result(frame)).unwrap());
+        (folder, path)
+    }
+
+    #[test]
+    fn every_bit_comes_back() {
+        let (_folder, path) = written(4..9);
+        let (_, results) = Journal::resume(&path, 4, 3, 2).unwrap();
+        let bits = |r: &FrameResult| -> Vec<u32> {
+            r.pose.iter().chain(&r.spread).chain(r.views.as_flattened()).map(|v| v.to_bits()).collect()
+        };
+        assert_eq!(results.len(), 5);
+        for (at, found) in results.iter().enumerate() {
+            assert_eq!(bits(found), bits(&result(4 + at)));
+        }
+    }
+
+    #[test]
+    fn a_cut_at_any_byte_loses_one_frame() {
+        let (_folder, path) = written(0..3);
+        let all = std::fs::read(&path).unwrap();
+        for length in 0..all.len() {
+            std::fs::write(&path, &all[..length]).unwrap();
+            let (mut journal, results) = Journal::resume(&path, 0, 3, 2).unwrap();
+            let whole = all[..length].iter().filter(|byte| **byte == b'\n').count();
+            assert_eq!(results.len(), whole, "cut at {length}");
+            (results.len()..3).for_each(|frame| journal.append(&result(frame)).unwrap());
+            assert_eq!(std::fs::read(&path).unwrap(), all, "cut at {length}");
+        }
+    }
+
+    #[test]
+    fn damage_is_named() {
+        let (_folder, path) = written(0..3);
+        let mut bytes = std::fs::read(&path).unwrap();
+        bytes[12] ^= 1;
+        std::fs::write(&path, &bytes).unwrap();
+        let error = Journal::resume(&path, 0, 3, 2).unwrap_err().to_string();
+        assert!(error.contains("journal.txt, line 1: it is damaged"), "{error}");
+        let (_folder, path) = written(2..3);
+        let error = Journal::resume(&path, 0, 3, 2).unwrap_err().to_string();
+        assert!(error.contains("line 1: it is of frame 2, expected 0"), "{error}");
+    }
+
+    #[test]
+    fn a_full_disk_is_one_sentence() {
+        if !Path::new("/dev/full").exists() {
+            return;
+        }
+        let mut journal = Journal::create(Path::new("/dev/full")).unwrap();
+        let error = format!("{:#}", journal.append(&result(7)).unwrap_err());
+        assert!(error.contains("cannot write frame 7 to /dev/full") && error.contains("No space"), "{error}");
+    }
+
+    proptest! {
+        #[test]
+        fn no_bytes_panic(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("j");
+            std::fs::write(&path, bytes).unwrap();
+            let _ = Journal::resume(&path, 0, 3, 2);
+        }
+    }
+}

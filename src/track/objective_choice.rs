@@ -1,0 +1,122 @@
+//! Which objective function: the defaults, a sequence's `[objective]` table over them, the command line over both.
+
+use anyhow::{Context, Result, bail, ensure};
+use serde::Deserialize;
+
+use crate::evaluate::{Objective, ObjectiveKind};
+use crate::files::parse_table;
+
+/// What is asked of the objective; `None` leaves a value as it is.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ObjectiveChoice {
+    /// `ws`, `sp`, `aows`, `aosp` or `posp`.
+    pub kind: Option<String>,
+    /// Share of "observed silhouette covered", in [0, 1].
+    pub beta: Option<f32>,
+    /// Weight or exponent of the silhouette term.
+    pub w1: Option<f32>,
+    /// Weight or exponent of the edge term.
+    pub w2: Option<f32>,
+}
+
+impl ObjectiveChoice {
+    /// The objective: this choice over the `[objective]` table of a sequence (`name` stands for its file in messages)
+    /// over the defaults.
+    ///
+    /// # Errors
+    /// An unknown key or kind, a value of the wrong type or one that makes no sense (SPEC A7: weights of a sum are in
+    /// [0, 1] and sum to 1, exponents of a product in (0, 1]).
+    pub fn resolve(&self, table: Option<&toml::Table>, name: &str) -> Result<Objective> {
+        let mut objective = Objective::default();
+        if let Some(table) = table {
+            let place = format!("{name}, table [objective]");
+            let written: Self = parse_table(table, &place)?;
+            written.put_into(&mut objective).context(place)?;
+        }
+        self.put_into(&mut objective)?;
+        check(&objective)?;
+        Ok(objective)
+    }
+
+    fn put_into(&self, objective: &mut Objective) -> Result<()> {
+        if let Some(kind) = &self.kind {
+            objective.kind = kind_from_name(kind)?;
+        }
+        for (value, target) in
+            [(self.beta, &mut objective.beta), (self.w1, &mut objective.w1), (self.w2, &mut objective.w2)]
+        {
+            *target = value.unwrap_or(*target);
+        }
+        Ok(())
+    }
+}
+
+/// The kind of that name.
+fn kind_from_name(name: &str) -> Result<ObjectiveKind> {
+    match ObjectiveKind::ALL.into_iter().find(|kind| kind.name() == name) {
+        Some(kind) => Ok(kind),
+        None => {
+            bail!("there is no objective `{name}`, expected one of {}", ObjectiveKind::ALL.map(|k| k.name()).join(", "))
+        }
+    }
+}
+
+fn check(objective: &Objective) -> Result<()> {
+    let Objective { kind, beta, w1, w2 } = *objective;
+    ensure!((0.0..=1.0).contains(&beta), "the objective's beta is {beta}, expected 0 to 1");
+    let is_sum = matches!(kind, ObjectiveKind::Ws | ObjectiveKind::Aows);
+    for (name, weight) in [("w1", w1), ("w2", w2)] {
+        let (fits, expected) = if is_sum {
+            ((0.0..=1.0).contains(&weight), "a weight from 0 to 1")
+        } else {
+            (weight > 0.0 && weight <= 1.0, "an exponent over 0 and up to 1")
+        };
+        ensure!(fits, "{name} of the objective {} is {weight}, expected {expected}", kind.name());
+    }
+    if is_sum {
+        ensure!(
+            (w1 + w2 - 1.0).abs() < 1e-4,
+            "w1 and w2 of the objective {} are {w1} and {w2}, expected a sum of 1",
+            kind.name()
+        );
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn resolve(flags: &str, table: &str) -> Result<Objective> {
+        let flags: ObjectiveChoice = toml::from_str(flags).unwrap();
+        flags.resolve(Some(&table.parse().unwrap()), "sequence.toml")
+    }
+
+    #[test]
+    fn flags_win_over_the_table_over_the_defaults() {
+        let objective = resolve("kind = 'aows'\nw1 = 0.4", "kind = 'ws'\nbeta = 0.25\nw1 = 0.6\nw2 = 0.6").unwrap();
+        assert_eq!(objective, Objective { kind: ObjectiveKind::Aows, beta: 0.25, w1: 0.4, w2: 0.6 });
+        assert_eq!(ObjectiveChoice::default().resolve(None, "s").unwrap(), Objective::default());
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_named() {
+        for (flags, table, sentences) in [
+            ("kind = 'best'", "", &["no objective `best`", "ws, sp, aows, aosp, posp"][..]),
+            ("", "kind = 'best'", &["sequence.toml, table [objective]", "`best`"]),
+            ("", "bata = 1.0", &["`bata`", "`beta`"]),
+            ("", "beta = 'half'", &["sequence.toml", "string"]),
+            ("beta = 1.5", "", &["beta is 1.5", "0 to 1"]),
+            ("beta = nan", "", &["beta is NaN"]),
+            ("w1 = 0.0", "", &["w1 of the objective sp is 0", "over 0"]),
+            ("kind = 'ws'\nw1 = 0.9", "", &["0.9 and 0.5", "sum of 1"]),
+            ("w2 = inf", "", &["w2 of the objective sp is inf"]),
+        ] {
+            let error = format!("{:#}", resolve(flags, table).unwrap_err());
+            for sentence in sentences {
+                assert!(error.contains(sentence), "`{error}` lacks `{sentence}`");
+            }
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! The estimated model drawn over what the cameras saw.
+
+use anyhow::Result;
+use glam::DVec2;
+use image::RgbImage;
+use image::codecs::jpeg::JpegEncoder;
+
+use crate::body::Body;
+use crate::evaluate::Projector;
+use crate::files::OutputFolder;
+use crate::geometry::Camera;
+use crate::report::{Canvas, OverlayPolygon, part_colour};
+
+/// The folder of a track's overlays.
+pub(super) const FOLDER: &str = "overlay";
+const QUALITY: u8 = 88;
+const OPACITY: f64 = 0.35;
+
+/// Draws poses of a body over the pictures of its cameras.
+pub(super) struct Overlay<'a> {
+    body: &'a Body,
+    cameras: &'a [Camera],
+    projector: Projector,
+}
+
+impl<'a> Overlay<'a> {
+    pub(super) fn new(body: &'a Body, cameras: &'a [Camera]) -> Self {
+        Self { body, cameras, projector: Projector::new(body, cameras) }
+    }
+
+    /// The picture of a view with the parts, nearer over farther, and the skeleton on it.
+    pub(super) fn draw(&self, picture: &RgbImage, view: usize, pose: &[f32]) -> Result<RgbImage> {
+        let mut canvas = Canvas::new(picture, 1.0);
+        let quads = self.projector.quads(pose, view);
+        let mut farthest_first: Vec<usize> = (0..quads.len()).filter(|&part| quads[part].drawn).collect();
+        farthest_first.sort_by(|&l, &r| quads[r].depth_squared.total_cmp(&quads[l].depth_squared));
+        for index in farthest_first {
+            let part = &self.body.parts[index];
+            let corners = quads[index].corners.map(|[x, y]| DVec2::new(f64::from(x), f64::from(y)) / 256.0);
+            canvas.polygon(&OverlayPolygon { corners, colour: part_colour(&part.name, part.label) }, OPACITY);
+        }
+        let values: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
+        canvas.skeleton(&self.bones(view, &values)?);
+        Ok(canvas.into_picture())
+    }
+
+    /// Lines from every joint to its parent, in pixels.
+    fn bones(&self, view: usize, pose: &[f64]) -> Result<Vec<[DVec2; 2]>> {
+        let joints = self.body.joint_positions(&self.body.world_from_bones(pose)?);
+        let camera = &self.cameras[view];
+        let lines = joint_lines(self.body).into_iter();
+        Ok(lines.filter_map(|[a, b]| Some([camera.project(joints[a])?, camera.project(joints[b])?])).collect())
+    }
+
+    /// Writes the overlays of a frame, one a view.
+    pub(super) fn write(&self, output: &OutputFolder, frame: usize, pictures: &[RgbImage], pose: &[f32]) -> Result<()> {
+        for (view, picture) in pictures.iter().enumerate() {
+            let drawn = self.draw(picture, view, pose)?;
+            output.write(&file_name(&self.cameras[view].name, frame), |writer| {
+                Ok(JpegEncoder::new_with_quality(writer, QUALITY).encode_image(&drawn)?)
+            })?;
+        }
+        Ok(())
+    }
+}
+
+/// `overlay/<camera>_%06d.jpg`. A camera may carry any name, a file may not.
+pub(super) fn file_name(camera: &str, frame: usize) -> String {
+    format!("{FOLDER}/{}_{frame:06}.jpg", file_stem(camera))
+}
+
+/// A camera's name with what no file name can hold replaced.
+pub(super) fn file_stem(camera: &str) -> String {
+    camera.chars().map(|c| if c.is_control() || "/\\:*?\"<>|".contains(c) { '_' } else { c }).collect()
+}
+
+/// Pairs of joints (indices of [`Body::joint_names`]) that a line is drawn between: a bone and its parent, a free end and
+/// its bone.
+pub(super) fn joint_lines(body: &Body) -> Vec<[usize; 2]> {
+    let bones = body.bones.iter().enumerate().filter_map(|(index, bone)| Some([bone.parent?, index]));
+    let ends = body.free_ends().into_iter().enumerate().map(|(end, at)| [at.bone, body.bones.len() + end]);
+    bones.chain(ends).collect()
+}

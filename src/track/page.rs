@@ -1,0 +1,172 @@
+//! The report of a track: report.html.
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use glam::DVec2;
+use image::RgbImage;
+
+use super::confidence::Confidence;
+use super::overlay::{file_name, joint_lines};
+use super::results::pose_table;
+use super::truth::{Compared, Truth};
+use super::{FrameResult, TrackSummary};
+use crate::body::Body;
+use crate::files::{OutputFolder, Overwrite};
+use crate::geometry::Camera;
+use crate::motion::PointTrajectory;
+use crate::report::{
+    CameraFrame, Headline, JointError, OverlayFrame, Player, ReportData, Series, Skeleton, StageTime, write_page,
+};
+use crate::sequence::Sequence;
+
+/// Overlays that a page holds at most, in frames: more would make it heavy.
+const OVERLAY_FRAMES: usize = 12;
+const BLUE: [u8; 3] = [31, 111, 178];
+const ORANGE: [u8; 3] = [217, 119, 6];
+const GREEN: [u8; 3] = [22, 140, 90];
+
+/// Writes report.html; `settings` are names and values.
+pub(super) fn write_report(
+    output: &OutputFolder,
+    sequence: &Sequence,
+    body: &Body,
+    summary: &TrackSummary,
+    truth: Option<&Truth>,
+    settings: Vec<(String, String)>,
+) -> Result<()> {
+    let frames = &summary.frames;
+    let joints = body.joint_trajectory(&pose_table(frames), sequence.fps)?;
+    let mut data = ReportData {
+        title: sequence.name.clone(),
+        subtitle: format!(
+            "{} frames from {} at {} frames/s, {} cameras, tracked with {} ({})",
+            frames.len(),
+            summary.first_frame,
+            sequence.fps,
+            sequence.cameras.len(),
+            summary.backend[0],
+            summary.backend[1]
+        ),
+        headlines: headlines(summary),
+        warnings: summary.warnings.clone(),
+        first_frame: summary.first_frame,
+        fitness_per_frame: fitness_curves(body, frames),
+        overlays: overlays(output.path(), &sequence.cameras, frames)?,
+        player: Some(player(sequence, body, &joints, truth)),
+        settings,
+        ..ReportData::default()
+    };
+    if let Some(error) = &summary.error {
+        let mut values = vec![None; frames.len()];
+        for frame in &error.error.frames {
+            if let Some(value) = values.get_mut(frame.frame.wrapping_sub(summary.first_frame)) {
+                *value = frame.mean;
+            }
+        }
+        let name = format!("mean over the {}", error.compared);
+        data.errors_per_frame = vec![Series { name, colour: BLUE, values }];
+        let points = error.error.points.iter();
+        data.joint_errors = points
+            .map(|p| JointError { name: p.name.clone(), mean: p.mean, deviation: p.std, largest: p.max })
+            .collect();
+    }
+    let per_frame = |total: f64, count: u64| if count > 0 { total / count as f64 } else { 0.0 };
+    let stages = summary.stages.iter();
+    data.stages = stages.map(|s| StageTime { name: s.name.clone(), ms: per_frame(s.total, s.count) }).collect();
+    write_page(&output.file("report.html")?, &data, Overwrite::Replace)
+}
+
+fn headlines(summary: &TrackSummary) -> Vec<Headline> {
+    let headline = |value: String, label: &str| Headline { value, label: label.to_string() };
+    let mut all = Vec::new();
+    if let Some(error) = &summary.error {
+        all.push(headline(format!("{:.1} mm", error.error.mean), &format!("mean error of the {}", error.compared)));
+    }
+    all.push(headline(format!("{:.3}", summary.mean_fitness), "mean fitness"));
+    all.push(headline(format!("{:.2}", summary.mean_confidence), "mean confidence"));
+    if summary.new_frames > 0 {
+        all.push(headline(format!("{:.1}", summary.frames_per_second), "frames a second"));
+    }
+    all
+}
+
+fn fitness_curves(body: &Body, frames: &[FrameResult]) -> Vec<Series> {
+    let mut confidence = Confidence::new(body);
+    let curve = |name: &str, colour, values: Vec<f64>| Series {
+        name: name.to_string(),
+        colour,
+        values: values.into_iter().map(Some).collect(),
+    };
+    let mean_f1 = |result: &FrameResult| {
+        result.views.iter().map(|view| f64::from(view[0])).sum::<f64>() / result.views.len().max(1) as f64
+    };
+    vec![
+        curve("fitness", BLUE, frames.iter().map(|result| f64::from(result.fitness)).collect()),
+        curve("silhouette (mean f1)", GREEN, frames.iter().map(mean_f1).collect()),
+        curve("confidence", ORANGE, frames.iter().map(|result| confidence.next(result).confidence).collect()),
+    ]
+}
+
+/// Overlays of frames evenly over the track, read back from the folder: an earlier run may have drawn them.
+fn overlays(folder: &Path, cameras: &[Camera], frames: &[FrameResult]) -> Result<Vec<OverlayFrame>> {
+    let Some(first) = cameras.first() else { return Ok(Vec::new()) };
+    let there: Vec<usize> = frames
+        .iter()
+        .map(|result| result.frame)
+        .filter(|frame| folder.join(file_name(&first.name, *frame)).is_file())
+        .collect();
+    let count = there.len().min(OVERLAY_FRAMES);
+    let mut chosen = Vec::with_capacity(count);
+    for index in 0..count {
+        // The first, the last, and equal steps between.
+        let frame = there[index * (there.len() - 1) / (count - 1).max(1)];
+        let mut views: Vec<(String, RgbImage)> = Vec::new();
+        for camera in cameras {
+            let path = folder.join(file_name(&camera.name, frame));
+            if path.is_file() {
+                let picture = image::open(&path).with_context(|| format!("cannot read {}", path.display()))?;
+                views.push((camera.name.clone(), picture.into_rgb8()));
+            }
+        }
+        chosen.push(OverlayFrame { frame, views });
+    }
+    Ok(chosen)
+}
+
+fn player(sequence: &Sequence, body: &Body, joints: &PointTrajectory, truth: Option<&Truth>) -> Player {
+    let lines = joint_lines(body);
+    let mut skeletons =
+        vec![Skeleton { name: "tracked".to_string(), bones: lines.clone(), frames: joints.frames.clone() }];
+    if let Some(truth) = truth {
+        skeletons.extend(true_skeleton(body, joints, truth, &lines));
+    }
+    Player { fps: sequence.fps, skeletons, cameras: sequence.cameras.iter().filter_map(camera_frame).collect() }
+}
+
+/// The truth with lines between the joints that it has under our names; markers have no lines to draw.
+fn true_skeleton(body: &Body, joints: &PointTrajectory, truth: &Truth, lines: &[[usize; 2]]) -> Option<Skeleton> {
+    let points = truth.points();
+    if truth.compared != Compared::Joints || points.rate > 0.0 && (points.rate - joints.rate).abs() > 1e-3 * joints.rate
+    {
+        return None;
+    }
+    let columns: Vec<Option<usize>> = body.joint_names().iter().map(|name| points.column(name)).collect();
+    let row = |frame: usize| frame.checked_sub(points.first_frame).and_then(|row| points.frames.get(row));
+    let frames = (0..joints.frames.len()).map(|at| {
+        let row = row(joints.first_frame + at);
+        columns.iter().map(|column| *row?.get((*column)?)?).collect()
+    });
+    Some(Skeleton { name: "reference".to_string(), bones: lines.to_vec(), frames: frames.collect() })
+}
+
+/// A camera with the directions of its picture's corners; none where its lens has no ray for one.
+fn camera_frame(camera: &Camera) -> Option<CameraFrame> {
+    let [width, height] = camera.size.map(f64::from);
+    let corner = |x: f64, y: f64| Some(camera.ray(DVec2::new(x * width - 0.5, y * height - 0.5))?.1);
+    Some(CameraFrame {
+        name: camera.name.clone(),
+        centre: camera.centre_in_world(),
+        corners: [corner(0.0, 0.0)?, corner(1.0, 0.0)?, corner(1.0, 1.0)?, corner(0.0, 1.0)?],
+    })
+}

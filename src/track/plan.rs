@@ -1,0 +1,103 @@
+//! A run prepared: everything it needs read and checked before anything is written.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+
+use super::feed::learns_background;
+use super::{BuiltBackend, TrackSettings};
+use crate::body::{Body, PoseTable};
+use crate::evaluate::Objective;
+use crate::features::FeatureSettings;
+use crate::search::{Search, SearchSpace};
+use crate::sequence::Sequence;
+
+/// The time the start pose is taken to be old, s: a pose set by hand is no nearer than one of a video of 25 frames/s.
+const START_AGE: f64 = 1.0 / 25.0;
+
+/// A run prepared.
+pub(super) struct Plan {
+    pub(super) body: Body,
+    pub(super) range: Range<usize>,
+    /// The pose the first frame's search starts round: mm, radians.
+    pub(super) start: Vec<f32>,
+    pub(super) start_path: PathBuf,
+    pub(super) objective: Objective,
+    pub(super) features: FeatureSettings,
+    pub(super) backend: BuiltBackend,
+    pub(super) search: Box<dyn Search>,
+    space: SearchSpace,
+    fps: f64,
+    spread: f64,
+}
+
+impl Plan {
+    pub(super) fn new(sequence: &Sequence, settings: &TrackSettings) -> Result<Self> {
+        settings.check()?;
+        let name = sequence.path.display().to_string();
+        let range = settings.frames.within(sequence.frame_count, &name)?;
+        // Frames are counters of the random numbers.
+        u32::try_from(range.end).map_err(|_| anyhow::anyhow!("{name} has {} frames, too many", range.end))?;
+        let body = Body::load(&sequence.body)?;
+        let objective = settings.objective.resolve(sequence.objective.as_ref(), &name)?;
+        let features = feature_settings(sequence)?;
+        learns_background(sequence, &range)?;
+        let Some(start_path) = settings.start.clone().or_else(|| sequence.start.clone()) else {
+            bail!("{name} names no start pose, expected a poses.csv as `start` there or as --start");
+        };
+        let start = start_pose(&start_path, &body, range.start)?;
+        let space = SearchSpace::of(&body)?;
+        let mut start: Vec<f32> = start.into_iter().map(|value| value as f32).collect();
+        // Rounding to single precision may have left the limits by a hair.
+        space.clamp(&mut start);
+        let search = settings.search.build(&space)?;
+        let backend = settings.backend.build(&body, &sequence.cameras)?;
+        Ok(Self {
+            range,
+            start,
+            start_path,
+            objective,
+            features,
+            backend,
+            search,
+            space,
+            fps: sequence.fps,
+            spread: settings.spread,
+            body,
+        })
+    }
+
+    /// Standard deviation to start a frame's search with.
+    pub(super) fn spread(&self, is_first_frame: bool) -> Result<Vec<f32>> {
+        let interval = 1.0 / self.fps;
+        self.space.spread(self.spread * if is_first_frame { interval.max(START_AGE) } else { interval })
+    }
+}
+
+/// The feature settings of a sequence: its `[features]` table over the defaults.
+pub(super) fn feature_settings(sequence: &Sequence) -> Result<FeatureSettings> {
+    let table = sequence.features.as_ref();
+    let name = sequence.path.display().to_string();
+    Ok(table.map(|table| FeatureSettings::from_table(table, &name)).transpose()?.unwrap_or_default())
+}
+
+/// The pose to start with: the file's only one, or that of the first frame.
+fn start_pose(path: &Path, body: &Body, first: usize) -> Result<Vec<f64>> {
+    let mut table = PoseTable::read(path, body)?;
+    let row = if table.poses.len() == 1 {
+        0
+    } else {
+        let Some(row) = table.frames.iter().position(|frame| *frame == first) else {
+            bail!(
+                "{} holds {} poses, none of frame {first}, expected one pose or one of that frame to start with",
+                path.display(),
+                table.poses.len()
+            );
+        };
+        row
+    };
+    let pose = table.poses.swap_remove(row);
+    body.check_limits(&pose).with_context(|| format!("{}: the start pose", path.display()))?;
+    Ok(pose)
+}

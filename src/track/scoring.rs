@@ -1,0 +1,195 @@
+//! Given poses against one frame: components and fitness, and the candidate images they come from.
+
+use std::io::Write;
+use std::path::Path;
+
+use anyhow::{Result, bail, ensure};
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+
+use super::Backend;
+use super::feed::Feed;
+use super::overlay::file_stem;
+use super::plan::feature_settings;
+use crate::body::{Body, PoseTable};
+use crate::evaluate::{Components, Evaluator, Objective, Reference};
+use crate::features::Observation;
+use crate::files::OutputFolder;
+use crate::geometry::Camera;
+use crate::sequence::Sequence;
+
+/// Poses scored at once: enough to keep every worker busy, and a bound on the memory.
+const BATCH: usize = 4096;
+
+/// What one frame is compared with.
+pub struct ScoredFrame {
+    /// The body.
+    pub body: Body,
+    /// The cameras at the size of the observations.
+    pub cameras: Vec<Camera>,
+    /// What was seen, one a camera.
+    pub observations: Vec<Observation>,
+}
+
+impl ScoredFrame {
+    /// Frame `frame` of a sequence.
+    ///
+    /// # Errors
+    /// When the sequence has no such frame, or anything it names cannot be read.
+    pub fn of_sequence(sequence: &Sequence, frame: usize) -> Result<Self> {
+        ensure!(
+            frame < sequence.frame_count,
+            "{} has no frame {frame}, expected 0 to {}",
+            sequence.path.display(),
+            sequence.frame_count.saturating_sub(1)
+        );
+        let mut feed = Feed::start(sequence, feature_settings(sequence)?, frame..frame + 1, frame)?;
+        let Some(prepared) = feed.next()? else {
+            bail!("{} ended before frame {frame}", sequence.path.display());
+        };
+        Ok(Self {
+            body: Body::load(&sequence.body)?,
+            cameras: sequence.cameras.clone(),
+            observations: prepared.observations,
+        })
+    }
+
+    /// Packed observations `<camera>.png` from a folder.
+    ///
+    /// # Errors
+    /// When one is missing, no 8-bit grey picture, or of another size than its camera's pictures.
+    pub fn of_observations(folder: &Path, cameras: Vec<Camera>, body: Body) -> Result<Self> {
+        let mut observations = Vec::with_capacity(cameras.len());
+        for camera in &cameras {
+            let path = folder.join(format!("{}.png", camera.name));
+            let observation = Observation::read_png(&path)?;
+            ensure!(
+                [observation.width, observation.height] == camera.size,
+                "{} is {}x{} pixels, camera {:?} has {}x{}",
+                path.display(),
+                observation.width,
+                observation.height,
+                camera.name,
+                camera.size[0],
+                camera.size[1]
+            );
+            observations.push(observation);
+        }
+        Ok(Self { body, cameras, observations })
+    }
+}
+
+/// Scores poses against a frame; one fitness a pose. With `output` it writes components.csv and fitness.csv there, and with
+/// `images` besides every candidate as `images/pose_%06d_<camera>.png` (8-bit grey: bits 0-6 the label, bit 7 the edge).
+/// Poses are counted from 0 in the order of the table, whatever their frames.
+///
+/// # Errors
+/// When the backend cannot be made or a file not written.
+pub fn score_poses(
+    frame: &ScoredFrame,
+    poses: &PoseTable,
+    backend: Backend,
+    objective: &Objective,
+    output: Option<&OutputFolder>,
+    images: bool,
+) -> Result<Vec<f32>> {
+    let mut built = backend.build(&frame.body, &frame.cameras)?;
+    let evaluator = built.evaluator.as_mut();
+    evaluator.observe(&frame.observations)?;
+    let rows = single_precision(&frame.body, poses);
+    let (views, dofs) = (frame.cameras.len(), frame.body.dof_count());
+    let mut all = Vec::with_capacity(poses.poses.len());
+    for batch in rows.chunks(BATCH * dofs) {
+        let first = all.len();
+        all.resize(first + batch.len() / dofs, 0.0);
+        evaluator.fitness(batch, objective, &mut all[first..])?;
+    }
+    let Some(output) = output else { return Ok(all) };
+    output.write("components.csv", |writer| write_components(writer, frame, evaluator, &rows))?;
+    output.write("fitness.csv", |writer| write_fitness(writer, &all))?;
+    if images {
+        let drawing = Reference::new(&frame.body, &frame.cameras);
+        for (index, pose) in rows.chunks_exact(dofs).enumerate() {
+            for (view, camera) in frame.cameras.iter().enumerate().take(views) {
+                let image = drawing.draw(pose, view);
+                output.write(&format!("images/pose_{index:06}_{}.png", file_stem(&camera.name)), |writer| {
+                    let size = (image.width, image.height);
+                    Ok(PngEncoder::new(writer).write_image(&image.bytes, size.0, size.1, ExtendedColorType::L8)?)
+                })?;
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// `pose,fitness`.
+///
+/// # Errors
+/// When writing fails.
+pub fn write_fitness(out: &mut dyn Write, fitness: &[f32]) -> Result<()> {
+    writeln!(out, "pose,fitness")?;
+    for (pose, value) in fitness.iter().enumerate() {
+        writeln!(out, "{pose},{value}")?;
+    }
+    Ok(())
+}
+
+fn write_components(
+    out: &mut dyn Write,
+    frame: &ScoredFrame,
+    evaluator: &mut dyn Evaluator,
+    rows: &[f32],
+) -> Result<()> {
+    let (views, dofs) = (frame.cameras.len(), frame.body.dof_count());
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(["pose", "view", "area_obs", "area_model", "overlap", "edges", "proximity"])?;
+    let mut components = Vec::new();
+    for (index, batch) in rows.chunks(BATCH * dofs).enumerate() {
+        components.clear();
+        components.resize(batch.len() / dofs * views, Components::default());
+        evaluator.components(batch, &mut components)?;
+        for (at, found) in components.iter().enumerate() {
+            let pose = (index * BATCH + at / views).to_string();
+            let Components { area_obs, area_model, overlap, edges, proximity } = *found;
+            let numbers = [area_obs, area_model, overlap, edges, proximity].map(|number| number.to_string());
+            let cells = [pose.as_str(), &frame.cameras[at % views].name];
+            writer.write_record(cells.into_iter().chain(numbers.iter().map(String::as_str)))?;
+        }
+    }
+    Ok(writer.flush()?)
+}
+
+/// Poses as evaluators take them. An angle is brought to [-pi, pi] while it is double precision: a large one would lose
+/// its digits.
+fn single_precision(body: &Body, poses: &PoseTable) -> Vec<f32> {
+    let is_rotation: Vec<bool> = body.dofs().map(|(_, dof)| dof.axis.is_rotation()).collect();
+    let rows = poses.poses.iter().flat_map(|pose| pose.iter().zip(&is_rotation));
+    rows.map(|(&value, &is_rotation)| (if is_rotation { reduced(value) } else { value }) as f32).collect()
+}
+
+/// The same angle in [-pi, pi]; one that is there already keeps its bits.
+fn reduced(angle: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    if angle.abs() <= PI { angle } else { angle - (angle / TAU).round() * TAU }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_are_reduced_before_they_lose_digits() {
+        use std::f64::consts::{PI, TAU};
+        assert_eq!(reduced(1.25), 1.25);
+        assert_eq!(reduced(-PI), -PI);
+        for turns in [-7.0, 1.0, 1000.0, 25_000.0] {
+            assert!((reduced(0.3 + turns * TAU) - 0.3).abs() < 1e-9, "{turns}");
+        }
+        let body = Body::adult(1750.0).unwrap();
+        let mut pose = body.standing_pose();
+        pose[0] = 1000.0;
+        pose[5] = 0.3 + 20_000.0 * TAU;
+        let row = single_precision(&body, &PoseTable { frames: vec![0], poses: vec![pose] });
+        assert_eq!((row[0], row[5]), (1000.0, 0.3));
+    }
+}

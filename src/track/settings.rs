@@ -1,0 +1,72 @@
+//! Everything a run is asked for.
+
+use std::path::PathBuf;
+
+use anyhow::{Result, ensure};
+
+use super::{Backend, FrameRange, ObjectiveChoice};
+use crate::search::SearchSettings;
+
+/// How a sequence is tracked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrackSettings {
+    /// Who scores the poses.
+    pub backend: Backend,
+    /// What counts as a good pose; over the sequence's `[objective]` table.
+    pub objective: ObjectiveChoice,
+    /// How poses are searched; its seed decides all random numbers.
+    pub search: SearchSettings,
+    /// Factor on the standard deviation with which a frame's search starts round the previous pose: the body's steps,
+    /// scaled to the time between frames.
+    pub spread: f64,
+    /// Which frames.
+    pub frames: FrameRange,
+    /// A poses.csv to start from instead of the sequence's: one row, or one whose frame is the first to be tracked.
+    pub start: Option<PathBuf>,
+    /// Every how many frames the model is drawn over the pictures; 0 for never.
+    pub overlay_every: usize,
+    /// Go on with the run that the output folder holds.
+    pub resume: bool,
+}
+
+impl Default for TrackSettings {
+    fn default() -> Self {
+        Self {
+            backend: Backend::default(),
+            objective: ObjectiveChoice::default(),
+            search: SearchSettings::default(),
+            spread: 1.0,
+            frames: FrameRange::default(),
+            start: None,
+            overlay_every: 10,
+            resume: false,
+        }
+    }
+}
+
+impl TrackSettings {
+    /// Whether the settings make sense by themselves.
+    ///
+    /// # Errors
+    /// With the setting, what it is and what was expected.
+    pub fn check(&self) -> Result<()> {
+        ensure!((0.01..=100.0).contains(&self.spread), "spread is {}, expected 0.01 to 100", self.spread);
+        self.search.check()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wrong_settings_are_named() {
+        TrackSettings::default().check().unwrap();
+        let error = TrackSettings { spread: f64::NAN, ..TrackSettings::default() }.check().unwrap_err().to_string();
+        assert!(error.contains("spread is NaN"), "{error}");
+        let mut settings = TrackSettings::default();
+        settings.search.particles = 0;
+        let error = settings.check().unwrap_err().to_string();
+        assert!(error.contains("particles is 0"), "{error}");
+    }
+}

@@ -1,0 +1,115 @@
+//! `pantin evaluate` from outside.
+
+use std::fs;
+use std::path::Path;
+
+use pantin::body::{Body, PoseTable};
+use pantin::evaluate::Reference;
+use pantin::features::Observation;
+use pantin::files::Overwrite;
+
+use super::{pantin, refused, sequence, walk};
+
+/// The true poses, which frame 2 is compared with.
+fn evaluate(output: &Path, more: &[&str]) -> std::process::Output {
+    let poses = sequence().join("truth_poses.csv");
+    let mut arguments = vec!["evaluate", "--poses", poses.to_str().unwrap(), "-o", output.to_str().unwrap()];
+    arguments.extend(more);
+    pantin(&arguments)
+}
+
+#[test]
+fn both_backends_write_the_same_and_the_truth_scores_best() {
+    let folder = tempfile::tempdir().unwrap();
+    let of_frame = ["--sequence", sequence().to_str().unwrap(), "--frame", "2"];
+    for backend in ["reference", "cpu"] {
+        let output = folder.path().join(backend);
+        let done = evaluate(&output, &[&of_frame[..], &["--backend", backend, "--images"]].concat());
+        assert!(done.status.success(), "{}", super::stderr(&done));
+    }
+    let read = |backend: &str, name: &str| fs::read_to_string(folder.path().join(backend).join(name)).unwrap();
+    for name in ["components.csv", "fitness.csv"] {
+        assert_eq!(read("reference", name), read("cpu", name), "{name}");
+    }
+    let components = read("cpu", "components.csv");
+    let mut lines = components.lines();
+    assert_eq!(lines.next(), Some("pose,view,area_obs,area_model,overlap,edges,proximity"));
+    assert_eq!(components.lines().count(), 1 + 4 * walk::FRAMES);
+    let truth: Vec<&str> = components.lines().find(|line| line.starts_with("2,cam1,")).unwrap().split(',').collect();
+    assert_eq!(truth[2], truth[3], "the observation is the drawing");
+    assert_eq!(truth[3], truth[4]);
+    let fitness = read("cpu", "fitness.csv");
+    let values: Vec<f64> = fitness.lines().skip(1).map(|l| l.split(',').nth(1).unwrap().parse().unwrap()).collect();
+    assert_eq!(values.len(), walk::FRAMES);
+    assert!((0..walk::FRAMES).all(|pose| values[pose] <= values[2]), "{values:?}");
+
+    let body = Body::adult(1750.0).unwrap();
+    let pose: Vec<f32> = walk::poses(&body).poses[3].iter().map(|value| *value as f32).collect();
+    let drawn = Reference::new(&body, &walk::cameras()).draw(&pose, 1);
+    let image = image::open(folder.path().join("cpu/images/pose_000003_cam1.png")).unwrap().into_luma8();
+    assert_eq!((image.width(), image.height()), (160, 120));
+    assert!(image.into_raw() == drawn.bytes, "the picture is the candidate image");
+}
+
+#[test]
+fn packed_observations_instead_of_a_sequence() {
+    let folder = tempfile::tempdir().unwrap();
+    let body = Body::adult(1750.0).unwrap();
+    let cameras = walk::cameras();
+    let reference = Reference::new(&body, &cameras);
+    let mut pose: Vec<f64> = walk::poses(&body).poses[4].clone();
+    let row: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
+    for (view, camera) in cameras.iter().enumerate() {
+        let drawn = reference.draw(&row, view);
+        let bytes = drawn.bytes.iter().map(|b| u8::from(*b != 0) << 7 | if b & 0x80 != 0 { 127 } else { 0 }).collect();
+        let observation = Observation { width: drawn.width, height: drawn.height, bytes };
+        observation.write_png(&folder.path().join(format!("{}.png", camera.name)), Overwrite::Refuse).unwrap();
+    }
+    // A whole number of turns more is the same pose.
+    pose[5] += 200.0 * std::f64::consts::TAU;
+    let table = PoseTable { frames: vec![9, 9], poses: vec![walk::poses(&body).poses[4].clone(), pose] };
+    let poses = folder.path().join("poses.csv");
+    table.write(&poses, Overwrite::Refuse, &body).unwrap();
+    let (cameras_file, body_file) = (sequence().join("cameras.toml"), sequence().join("body.toml"));
+    let arguments = |observations: &Path| {
+        let given = [
+            ("--observations", observations),
+            ("--cameras", &cameras_file),
+            ("--body", &body_file),
+            ("--poses", &poses),
+        ];
+        let flags = given.into_iter().flat_map(|(flag, path)| [flag.to_string(), path.display().to_string()]);
+        ["evaluate".to_string()].into_iter().chain(flags).collect::<Vec<String>>()
+    };
+    let run = |arguments: &[String]| pantin(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+    let done = run(&arguments(folder.path()));
+    assert!(done.status.success(), "{}", super::stderr(&done));
+    let text = String::from_utf8(done.stdout).unwrap();
+    assert_eq!(text, "pose,fitness\n0,1\n1,1\n", "drawn from this very pose");
+
+    let wrong = folder.path().join("cam2.png");
+    Observation::empty(150, 120).write_png(&wrong, Overwrite::Replace).unwrap();
+    refused(&run(&arguments(folder.path())), &["cam2.png is 150x120 pixels", "\"cam2\" has 160x120"]);
+    fs::remove_file(&wrong).unwrap();
+    refused(&run(&arguments(folder.path())), &["cannot read", "cam2.png"]);
+}
+
+#[test]
+fn wrong_requests() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = sequence().to_str().unwrap();
+    let output = folder.path().join("out");
+    refused(&evaluate(&output, &["--sequence", name, "--frame", "6"]), &["no frame 6", "0 to 5"]);
+    refused(
+        &evaluate(folder.path().parent().unwrap(), &["--sequence", name, "--frame", "1"]),
+        &["not empty", "--force"],
+    );
+    for wrong in [
+        &["--sequence", name][..],
+        &["--frame", "1"],
+        &["--observations", name],
+        &["--sequence", name, "--frame", "1", "--backend", "cuda"],
+    ] {
+        assert_eq!(evaluate(&output, wrong).status.code(), Some(2), "{wrong:?}");
+    }
+}

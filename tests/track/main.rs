@@ -1,0 +1,404 @@
+//! `pantin track` from outside: the same files whatever computes them and however often it was killed, files that read
+//! back, and one sentence for everything that is wrong.
+
+mod evaluate;
+mod walk;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+
+use pantin::body::{Body, PoseTable};
+use pantin::motion::{read_bvh, read_points};
+use tempfile::TempDir;
+
+/// Enough to follow the walk, little enough for the reference.
+const SEARCH: [&str; 6] = ["--particles", "40", "--iterations", "6", "--overlay-every", "2"];
+
+/// The sequence, made once.
+fn sequence() -> &'static Path {
+    static SEQUENCE: OnceLock<TempDir> = OnceLock::new();
+    SEQUENCE
+        .get_or_init(|| {
+            let folder = tempfile::tempdir().unwrap();
+            walk::write(folder.path());
+            folder
+        })
+        .path()
+}
+
+fn pantin(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_pantin")).args(arguments).output().unwrap()
+}
+
+fn track_with(sequence: &Path, output: &Path, more: &[&str]) -> Output {
+    let mut arguments = vec!["track", sequence.to_str().unwrap(), "-o", output.to_str().unwrap()];
+    arguments.extend(SEARCH);
+    arguments.extend(more);
+    pantin(&arguments)
+}
+
+fn tracked(output: &Path, more: &[&str]) {
+    let done = track_with(sequence(), output, more);
+    assert!(done.status.success(), "{}", stderr(&done));
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Runs that must fail with status 1 and one sentence that holds `parts`.
+#[track_caller]
+fn refused(output: &Output, parts: &[&str]) {
+    let text = stderr(output);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    let sentence = text.lines().last().unwrap_or_default();
+    assert!(sentence.starts_with("pantin: ") && !text.contains("panicked"), "{text}");
+    for part in parts {
+        assert!(sentence.contains(part), "`{sentence}` lacks `{part}`");
+    }
+}
+
+/// Every file of a track that must not depend on time, machine or interruption.
+fn result_files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let names = ["poses.csv", "joints.csv", "joints.trc", "markers.c3d", "motion.bvh", "confidence.csv", "journal.txt"];
+    let mut files: BTreeMap<String, Vec<u8>> =
+        names.iter().map(|name| (name.to_string(), fs::read(folder.join(name)).unwrap())).collect();
+    for entry in fs::read_dir(folder.join("overlay")).unwrap() {
+        let path = entry.unwrap().path();
+        files.insert(path.file_name().unwrap().to_string_lossy().into_owned(), fs::read(&path).unwrap());
+    }
+    assert_eq!(files.len(), names.len() + 4 * walk::FRAMES.div_ceil(2), "overlays of every second frame and camera");
+    files
+}
+
+#[track_caller]
+fn same(a: &BTreeMap<String, Vec<u8>>, b: &BTreeMap<String, Vec<u8>>) {
+    assert_eq!(a.keys().collect::<Vec<_>>(), b.keys().collect::<Vec<_>>());
+    for (name, bytes) in a {
+        assert!(b[name] == *bytes, "{name} differs");
+    }
+}
+
+/// The uninterrupted run all others are compared with, made once.
+fn whole_run() -> &'static Path {
+    static RUN: OnceLock<TempDir> = OnceLock::new();
+    RUN.get_or_init(|| {
+        let folder = tempfile::tempdir().unwrap();
+        tracked(&folder.path().join("track"), &[]);
+        folder
+    })
+    .path()
+}
+
+fn whole() -> PathBuf {
+    whole_run().join("track")
+}
+
+#[test]
+fn reference_and_cpu_write_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    tracked(&output, &["--backend", "reference"]);
+    same(&result_files(&output), &result_files(&whole()));
+    // A comparison that could not fail would be worth nothing.
+    let other = folder.path().join("other");
+    tracked(&other, &["--seed", "2"]);
+    assert_ne!(result_files(&other)["poses.csv"], result_files(&whole())["poses.csv"]);
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    // Where the system can pin a process to one processor, the evaluator starts a single worker too.
+    let mut command = if Command::new("taskset").arg("--version").output().is_ok_and(|found| found.status.success()) {
+        let mut command = Command::new("taskset");
+        command.args(["-c", "0", env!("CARGO_BIN_EXE_pantin")]);
+        command
+    } else {
+        Command::new(env!("CARGO_BIN_EXE_pantin"))
+    };
+    let done = command
+        .env("RAYON_NUM_THREADS", "1")
+        .args(["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap()])
+        .args(SEARCH)
+        .output()
+        .unwrap();
+    assert!(done.status.success(), "{}", stderr(&done));
+    same(&result_files(&output), &result_files(&whole()));
+}
+
+#[test]
+fn files_read_back_and_the_walk_is_followed() {
+    let folder = whole();
+    let body = Body::load(&sequence().join("body.toml")).unwrap();
+    let table = PoseTable::read(&folder.join("poses.csv"), &body).unwrap();
+    assert_eq!(table.frames, (0..walk::FRAMES).collect::<Vec<_>>());
+    table.poses.iter().for_each(|pose| body.check_limits(pose).unwrap());
+    let expected = body.joint_trajectory(&table, 25.0).unwrap();
+    for (name, tolerance) in [("joints.csv", 1e-3), ("joints.trc", 1e-3)] {
+        let points = read_points(&folder.join(name)).unwrap();
+        assert_eq!((points.names.len(), points.rate), (expected.names.len(), 25.0), "{name}");
+        for (ours, theirs) in expected.frames.iter().flatten().zip(points.frames.iter().flatten()) {
+            assert!(ours.unwrap().distance(theirs.unwrap()) < tolerance, "{name}");
+        }
+    }
+    let markers = read_points(&folder.join("markers.c3d")).unwrap();
+    assert_eq!((markers.names.len(), markers.frames.len()), (body.markers.len(), walk::FRAMES));
+    let motion = read_bvh(&folder.join("motion.bvh")).unwrap().to_points().unwrap();
+    for name in ["pelvis", "left_knee", "right_elbow", "head"] {
+        let (a, b) = (expected.column(name).unwrap(), motion.column(name).unwrap());
+        for (ours, theirs) in expected.frames.iter().zip(&motion.frames) {
+            assert!(ours[a].unwrap().distance(theirs[b].unwrap()) < 1e-2, "{name}");
+        }
+    }
+    let truth = read_points(&sequence().join("truth.csv")).unwrap();
+    let pelvis = expected.column("pelvis").unwrap();
+    for (ours, theirs) in expected.frames.iter().zip(&truth.frames) {
+        let error = ours[pelvis].unwrap().distance(theirs[pelvis].unwrap());
+        assert!(error < 60.0, "the pelvis is {error} mm off");
+    }
+    let confidence = fs::read_to_string(folder.join("confidence.csv")).unwrap();
+    assert!(confidence.starts_with("frame,fitness,cam0.f1,cam0.f2,cam1.f1"), "{confidence}");
+    for line in confidence.lines().skip(1) {
+        let last: f64 = line.rsplit(',').next().unwrap().parse().unwrap();
+        assert!((0.0..=1.0).contains(&last), "{line}");
+    }
+    let stages: serde_json::Value = serde_json::from_slice(&fs::read(folder.join("stages.json")).unwrap()).unwrap();
+    let names: Vec<&str> = stages["stages"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["read", "features", "wait", "evaluate", "search", "output"]);
+    assert!(stages["stages"].as_array().unwrap().iter().all(|s| s["count"] == walk::FRAMES));
+    let trace: serde_json::Value = serde_json::from_slice(&fs::read(folder.join("trace.json")).unwrap()).unwrap();
+    assert!(trace["traceEvents"].as_array().unwrap().len() > 6 * walk::FRAMES);
+    let run: toml::Table = fs::read_to_string(folder.join("run.toml")).unwrap().parse().unwrap();
+    assert_eq!(run["settings"]["seed"].as_integer(), Some(1));
+    assert_eq!(run["settings"]["backend"].as_str(), Some("cpu"));
+    let report = fs::read_to_string(folder.join("report.html")).unwrap();
+    assert!(report.contains("mean error of the joints") && report.ends_with("</html>\n"));
+    let overlay = image::open(folder.join("overlay/cam3_000004.jpg")).unwrap();
+    assert_eq!((overlay.width(), overlay.height()), (160, 120));
+    let left: Vec<_> = fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert!(left.iter().all(|name| !name.to_string_lossy().ends_with(".tmp")), "{left:?}");
+}
+
+#[test]
+fn a_kill_at_any_frame_loses_nothing_but_time() {
+    let expected = result_files(&whole());
+    let journal = fs::read(whole().join("journal.txt")).unwrap();
+    let ends: Vec<usize> = (0..journal.len()).filter(|&at| journal[at] == b'\n').map(|at| at + 1).collect();
+    for frames in 0..=walk::FRAMES {
+        let folder = tempfile::tempdir().unwrap();
+        let output = folder.path().join("track");
+        fs::create_dir(&output).unwrap();
+        fs::copy(whole().join("run.toml"), output.join("run.toml")).unwrap();
+        fs::create_dir(output.join("overlay")).unwrap();
+        for frame in (0..frames).filter(|frame| frame % 2 == 0) {
+            for camera in 0..4 {
+                let name = format!("overlay/cam{camera}_{frame:06}.jpg");
+                fs::copy(whole().join(&name), output.join(&name)).unwrap();
+            }
+        }
+        // The frame in work left half a line, and half a trace.
+        let whole_lines = if frames == 0 { 0 } else { ends[frames - 1] };
+        let torn = (whole_lines + 40).min(journal.len());
+        fs::write(output.join("journal.txt"), &journal[..torn]).unwrap();
+        fs::write(output.join("trace.json.tmp"), "{\"tr").unwrap();
+        let done = track_with(sequence(), &output, &["--resume"]);
+        assert!(done.status.success(), "after {frames} frames: {}", stderr(&done));
+        same(&result_files(&output), &expected);
+    }
+}
+
+/// Starts a run that is slow enough to be caught at work, and waits until it has done a frame.
+#[cfg(unix)]
+fn caught_at_work(output: &Path) -> std::process::Child {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_pantin"))
+        .args(["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap()])
+        .args(["--particles", "150", "--iterations", "20", "--overlay-every", "2", "--backend", "reference"])
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let begin = Instant::now();
+    while fs::read(output.join("journal.txt")).map_or(0, |journal| journal.len()) == 0 {
+        assert!(begin.elapsed() < Duration::from_secs(120) && child.try_wait().unwrap().is_none(), "no frame was done");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child
+}
+
+#[cfg(unix)]
+#[test]
+fn killed_or_interrupted_it_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let slow = ["--particles", "150", "--iterations", "20", "--overlay-every", "2", "--backend", "reference"];
+    let run = |output: &Path, more: &[&str]| {
+        let mut arguments = vec!["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap()];
+        arguments.extend(slow);
+        arguments.extend(more);
+        pantin(&arguments)
+    };
+    let output = folder.path().join("killed");
+    let mut child = caught_at_work(&output);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(!output.join("poses.csv").exists(), "complete or absent");
+    // What was killed once may be interrupted next.
+    let mut child = Command::new(env!("CARGO_BIN_EXE_pantin"))
+        .args(["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap()])
+        .args(slow)
+        .arg("--resume")
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let lines = || fs::read(output.join("journal.txt")).unwrap().iter().filter(|byte| **byte == b'\n').count();
+    let before = lines();
+    while lines() <= before && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let stopped = child.wait_with_output().unwrap();
+    refused(&stopped, &["stopped before frame", "frames are safe", "--resume"]);
+    let done = run(&output, &["--resume"]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    let other = folder.path().join("whole");
+    assert!(run(&other, &[]).status.success());
+    same(&result_files(&output), &result_files(&other));
+}
+
+#[test]
+fn the_particle_filter_resumes_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    tracked(&output, &["--search", "pf"]);
+    let expected = result_files(&output);
+    let journal = fs::read_to_string(output.join("journal.txt")).unwrap();
+    let three: String = journal.split_inclusive('\n').take(3).collect();
+    fs::write(output.join("journal.txt"), three).unwrap();
+    fs::remove_file(output.join("poses.csv")).unwrap();
+    tracked(&output, &["--search", "pf", "--resume"]);
+    same(&result_files(&output), &expected);
+}
+
+#[test]
+fn part_of_the_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    let start = sequence().join("truth_poses.csv");
+    tracked(&output, &["--frames", "2..5", "--start", start.to_str().unwrap()]);
+    let body = Body::load(&sequence().join("body.toml")).unwrap();
+    assert_eq!(PoseTable::read(&output.join("poses.csv"), &body).unwrap().frames, [2, 3, 4]);
+    assert_eq!(read_points(&output.join("joints.csv")).unwrap().first_frame, 2);
+    refused(&track_with(sequence(), &folder.path().join("b"), &["--frames", "2..9"]), &["2..9", "0..6"]);
+    let six_rows = start.to_str().unwrap();
+    // A table with many rows must have that of the first frame.
+    let text = fs::read_to_string(&start).unwrap();
+    let without_first: String =
+        text.split_inclusive('\n').enumerate().filter(|(i, _)| *i != 1).map(|(_, l)| l).collect();
+    let cut = folder.path().join("cut.csv");
+    fs::write(&cut, without_first).unwrap();
+    let none = track_with(sequence(), &folder.path().join("c"), &["--start", cut.to_str().unwrap()]);
+    refused(&none, &["cut.csv holds 5 poses, none of frame 0"]);
+    assert!(six_rows.ends_with("truth_poses.csv"));
+}
+
+#[test]
+fn a_run_is_only_gone_on_with_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    tracked(&output, &[]);
+    let poses = fs::read(output.join("poses.csv")).unwrap();
+    refused(&track_with(sequence(), &output, &[]), &["not empty", "--force"]);
+    refused(
+        &track_with(sequence(), &output, &["--resume", "--seed", "7"]),
+        &["run.toml", "another seed: 1 there, 7 now"],
+    );
+    refused(&track_with(sequence(), &output, &["--resume", "--beta", "0.25"]), &["another beta: 0.5 there, 0.25 now"]);
+    refused(&track_with(sequence(), &folder.path().join("none"), &["--resume"]), &["no folder", "--resume"]);
+    fs::create_dir(folder.path().join("empty")).unwrap();
+    refused(&track_with(sequence(), &folder.path().join("empty"), &["--resume"]), &["holds no run to resume"]);
+    // Another body is another input.
+    let changed = tempfile::tempdir().unwrap();
+    walk::write(changed.path());
+    let taller = Body::adult(1800.0).unwrap();
+    taller.save(&changed.path().join("body.toml"), pantin::files::Overwrite::Replace).unwrap();
+    refused(&track_with(changed.path(), &output, &["--resume"]), &["run.toml", "another body"]);
+    assert_eq!(fs::read(output.join("poses.csv")).unwrap(), poses, "a refusal touches nothing");
+    // A finished run has nothing left to do; --force does all of it again.
+    let times = |name: &str| fs::read(output.join(name)).unwrap();
+    let before = [times("stages.json"), times("trace.json")];
+    tracked(&output, &["--resume"]);
+    assert_eq!([times("stages.json"), times("trace.json")], before, "the times of the run that did the work");
+    tracked(&output, &["--force", "--seed", "2"]);
+    assert_ne!(fs::read(output.join("poses.csv")).unwrap(), poses);
+    let both = track_with(sequence(), &output, &["--force", "--resume"]);
+    assert_eq!(both.status.code(), Some(2));
+}
+
+#[test]
+fn wrong_inputs_are_one_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    walk::write(folder.path());
+    let output = folder.path().join("track");
+    let change = |file: &str, from: &str, to: &str| {
+        let path = folder.path().join(file);
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(text.contains(from), "{file} lacks {from}");
+        fs::write(&path, text.replacen(from, to, 1)).unwrap();
+        text
+    };
+    // A start pose outside its limits.
+    let body = Body::load(&folder.path().join("body.toml")).unwrap();
+    let good = fs::read(folder.path().join("start.csv")).unwrap();
+    let knee = body.dof_names().iter().position(|name| name == "left_knee.ry").unwrap();
+    let mut table = PoseTable::read(&folder.path().join("start.csv"), &body).unwrap();
+    table.poses[0][knee] = 3.0;
+    table.write(&folder.path().join("start.csv"), pantin::files::Overwrite::Replace, &body).unwrap();
+    let limits = body.dofs().nth(knee).unwrap().1.limits.map(|limit| limit.to_degrees().round());
+    let between = format!("limits {} to {}", limits[0], limits[1]);
+    let bad_start = track_with(folder.path(), &output, &[]);
+    refused(&bad_start, &["start.csv", "left_knee.ry is 171.88", "degrees", &between]);
+    fs::write(folder.path().join("start.csv"), good).unwrap();
+
+    let manifest = change("sequence.toml", "start = \"start.csv\"\n", "");
+    refused(&track_with(folder.path(), &output, &[]), &["sequence.toml names no start pose", "--start"]);
+    fs::write(folder.path().join("sequence.toml"), &manifest).unwrap();
+    change("sequence.toml", "[[view]]", "[objective]\nbata = 0.5\n[[view]]");
+    refused(&track_with(folder.path(), &output, &[]), &["[objective]", "`bata`", "`beta`"]);
+    fs::write(folder.path().join("sequence.toml"), &manifest).unwrap();
+    change("sequence.toml", "mask = \"frames/cam0_mask_%04d.png\"\n", "");
+    refused(&track_with(folder.path(), &output, &[]), &["\"cam0\" has neither a background picture nor masks"]);
+    fs::write(folder.path().join("sequence.toml"), &manifest).unwrap();
+    // A picture that breaks off in the middle of the sequence.
+    let picture = folder.path().join("frames/cam2_0003.png");
+    let bytes = fs::read(&picture).unwrap();
+    fs::write(&picture, &bytes[..bytes.len() / 2]).unwrap();
+    let broken = folder.path().join("broken");
+    refused(&track_with(folder.path(), &broken, &[]), &["cam2_0003.png"]);
+    fs::write(&picture, &bytes).unwrap();
+    let done = track_with(folder.path(), &broken, &["--resume"]);
+    assert!(done.status.success() && stderr(&done).contains("3 of 6 are done"), "{}", stderr(&done));
+
+    refused(&track_with(Path::new("/nowhere"), &output, &[]), &["/nowhere"]);
+    refused(
+        &track_with(sequence(), &folder.path().join("body.toml"), &[]),
+        &["body.toml is a file, expected a folder"],
+    );
+    refused(&track_with(sequence(), &output, &["--spread", "0"]), &["spread is 0"]);
+    refused(&track_with(sequence(), &output, &["--w1", "2"]), &["w1 of the objective sp is 2"]);
+    for (flags, part) in [
+        (["--backend", "cuda"], "expected one of auto, reference, cpu"),
+        (["--search", "luck"], "expected one of pso, pf"),
+        (["--objective", "best"], "expected one of ws, sp, aows, aosp, posp"),
+        (["--frames", "5..2"], "the range of frames 5..2 is empty"),
+        (["--particles", "many"], "invalid"),
+    ] {
+        let wrong = track_with(sequence(), &output, &flags);
+        assert_eq!(wrong.status.code(), Some(2), "{flags:?}");
+        assert!(stderr(&wrong).contains(part), "{}", stderr(&wrong));
+    }
+    assert!(!output.join("run.toml").exists(), "nothing is written before all is checked");
+}
