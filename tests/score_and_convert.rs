@@ -158,7 +158,8 @@ fn two_triangulations_of_the_beam_agree() {
     let object: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!((&object["frames"], &object["missing"]), (&100.into(), &0.into()));
     assert_eq!(object["points"].as_array().unwrap().len(), 21);
-    // The detectors' nose is unusable, all else agrees to the accuracy of such detectors; a wrong axis would be off by metres.
+    // The detectors' nose is unusable, all else agrees to the accuracy of such detectors; a wrong axis would be off by
+    // metres.
     for point in object["points"].as_array().unwrap().iter().filter(|point| point["name"] != "Nose") {
         assert!(point["mean"].as_f64().unwrap() < 70.0, "{point}");
     }

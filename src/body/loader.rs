@@ -9,7 +9,7 @@ use glam::DVec3;
 use serde::Deserialize;
 
 use super::{Body, Bone, Dof, DofAxis, Marker, MeshSource, Part};
-use crate::files::{parse_toml, read_toml};
+use crate::files::{parse_toml, read_toml, shortened};
 use crate::geometry::EulerOrder;
 
 /// Longest length inside a body, mm. Larger ones are a mistaken unit, and would not survive single precision.
@@ -176,7 +176,11 @@ fn build_bone(entry: &BoneEntry, bone_index: &HashMap<&str, usize>, mm: f64) -> 
     let order = match entry.order.as_deref() {
         None => EulerOrder::default(),
         Some(name) => EulerOrder::from_name(name).ok_or_else(|| {
-            anyhow!("order is `{name}`, expected one of {}", EulerOrder::ALL.map(EulerOrder::name).join(", "))
+            anyhow!(
+                "order is `{}`, expected one of {}",
+                shortened(name),
+                EulerOrder::ALL.map(EulerOrder::name).join(", ")
+            )
         })?,
     };
     let axes = entry
@@ -184,7 +188,8 @@ fn build_bone(entry: &BoneEntry, bone_index: &HashMap<&str, usize>, mm: f64) -> 
         .iter()
         .map(|name| {
             let known = DofAxis::ALL.map(DofAxis::name);
-            DofAxis::from_name(name).ok_or_else(|| anyhow!("dof `{name}` is unknown, {}", expected(name, &known)))
+            DofAxis::from_name(name)
+                .ok_or_else(|| anyhow!("dof `{}` is unknown, {}", shortened(name), expected(name, &known)))
         })
         .collect::<Result<Vec<_>>>()?;
     for (index, axis) in axes.iter().enumerate() {
@@ -199,7 +204,7 @@ fn build_bone(entry: &BoneEntry, bone_index: &HashMap<&str, usize>, mm: f64) -> 
     let listed: Vec<&str> = axes.iter().map(|axis| axis.name()).collect();
     for (key, names) in [("limits", entry.limits.keys().collect::<Vec<_>>()), ("step", entry.step.keys().collect())] {
         if let Some(name) = names.iter().find(|name| !listed.contains(&name.as_str())) {
-            bail!("{key} names `{name}`, which is not in this bone's dof ({})", expected(name, &listed));
+            bail!("{key} names `{}`, which is not in this bone's dof ({})", shortened(name), expected(name, &listed));
         }
     }
     let dofs = axes
@@ -276,7 +281,7 @@ fn known_bone(key: &str, name: &str, bone_index: &HashMap<&str, usize>) -> Resul
     bone_index.get(name).copied().ok_or_else(|| {
         let mut known: Vec<&str> = bone_index.keys().copied().collect();
         known.sort_unstable();
-        anyhow!("{key} is `{name}`, which is no bone, {}", expected(name, &known))
+        anyhow!("{key} is `{}`, which is no bone, {}", shortened(name), expected(name, &known))
     })
 }
 
@@ -339,6 +344,8 @@ fn cycle(bones: &[Bone], reached: &[usize]) -> String {
 
 /// What to say after an unknown name: the nearest known one and the list, which is cut when it is long.
 pub(super) fn expected(found: &str, known: &[&str]) -> String {
+    // The distance takes memory as the product of both lengths.
+    let found = &shortened(found);
     let Some(nearest) = known.iter().min_by_key(|name| strsim::damerau_levenshtein(found, name)) else {
         return "expected none".to_string();
     };

@@ -9,7 +9,7 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 
 use super::loader::expected;
 use super::{Body, DofAxis};
-use crate::files::{Overwrite, write_atomically};
+use crate::files::{Overwrite, shortened, write_atomically};
 
 /// Largest value a cell may hold, mm or degrees; single precision resolves less than a millimetre up to there.
 const LARGEST: f64 = 1e7;
@@ -113,15 +113,16 @@ impl PoseTable {
                 header.len()
             );
             let frame = &record[columns.frame];
-            let frame =
-                frame.parse().map_err(|_| anyhow!("{}: frame is `{frame}`, expected a whole number from 0", row()))?;
+            let frame = frame
+                .parse()
+                .map_err(|_| anyhow!("{}: frame is `{}`, expected a whole number from 0", row(), shortened(frame)))?;
             let mut pose = Vec::with_capacity(names.len());
             for ((&column, axis), dof) in columns.dofs.iter().zip(&axes).zip(&names) {
                 let cell = &record[column];
                 ensure!(!cell.is_empty(), "{}: {dof} is empty, expected a number", row());
                 let value = cell.parse::<f64>().ok().filter(|value| value.abs() <= LARGEST).ok_or_else(|| {
                     let unit = axis.file_unit();
-                    anyhow!("{}: {dof} is `{cell}`, expected a number up to {LARGEST} ({unit})", row())
+                    anyhow!("{}: {dof} is `{}`, expected a number up to {LARGEST} ({unit})", row(), shortened(cell))
                 })?;
                 pose.push(axis.from_file(value));
             }
@@ -206,7 +207,7 @@ fn columns(header: &csv::StringRecord, body: &Body) -> Result<Columns> {
     for (place, column) in header.iter().enumerate() {
         // Spreadsheets put a byte order mark before the first name.
         let column = column.trim_start_matches('\u{feff}');
-        ensure!(known.contains(&column), "column `{column}` is unknown, {}", expected(column, &known));
+        ensure!(known.contains(&column), "column `{}` is unknown, {}", shortened(column), expected(column, &known));
         ensure!(places.insert(column, place).is_none(), "column `{column}` is there twice, expected once");
     }
     let find = |name: &str| {

@@ -7,8 +7,8 @@ use anyhow::{Result, ensure};
 use crate::files::{Overwrite, write_atomically};
 use crate::motion::{PointFormat, read_bvh, read_points, write_bvh, write_points};
 
-/// Converts a recording between C3D, TRC, BVH and CSV, each known by its extension. Lengths become millimetres (BVH
-/// has no unit: its numbers are taken as millimetres, see --scale). A BVH becomes the points of its joints and free ends;
+/// Converts a recording between C3D, TRC, BVH and CSV, each known by its extension. Lengths become millimetres (BVH has
+/// no unit: its numbers are taken as millimetres, see --scale). A BVH becomes the points of its joints and free ends;
 /// points do not become a BVH, which needs the joint angles of a skeleton.
 #[derive(clap::Args, Debug)]
 pub struct ConvertArgs {

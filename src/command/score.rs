@@ -9,23 +9,26 @@ use crate::files::{Overwrite, write_atomically};
 use crate::motion::{Matching, PointPairs, PointTrajectory, TrajectoryError, read_points, write_frame_errors};
 
 /// Measures the error of tracked markers or joints against C3D, TRC or CSV truth, in mm: for every point its mean over
-/// frames, then the mean over points; the standard deviation is that of all errors of all points in all frames. Points are
-/// paired by name (see --map), frames by index, or by time where the frame rates differ.
+/// frames, then the mean over points; the standard deviation is that of all errors of all points in all frames. Points
+/// are paired by name (see --map), frames by index, or by time where the frame rates differ.
 #[derive(clap::Args, Debug)]
 pub struct ScoreArgs {
-    /// A track's folder (its markers.c3d or joints.csv, the first that shares a name with the truth), or a file of points.
+    /// A track's folder (its markers.c3d or joints.csv, the first that shares a name with the truth), or a file of
+    /// points.
     #[arg(value_name = "DIR")]
     track: PathBuf,
     /// The truth: .c3d, .trc, .csv or .bvh.
     #[arg(long, value_name = "FILE")]
     truth: PathBuf,
-    /// Also report the error after removing each point's constant mean offset (joint definitions differ between systems).
+    /// Also report the error after removing each point's constant mean offset (joint definitions differ between
+    /// systems).
     #[arg(long)]
     remove_offset: bool,
     /// Compare these points only, by the truth's or the track's name.
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
     points: Vec<String>,
-    /// Leave out every point whose name holds one of these words, in any case (`hips` leaves out `LHip` and `right_hip`).
+    /// Leave out every point whose name holds one of these words, in any case (`hips` leaves out `LHip` and
+    /// `right_hip`).
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
     exclude: Vec<String>,
     /// Pair a point of the truth with one of the track that has another name.

@@ -9,7 +9,7 @@ pub(crate) fn check_batch(poses: &[f32], dof_count: usize, results: usize, per_p
     ensure!(dof_count > 0, "the body has no degree of freedom, expected at least one to search over");
     ensure!(per_pose > 0, "there are no views, expected at least one camera");
     ensure!(
-        poses.len() % dof_count == 0,
+        poses.len().is_multiple_of(dof_count),
         "a batch of {} values is no whole number of poses of {dof_count} degrees of freedom",
         poses.len()
     );

@@ -6,6 +6,8 @@ use std::path::Path;
 use anyhow::{Context, Result, anyhow};
 use serde::de::DeserializeOwned;
 
+use super::shortened;
+
 /// Files a person edits are small; anything larger is a mistake (a video handed over as a body, say) and reading it
 /// whole would only waste memory.
 const LARGEST_TOML: u64 = 16 << 20;
@@ -52,6 +54,7 @@ fn one_sentence(message: &str) -> String {
     let Some(rest) = message.strip_prefix("unknown field `") else { return message };
     let mut quoted = rest.split('`');
     let Some(found) = quoted.next() else { return message };
+    let found = &shortened(found);
     // What follows alternates between text and quoted names.
     let known: Vec<&str> = quoted.skip(1).step_by(2).collect();
     let nearest =

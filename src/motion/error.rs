@@ -1,5 +1,5 @@
-//! The distance between a trajectory and its truth (SPEC A10): |p(estimate) - p(truth)| for every point in every frame, its mean
-//! over frames and then over points, and the standard deviation of all of them.
+//! The distance between a trajectory and its truth (SPEC A10): |p(estimate) - p(truth)| for every point in every frame,
+//! its mean over frames and then over points, and the standard deviation of all of them.
 
 use std::collections::HashSet;
 use std::io::Write;
@@ -27,7 +27,8 @@ impl PointPairs {
     /// Pairs points of equal name; `map` (truth's name, our name) comes before that.
     ///
     /// # Errors
-    /// When a name of the map is unknown or stands twice, or when there is no pair at all: the sentence names some points of both.
+    /// When a name of the map is unknown or stands twice, or when there is no pair at all: the sentence names some
+    /// points of both.
     pub fn find(ours: &PointTrajectory, truth: &PointTrajectory, map: &[(String, String)]) -> Result<Self> {
         for (theirs, mine) in map {
             known(truth, theirs, "the truth")?;
@@ -80,8 +81,8 @@ impl PointPairs {
         Ok(())
     }
 
-    /// Drops the pairs that a word of `words` belongs to: every point whose name, the truth's or ours, holds the word in any
-    /// case; a plural stands for its singular, so `hips` drops `LHip` and `right_hip`.
+    /// Drops the pairs that a word of `words` belongs to: every point whose name, the truth's or ours, holds the word
+    /// in any case; a plural stands for its singular, so `hips` drops `LHip` and `right_hip`.
     ///
     /// # Errors
     /// When a word belongs to no pair, or when no pair is left.
@@ -188,8 +189,8 @@ pub struct TrajectoryError {
 }
 
 impl TrajectoryError {
-    /// Compares `ours` with `truth` over `pairs`. With `remove_offset` each point's constant mean offset is taken away first:
-    /// joint definitions differ between systems.
+    /// Compares `ours` with `truth` over `pairs`. With `remove_offset` each point's constant mean offset is taken away
+    /// first: joint definitions differ between systems.
     ///
     /// # Errors
     /// When no frame, or no point in any frame, is in both.

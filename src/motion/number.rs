@@ -4,6 +4,7 @@ use anyhow::{Result, bail, ensure};
 use glam::DVec3;
 
 use super::points::LARGEST_COORDINATE;
+use crate::files::shortened;
 
 /// A finite number. Rust would also read `nan` and `inf`, which no recording means.
 pub(super) fn finite(cell: &str) -> Result<f64> {
@@ -44,16 +45,6 @@ pub(super) fn point(cells: [&str; 3], factor: f64) -> Result<Option<DVec3>> {
         }
         _ => bail!("found {} of 3 coordinates, expected all three, or none where the point is missing", 3 - empty),
     }
-}
-
-/// Text for a message: damaged files hold cells of any length, and characters that would break the line.
-pub(super) fn shortened(text: &str) -> String {
-    const LONGEST: usize = 40;
-    let mut short: String = text.trim().chars().take(LONGEST).flat_map(char::escape_debug).collect();
-    if text.trim().chars().nth(LONGEST).is_some() {
-        short.push('…');
-    }
-    short
 }
 
 /// A coordinate in mm with a tenth of a micrometre, without the sign of a rounded zero.
@@ -100,11 +91,5 @@ mod tests {
     fn zero_has_no_sign() {
         assert_eq!(millimetres(-0.00001), "0.0000");
         assert_eq!(millimetres(-0.5), "-0.5000");
-    }
-
-    #[test]
-    fn messages_stay_on_one_line() {
-        let short = shortened(&"a\nb".repeat(100));
-        assert!(!short.contains('\n') && short.ends_with('…'), "{short}");
     }
 }

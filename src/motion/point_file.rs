@@ -45,8 +45,9 @@ impl PointFormat {
     }
 }
 
-/// Reads points (mm) from a C3D, TRC, CSV or BVH file, known by its extension. BVH has no unit: its numbers are taken as
-/// millimetres, and its joints and free ends become points ([`BvhMotion::to_points`]). Axes stay as they are in the file.
+/// Reads points (mm) from a C3D, TRC, CSV or BVH file, known by its extension. BVH has no unit: its numbers are taken
+/// as millimetres, and its joints and free ends become points ([`BvhMotion::to_points`]). Axes stay as they are in the
+/// file.
 ///
 /// # Errors
 /// One sentence with the file, the line or byte, what was found and what was expected.
@@ -78,8 +79,8 @@ pub fn read_bvh(path: &Path) -> Result<BvhMotion> {
 /// Writes points as C3D, TRC or CSV, as the extension says, through a temporary name.
 ///
 /// # Errors
-/// When the trajectory breaks [`PointTrajectory::check`], the format needs a frame rate that is unknown, the file is there and may
-/// not be replaced, writing fails, or the extension is `.bvh`, which needs a skeleton.
+/// When the trajectory breaks [`PointTrajectory::check`], the format needs a frame rate that is unknown, the file is
+/// there and may not be replaced, writing fails, or the extension is `.bvh`, which needs a skeleton.
 pub fn write_points(path: &Path, points: &PointTrajectory, overwrite: Overwrite) -> Result<()> {
     let format = PointFormat::of(path)?;
     let file_name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();

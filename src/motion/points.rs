@@ -33,8 +33,9 @@ impl PointTrajectory {
         (self.rate > 0.0).then(|| (self.first_frame + row) as f64 / self.rate)
     }
 
-    /// Holds what every reader promises and every writer needs: at least one point and one frame, names that are unique,
-    /// not empty and printable, rows as long as the names, coordinates finite and at most [`LARGEST_COORDINATE`].
+    /// Holds what every reader promises and every writer needs: at least one point and one frame, names that are
+    /// unique, not empty and printable, rows as long as the names, coordinates finite and at most
+    /// [`LARGEST_COORDINATE`].
     ///
     /// # Errors
     /// One sentence that names the point and the frame (counted from 0).

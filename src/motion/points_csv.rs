@@ -1,18 +1,21 @@
-//! Points as CSV: `frame,time,<name>.x,<name>.y,<name>.z,…`, mm, seconds, frames from 0, missing points empty (joints.csv of
-//! INTERFACES). Tables that name their columns `<name>_x` and `time_s`, or have no time, are read as well.
+//! Points as CSV: `frame,time,<name>.x,<name>.y,<name>.z,…`, mm, seconds, frames from 0, missing points empty
+//! (joints.csv of INTERFACES). Tables that name their columns `<name>_x` and `time_s`, or have no time, are read as
+//! well.
 
 use std::io::Write;
 
 use anyhow::{Context, Result, bail, ensure};
 
-use super::number::{finite, millimetres, point, shortened, whole};
+use super::number::{finite, millimetres, point, whole};
 use super::points::{PointTrajectory, meant_rate};
+use crate::files::shortened;
 
-/// Reads the text of a points CSV; `name` stands for the file in messages. The rate comes from the times, which must follow
-/// the frames evenly; without a time column (or with a single frame at time 0) it is 0, unknown.
+/// Reads the text of a points CSV; `name` stands for the file in messages. The rate comes from the times, which must
+/// follow the frames evenly; without a time column (or with a single frame at time 0) it is 0, unknown.
 ///
 /// # Errors
-/// One sentence with the file, the line, what was found and what was expected; a table of poses is recognised and said to be one.
+/// One sentence with the file, the line, what was found and what was expected; a table of poses is recognised and said
+/// to be one.
 pub fn parse_points_csv(text: &str, name: &str) -> Result<PointTrajectory> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut reader =

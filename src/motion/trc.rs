@@ -1,18 +1,19 @@
-//! TRC, the tab-separated marker format of OpenSim and Cortex. `Frame#` counts from 1, missing points are empty cells, the
-//! unit is in the header. Nothing in the file says which axis is up: coordinates are kept as they stand.
+//! TRC, the tab-separated marker format of OpenSim and Cortex. `Frame#` counts from 1, missing points are empty cells,
+//! the unit is in the header. Nothing in the file says which axis is up: coordinates are kept as they stand.
 
 use std::io::Write;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 
-use super::number::{finite, millimetres, point, shortened, whole};
+use super::number::{finite, millimetres, point, whole};
 use super::points::{PointTrajectory, millimetres_in};
+use crate::files::shortened;
 
 /// Cells before the first marker: `Frame#` and `Time`.
 const LEADING: usize = 2;
 
-/// Reads the text of a TRC file; `name` stands for the file in messages. Millimetres from the unit that the header names;
-/// `Frame#` 1 is frame 0 (a file that starts at 0 is taken to count from 0).
+/// Reads the text of a TRC file; `name` stands for the file in messages. Millimetres from the unit that the header
+/// names; `Frame#` 1 is frame 0 (a file that starts at 0 is taken to count from 0).
 ///
 /// # Errors
 /// One sentence with the file, the line, what was found and what was expected.

@@ -2,6 +2,8 @@
 //! in lanes. Every loop over lanes calls the function of [`crate::evaluate::rig`] that the reference calls, so the corners
 //! are the same to the bit; the loops are written for the compiler to vectorise.
 
+#![allow(clippy::needless_range_loop, reason = "loops over lanes say so, and several rows share the index")]
+
 use crate::evaluate::rig::{
     Rig, RigBone, RigCamera, RigLens, compose, depth_squared, end_on_corners, local_matrix, side_corners, sin_cos,
     snap, transform,

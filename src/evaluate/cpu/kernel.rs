@@ -1,6 +1,8 @@
 //! Drawing and comparing one candidate in one view without a picture: silhouette and edges as bit columns of sixteen
 //! rows, parts from the nearest to the farthest, then counts against the observation's bit planes.
 
+#![allow(clippy::needless_range_loop, reason = "loops over lanes say so, and several rows share the index")]
+
 use std::ops::Range;
 
 use crate::evaluate::Components;

@@ -10,6 +10,8 @@
 //! Flat lines then err by at most 0.094/dY + 2^-11.9, steep ones by 2^-10.6. Where anything is farther, the whole image
 //! takes double precision.
 
+#![allow(clippy::needless_range_loop, reason = "loops over lanes say so, and several rows share the index")]
+
 use super::front::{LANES, QuadChunk};
 
 /// Linear bounds of sixteen parts: `field[edge][part]`.

@@ -1,5 +1,7 @@
 //! The kernel's operations in plain Rust, for any processor; the compiler makes of them what the target has.
 
+#![allow(clippy::needless_range_loop, reason = "loops over lanes say so, and several rows share the index")]
+
 use super::simd::{Lanes, Simd};
 
 /// No instruction set in particular.

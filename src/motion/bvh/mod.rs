@@ -146,8 +146,8 @@ impl BvhMotion {
 
     /// Where every joint's origin and every free end is in every frame, in the file's unit and axes: joints under their
     /// names, free ends as `<joint>_end`. A joint's rotations multiply in the order of its channels; a position channel
-    /// takes the place of that coordinate of the offset (the usage of Blender and MotionBuilder; the two readings differ
-    /// only in files whose moving joints have an offset that the positions do not repeat).
+    /// takes the place of that coordinate of the offset (the usage of Blender and MotionBuilder; the two readings
+    /// differ only in files whose moving joints have an offset that the positions do not repeat).
     ///
     /// # Errors
     /// When the motion breaks [`Self::check`], or describes more points than memory should hold.

@@ -3,12 +3,13 @@
 use anyhow::{Context, Result, bail, ensure};
 use glam::DVec3;
 
-use super::super::number::{finite, shortened, whole};
+use super::super::number::{finite, whole};
 use super::super::points::LARGEST_COORDINATE;
 use super::{BvhChannel, BvhJoint, BvhMotion};
+use crate::files::shortened;
 
-/// Reads the text of a BVH file; `name` stands for the file in messages. Lengths are in the file's unit. Words may stand on
-/// any lines, in any case; a leaf without an `End Site` and several roots are read as well.
+/// Reads the text of a BVH file; `name` stands for the file in messages. Lengths are in the file's unit. Words may
+/// stand on any lines, in any case; a leaf without an `End Site` and several roots are read as well.
 ///
 /// # Errors
 /// One sentence with the file, the line, what was found and what was expected.

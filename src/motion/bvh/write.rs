@@ -6,8 +6,8 @@ use anyhow::Result;
 
 use super::BvhMotion;
 
-/// Writes a motion as BVH: lengths and degrees with six digits. The joints go out depth first, as the format wants it, and
-/// each frame's values with them, whatever the order of `motion.joints`.
+/// Writes a motion as BVH: lengths and degrees with six digits. The joints go out depth first, as the format wants it,
+/// and each frame's values with them, whatever the order of `motion.joints`.
 ///
 /// # Errors
 /// When the motion breaks [`BvhMotion::check`] or writing fails.

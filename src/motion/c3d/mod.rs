@@ -1,10 +1,10 @@
-//! C3D, the binary format of motion capture (www.c3d.org): 512-byte blocks, a header, parameters in groups, then points and
-//! analog samples frame by frame, in the number formats of three processors, as integers or reals.
+//! C3D, the binary format of motion capture (www.c3d.org): 512-byte blocks, a header, parameters in groups, then points
+//! and analog samples frame by frame, in the number formats of three processors, as integers or reals.
 //!
-//! The reader and the writer are this crate's own. The one crate for the format, `c3dio`, was measured on the files of
-//! `../shared/data/c3d`: it reads the six encodings right, but refuses a file whose analog offsets are reals, returns fewer
-//! frames of a truncated file without a word, and overflows on frame numbers past 131071 and frames of more than 4095 points.
-//! It stays as a second opinion in the tests.
+//! The reader and the writer are this crate's own. The one crate for the format, `c3dio` 0.8, reads the six encodings
+//! right, but refuses a real file whose analog offsets are reals, returns fewer frames of a truncated file without a
+//! word, and computes in 16 bits what overflows past frame 131071 or 4095 points. It stays as a second opinion in the
+//! tests.
 
 mod numbers;
 mod parameters;
@@ -17,5 +17,6 @@ pub use write::write_c3d;
 /// Everything in a C3D file is counted in blocks of this many bytes.
 const BLOCK: usize = 512;
 
-/// Groups of POINT whose points are no positions: Vicon stores angles, forces, moments and powers as if they were markers.
+/// Groups of POINT whose points are no positions: Vicon stores angles, forces, moments and powers as if they were
+/// markers.
 const NOT_POSITIONS: [&str; 6] = ["ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS"];

@@ -44,8 +44,8 @@ impl Processor {
     }
 }
 
-/// A VAX F real: two little-endian words, the high one first; 0.1m binary times 2^(e - 128). There is no infinity; exponent
-/// 0 with a sign is "reserved", which stands here as NaN.
+/// A VAX F real: two little-endian words, the high one first; 0.1m binary times 2^(e - 128). There is no infinity;
+/// exponent 0 with a sign is "reserved", which stands here as NaN.
 fn vax_f(bytes: [u8; 4]) -> f32 {
     let bits = u32::from_le_bytes([bytes[2], bytes[3], bytes[0], bytes[1]]);
     let (negative, exponent, fraction) = (bits >> 31 != 0, (bits >> 23) & 0xff, bits & 0x7f_ffff);

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use anyhow::{Context, Result, bail, ensure};
 
-use super::super::number::shortened;
 use super::numbers::Processor;
+use crate::files::shortened;
 
 /// A named array. Its values stay in the file's bytes until asked for.
 struct Parameter<'a> {
@@ -22,8 +22,9 @@ pub(super) struct Parameters<'a> {
 }
 
 impl<'a> Parameters<'a> {
-    /// Follows the chain of records from byte `start` of the file. A record that would start at `end` or beyond closes the
-    /// chain (there are files whose last offset has its bytes swapped). Of two records of one name the first counts.
+    /// Follows the chain of records from byte `start` of the file. A record that would start at `end` or beyond closes
+    /// the chain (there are files whose last offset has its bytes swapped). Of two records of one name the first
+    /// counts.
     ///
     /// # Errors
     /// When a record reaches past the end of the file, points backwards, or has an unknown type; with its byte.

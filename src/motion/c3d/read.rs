@@ -13,13 +13,13 @@ use super::{BLOCK, NOT_POSITIONS};
 /// The first frame that the header's 16 bits cannot count.
 const SATURATED: usize = 65535;
 
-/// Reads the bytes of a C3D file; `name` stands for the file in messages. Positions come in mm whatever the file's unit; a
-/// negative residual or a coordinate that is not a number means missing; points that are angles, forces, moments or powers
-/// are left out. A point without a label (or `*`) is called `point<column>`, columns counted from 1.
+/// Reads the bytes of a C3D file; `name` stands for the file in messages. Positions come in mm whatever the file's
+/// unit; a negative residual or a coordinate that is not a number means missing; points that are angles, forces,
+/// moments or powers are left out. A point without a label (or `*`) is called `point<column>`, columns counted from 1.
 ///
 /// # Errors
-/// One sentence with the file, the byte, frame or parameter, what was found and what was expected. Counts are compared with the
-/// file's length before anything is allocated.
+/// One sentence with the file, the byte, frame or parameter, what was found and what was expected. Counts are compared
+/// with the file's length before anything is allocated.
 pub fn parse_c3d(bytes: &[u8], name: &str) -> Result<PointTrajectory> {
     let points = parse(bytes).with_context(|| name.to_string())?;
     points.check().with_context(|| name.to_string())?;
@@ -91,8 +91,9 @@ struct Layout {
 }
 
 impl Layout {
-    /// What header and parameters say together. Where they disagree the parameters count, as the format's manual has it,
-    /// but for the number of frames (below) and the start of the data, which some programs leave 0 among the parameters.
+    /// What header and parameters say together. Where they disagree the parameters count, as the format's manual has
+    /// it, but for the number of frames (below) and the start of the data, which some programs leave 0 among the
+    /// parameters.
     fn find(header: &[u8; BLOCK], processor: Processor, parameters: &Parameters<'_>, length: usize) -> Result<Self> {
         let word = |index: usize| usize::from(processor.u16([header[2 * index], header[2 * index + 1]]));
         let real = |index: usize| {

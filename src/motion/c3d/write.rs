@@ -16,12 +16,12 @@ const LAST_FRAME: usize = 1 << 24;
 /// The header counts frames in 16 bits.
 const LAST_COUNTED: usize = 65535;
 
-/// Writes the points as C3D in mm with 32-bit reals; a missing point has the residual -1. Recordings past 65535 frames get
-/// `POINT:LONG_FRAMES` and `TRIAL:ACTUAL_START_FIELD`, `ACTUAL_END_FIELD`.
+/// Writes the points as C3D in mm with 32-bit reals; a missing point has the residual -1. Recordings past 65535 frames
+/// get `POINT:LONG_FRAMES` and `TRIAL:ACTUAL_START_FIELD`, `ACTUAL_END_FIELD`.
 ///
 /// # Errors
-/// When the trajectory breaks [`PointTrajectory::check`], its rate is unknown, a name is longer than 120 bytes, there are more points
-/// than the format can name, or writing fails.
+/// When the trajectory breaks [`PointTrajectory::check`], its rate is unknown, a name is longer than 120 bytes, there
+/// are more points than the format can name, or writing fails.
 pub fn write_c3d(out: &mut dyn Write, points: &PointTrajectory) -> Result<()> {
     points.check()?;
     ensure!(points.rate > 0.0, "the frame rate is unknown, but C3D needs one: give it");
