@@ -88,7 +88,7 @@ fn run(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Table {
     let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
     let command = format!(
         "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-         --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {}{start}",
+         --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --overlay-every {}{start}",
         sequence.path.display(),
         plan.range.start,
         plan.range.end,
@@ -99,6 +99,7 @@ fn run(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Table {
         settings.spread,
         kind.name(),
         plan.backend.evaluator.name(),
+        settings.overlay_every,
     );
     Table::from_iter([
         ("pantin".to_string(), Value::from(env!("CARGO_PKG_VERSION"))),

@@ -1,6 +1,8 @@
 //! `pantin track` from outside: the same files whatever computes them and however often it was killed, files that read
 //! back, and one sentence for everything that is wrong.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test says what went wrong by panicking")]
+
 mod evaluate;
 mod walk;
 
@@ -179,7 +181,7 @@ fn files_read_back_and_the_walk_is_followed() {
     assert_eq!(run["settings"]["backend"].as_str(), Some("cpu"));
     let report = fs::read_to_string(folder.join("report.html")).unwrap();
     assert!(report.contains("mean error of the joints") && report.ends_with("</html>\n"));
-    let overlay = image::open(folder.join("overlay/cam3_000004.jpg")).unwrap();
+    let overlay = image::open(folder.join("overlay/cam3_000004.png")).unwrap();
     assert_eq!((overlay.width(), overlay.height()), (160, 120));
     let left: Vec<_> = fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name()).collect();
     assert!(left.iter().all(|name| !name.to_string_lossy().ends_with(".tmp")), "{left:?}");
@@ -198,7 +200,7 @@ fn a_kill_at_any_frame_loses_nothing_but_time() {
         fs::create_dir(output.join("overlay")).unwrap();
         for frame in (0..frames).filter(|frame| frame % 2 == 0) {
             for camera in 0..4 {
-                let name = format!("overlay/cam{camera}_{frame:06}.jpg");
+                let name = format!("overlay/cam{camera}_{frame:06}.png");
                 fs::copy(whole().join(&name), output.join(&name)).unwrap();
             }
         }
@@ -293,7 +295,6 @@ fn part_of_the_frames() {
     assert_eq!(PoseTable::read(&output.join("poses.csv"), &body).unwrap().frames, [2, 3, 4]);
     assert_eq!(read_points(&output.join("joints.csv")).unwrap().first_frame, 2);
     refused(&track_with(sequence(), &folder.path().join("b"), &["--frames", "2..9"]), &["2..9", "0..6"]);
-    let six_rows = start.to_str().unwrap();
     // A table with many rows must have that of the first frame.
     let text = fs::read_to_string(&start).unwrap();
     let without_first: String =
@@ -302,7 +303,6 @@ fn part_of_the_frames() {
     fs::write(&cut, without_first).unwrap();
     let none = track_with(sequence(), &folder.path().join("c"), &["--start", cut.to_str().unwrap()]);
     refused(&none, &["cut.csv holds 5 poses, none of frame 0"]);
-    assert!(six_rows.ends_with("truth_poses.csv"));
 }
 
 #[test]
@@ -394,7 +394,7 @@ fn wrong_inputs_are_one_sentence() {
         (["--search", "luck"], "expected one of pso, pf"),
         (["--objective", "best"], "expected one of ws, sp, aows, aosp, posp"),
         (["--frames", "5..2"], "the range of frames 5..2 is empty"),
-        (["--particles", "many"], "invalid"),
+        (["--seed", "many"], "invalid"),
     ] {
         let wrong = track_with(sequence(), &output, &flags);
         assert_eq!(wrong.status.code(), Some(2), "{flags:?}");
