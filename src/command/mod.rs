@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "this room is the one that talks to the user")]
 
 mod convert;
+mod demo;
 mod evaluate;
 mod features;
 mod objective_flags;
@@ -28,6 +29,7 @@ struct Arguments {
 enum Command {
     /// Convert a recording between C3D, TRC, BVH and CSV.
     Convert(convert::ConvertArgs),
+    Demo(demo::DemoArgs),
     /// Score given poses against one frame: components and fitness.
     Evaluate(evaluate::EvaluateArgs),
     /// Measure the error of tracked points against a truth: per point, per frame, mean and standard deviation, mm.
@@ -59,6 +61,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 fn dispatch(command: Command) -> Result<()> {
     match command {
         Command::Convert(args) => convert::run(&args),
+        Command::Demo(args) => demo::run(&args),
         Command::Evaluate(args) => evaluate::run(&args),
         Command::Score(args) => score::run(&args),
         Command::Features(args) => features::run(&args),

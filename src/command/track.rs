@@ -123,7 +123,7 @@ pub fn run(args: &TrackArgs) -> Result<()> {
 }
 
 /// What the user sees when all is done.
-fn print_summary(summary: &TrackSummary, folder: &std::path::Path) {
+pub(super) fn print_summary(summary: &TrackSummary, folder: &std::path::Path) {
     for warning in &summary.warnings {
         eprintln!("note: {warning}");
     }
@@ -144,7 +144,7 @@ fn print_summary(summary: &TrackSummary, folder: &std::path::Path) {
 }
 
 /// A bar on a terminal, a line now and then elsewhere; and Ctrl-C.
-struct TrackProgress {
+pub(super) struct TrackProgress {
     stop: Arc<AtomicBool>,
     bar: Option<ProgressBar>,
     begin: Instant,
@@ -157,7 +157,7 @@ struct TrackProgress {
 const LINE_INTERVAL: Duration = Duration::from_secs(10);
 
 impl TrackProgress {
-    fn new() -> Result<Self> {
+    pub(super) fn new() -> Result<Self> {
         let stop = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&stop);
         ctrlc::set_handler(move || {
@@ -172,7 +172,7 @@ impl TrackProgress {
         Ok(Self { stop, bar: None, begin: now, last_line: now, first: 0, total: 0 })
     }
 
-    fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         if let Some(bar) = self.bar.take() {
             bar.finish_and_clear();
         }

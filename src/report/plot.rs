@@ -29,7 +29,7 @@ pub fn line_chart(label: &str, first_frame: usize, series: &[Series], size: [u32
     let frames = series.iter().map(|s| s.values.len()).max().unwrap_or(0).max(2);
     let top = series.iter().flat_map(|s| &s.values).filter_map(finite).fold(0.0, f64::max);
     // Several curves need room for a legend above them.
-    let room = if series.len() > 1 { 1.3 } else { 1.08 };
+    let room = if series.len() > 1 { 1.12 + 0.12 * series.len() as f64 } else { 1.08 };
     let top = if top > 0.0 { top * room } else { 1.0 };
     let x = first_frame as f64..(first_frame + frames - 1) as f64;
     drawn(size, |root| {

@@ -235,4 +235,30 @@ mod tests {
         }
         assert_eq!(fs::read_dir(first.path().join("frames")).unwrap().count(), 12);
     }
+
+    #[test]
+    fn the_folder_opens_as_a_sequence_with_the_same_cameras_and_truth() {
+        let folder = tempfile::tempdir().unwrap();
+        let output = OutputFolder::create(folder.path(), Overwrite::Refuse).unwrap();
+        let synthetic = SyntheticSequence::new(&short()).unwrap();
+        synthetic.write(&output, &|_| {}).unwrap();
+        let sequence = crate::sequence::Sequence::open(folder.path()).unwrap();
+        assert_eq!((sequence.frame_count, sequence.fps, sequence.views.len()), (3, 25.0, 4));
+        let body = Body::load(&folder.path().join("body.toml")).unwrap();
+        let poses = PoseTable::read(&folder.path().join("truth_poses.csv"), &body).unwrap();
+        for (pose, exact) in poses.poses.iter().zip(&synthetic.poses().poses) {
+            assert!(pose.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-9 * b.abs().max(1.0)));
+        }
+        let truth = crate::motion::read_points(&folder.path().join("truth.trc")).unwrap();
+        let exact = synthetic.joints().unwrap();
+        assert_eq!(truth.names, exact.names);
+        for (camera, made) in sequence.cameras.iter().zip(synthetic.cameras()) {
+            for (row, exact) in truth.frames.iter().flatten().zip(exact.frames.iter().flatten()) {
+                let (read, exact) = (row.unwrap(), exact.unwrap());
+                assert!(read.distance(exact) < 1e-3, "{read} {exact}");
+                let pixels = (camera.project(read).unwrap(), made.project(exact).unwrap());
+                assert!(pixels.0.distance(pixels.1) < 1e-3, "{pixels:?}");
+            }
+        }
+    }
 }

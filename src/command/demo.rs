@@ -1,0 +1,99 @@
+//! `pantin demo`.
+
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+use anyhow::{Context, Result, bail};
+use image::RgbImage;
+
+use super::progress::Progress;
+use super::track::{TrackProgress, print_summary};
+use crate::files::{OutputFolder, Overwrite};
+use crate::report::side_by_side;
+use crate::search::SearchSettings;
+use crate::sequence::Sequence;
+use crate::synth::{Scene, SyntheticSequence};
+use crate::track::{TrackSettings, track};
+
+/// Shows the whole thing at work: makes a synthetic four-camera sequence of a person walking in a circle, tracks it,
+/// prints the error against its exact truth, and writes pictures and a report. Needs no data and no network.
+#[derive(clap::Args, Debug)]
+pub struct DemoArgs {
+    /// The folder for the sequence and the results.
+    #[arg(short, long, value_name = "DIR", default_value = "pantin-demo")]
+    output: PathBuf,
+    /// Replace what the folder holds.
+    #[arg(long)]
+    force: bool,
+    /// Length of the sequence, at 25 frames a second.
+    #[arg(long, value_name = "N", default_value_t = Scene::default().frames)]
+    frames: usize,
+    /// Poses scored at once.
+    #[arg(long, value_name = "N", default_value_t = 600)]
+    particles: usize,
+    /// Times that many poses are scored a frame.
+    #[arg(long, value_name = "K", default_value_t = 20)]
+    iterations: usize,
+    /// Seed of the search and of the cameras' noise.
+    #[arg(long, value_name = "S", default_value_t = SearchSettings::default().seed)]
+    seed: u64,
+}
+
+/// The picture of all views side by side.
+const PICTURE: &str = "demo.png";
+/// Factor on the body's steps, which leave room for sudden movements: a quiet walk needs half of that.
+const SPREAD: f64 = 0.5;
+/// The model is drawn over the pictures every so many frames.
+const OVERLAY_EVERY: usize = 10;
+
+/// Runs the command.
+///
+/// # Errors
+/// When a number makes no sense, the folder is not empty (without `--force`) or a file cannot be written.
+pub fn run(args: &DemoArgs) -> Result<()> {
+    let scene = Scene { frames: args.frames, seed: args.seed, ..Scene::default() };
+    let search = SearchSettings {
+        particles: args.particles,
+        iterations: args.iterations,
+        seed: args.seed,
+        ..SearchSettings::default()
+    };
+    let settings = TrackSettings { search, spread: SPREAD, overlay_every: OVERLAY_EVERY, ..TrackSettings::default() };
+    settings.check()?;
+    let synthetic = SyntheticSequence::new(&scene)?;
+    let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;
+
+    let folder = OutputFolder::open(&args.output.join("sequence"))?;
+    let begin = Instant::now();
+    let bar = Mutex::new(Progress::new("making the sequence", scene.frames));
+    synthetic.write(&folder, &|_| bar.lock().unwrap_or_else(PoisonError::into_inner).advance())?;
+    drop(bar);
+    let views = synthetic.cameras().len();
+    let made = begin.elapsed().as_secs_f64();
+    println!("made {} frames in {views} views in {made:.1} s: {}", scene.frames, folder.path().display());
+
+    let sequence = Sequence::open(folder.path())?;
+    let mut bar = TrackProgress::new()?;
+    let summary = track(&sequence, &settings, &output, &mut bar);
+    bar.clear();
+    let summary = summary?;
+    if let Some(next) = summary.stopped_before {
+        bail!("stopped before frame {next}: run `pantin demo --force` to begin again");
+    }
+    print_summary(&summary, &args.output);
+    // The last overlay of the first half shows the walk from all sides.
+    let last = summary.frames.len().saturating_sub(1) / 2 / OVERLAY_EVERY * OVERLAY_EVERY;
+    let pictures: Vec<RgbImage> = synthetic
+        .cameras()
+        .iter()
+        .map(|camera| {
+            let path = args.output.join(format!("overlay/{}_{last:06}.jpg", camera.name));
+            Ok(image::open(&path).with_context(|| format!("cannot read {}", path.display()))?.to_rgb8())
+        })
+        .collect::<Result<_>>()?;
+    let path = output.file(PICTURE)?;
+    side_by_side(&pictures, 2, 6)?.save(&path).with_context(|| format!("cannot write {}", path.display()))?;
+    println!("the model over frame {last}: {}", path.display());
+    Ok(())
+}

@@ -1,0 +1,57 @@
+//! `pantin demo` from the outside: the sequence, the track and the report, from nothing.
+
+#![allow(clippy::unwrap_used, reason = "a helper of tests may unwrap as they do")]
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn demo(folder: &Path, more: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pantin"));
+    command.args(["demo", "-o"]).arg(folder).args(["--frames", "12"]).args(more);
+    command.output().unwrap()
+}
+
+#[test]
+fn a_walk_is_made_tracked_and_scored() {
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = temporary.path().join("demo");
+    let done = demo(&folder, &["--particles", "300", "--iterations", "12"]);
+    let (out, err) = (String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));
+    assert!(done.status.success(), "{err}");
+    let line = out.lines().find(|line| line.starts_with("error ")).unwrap_or_else(|| panic!("no error in {out}"));
+    let error: f64 = line.split_whitespace().nth(1).unwrap().parse().unwrap();
+    // Exact truth: nothing drawn would be metres off, a lost track hundreds of millimetres.
+    assert!(error > 1.0 && error < 60.0, "{line}");
+
+    for name in ["sequence/sequence.toml", "sequence/truth.trc", "poses.csv", "joints.trc", "markers.c3d", "demo.png"] {
+        assert!(folder.join(name).is_file(), "{name} is missing");
+    }
+    let report = std::fs::read_to_string(folder.join("report.html")).unwrap();
+    assert!(report.contains("data:image/jpeg;base64,") && report.contains("<canvas") && report.contains("left_wrist"));
+
+    let poses = std::fs::read(folder.join("poses.csv")).unwrap();
+    let refused = demo(&folder, &[]);
+    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(message.contains("--force"), "{message}");
+    let again = demo(&folder, &["--force", "--particles", "300", "--iterations", "12"]);
+    assert!(again.status.success());
+    assert_eq!(std::fs::read(folder.join("poses.csv")).unwrap(), poses, "the same seed gives the same bytes");
+}
+
+#[test]
+fn impossible_numbers_are_named_before_anything_is_written() {
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = temporary.path().join("demo");
+    for (arguments, expected) in [(["--particles", "0"], "particles is 0"), (["--iterations", "0"], "iterations is 0")]
+    {
+        let failed = demo(&folder, &arguments);
+        let message = String::from_utf8_lossy(&failed.stderr).into_owned();
+        assert_eq!(failed.status.code(), Some(1), "{message}");
+        assert!(message.contains(expected) && message.trim().lines().count() == 1, "{message}");
+        assert!(!folder.exists(), "{arguments:?} wrote something");
+    }
+    let failed =
+        Command::new(env!("CARGO_BIN_EXE_pantin")).args(["demo", "--frames", "0", "-o"]).arg(&folder).output().unwrap();
+    assert!(String::from_utf8_lossy(&failed.stderr).contains("frames is 0"));
+}
