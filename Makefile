@@ -2,7 +2,7 @@
 #   make demo    makes a synthetic four-camera sequence, tracks it and writes out/demo/report.html
 #   make test    formatting, lints, all tests
 #   make bench   the speed tables of docs/PERFORMANCE.md
-#   make fuzz    a minute of fuzzing for every reader of a user's file (SECONDS=60)
+#   make fuzz    a minute of fuzzing for every reader of a user's file (SECONDS_EACH=60)
 
 CARGO ?= cargo
 OUT ?= out/demo
@@ -32,7 +32,9 @@ bench: toolchain
 	$(CARGO) bench --locked
 
 fuzz: toolchain
-	@for target in $$($(CARGO) run --quiet --manifest-path tests/fuzz/Cargo.toml --bin list 2>/dev/null); do echo $$target; done
+	@command -v c++ >/dev/null || { echo "installing g++ (Debian package) to build the fuzzer"; \
+		$(SUDO) apt-get update -qq && $(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq g++ >/dev/null; }
+	tests/fuzz/run.sh all $(SECONDS_EACH)
 
 # Video files are decoded by the ffmpeg program. The demo needs none: it reads numbered pictures.
 ffmpeg:

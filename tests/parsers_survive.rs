@@ -7,6 +7,7 @@ use std::path::Path;
 
 use pantin::body::{Body, PoseTable, parse_body};
 use pantin::motion::{parse_bvh, parse_c3d, parse_points_csv, parse_trc};
+use pantin::sequence::{check_manifest, parse_cameras_toml, parse_opencv_xml, parse_opencv_yaml, parse_qualisys};
 use proptest::prelude::*;
 
 /// One kind of damage; places are fractions of the file's length.
@@ -128,7 +129,7 @@ fn leg() -> Body {
 }
 
 /// The folder of seeds, and the parser.
-const PARSERS: [(&str, Parser); 6] = [
+const PARSERS: [(&str, Parser); 10] = [
     ("c3d", |bytes| parse_c3d(bytes, NAME)?.check()),
     ("trc", |bytes| parse_trc(&text(bytes), NAME)?.check()),
     ("csv", |bytes| parse_points_csv(&text(bytes), NAME)?.check()),
@@ -147,6 +148,15 @@ const PARSERS: [(&str, Parser); 6] = [
         let table = PoseTable::parse(bytes, NAME, &body)?;
         table.poses.iter().try_for_each(|pose| body.check_pose(pose))
     }),
+    ("cameras", |bytes| parse_cameras_toml(&text(bytes), NAME).map(|_| ())),
+    ("qualisys", |bytes| parse_qualisys(&text(bytes), NAME).map(|_| ())),
+    // One folder for both spellings of the format: each seed is read by its own parser, damaged or not.
+    ("opencv", |bytes| {
+        let text = text(bytes);
+        let is_xml = text.trim_start().starts_with('<');
+        if is_xml { parse_opencv_xml(&text, NAME) } else { parse_opencv_yaml(&text, NAME) }.map(|_| ())
+    }),
+    ("sequence", |bytes| check_manifest(&text(bytes), NAME)),
 ];
 
 fn seeds(format: &str) -> Vec<Vec<u8>> {

@@ -10,7 +10,7 @@ use super::coverage::check_coverage;
 use super::frames::Source;
 use super::pictures::{PicturePattern, picture_size, shown};
 use super::video::{VideoInfo, probe_video};
-use crate::files::read_toml;
+use crate::files::{parse_toml, read_toml};
 use crate::geometry::Camera;
 
 /// A sequence: synchronised pictures of calibrated cameras, and what belongs to them (SPEC A2, INTERFACES).
@@ -91,6 +91,30 @@ fn full_size() -> f64 {
     1.0
 }
 
+impl ManifestFile {
+    /// What can be said of a manifest without looking at the files it names.
+    fn check(&self, name: &str) -> Result<()> {
+        if !(self.fps.is_finite() && self.fps > 0.0) {
+            bail!("{name}: fps is {}, expected a positive number of frames per second", self.fps);
+        }
+        if !(self.scale > 0.0 && self.scale <= 1.0) {
+            bail!("{name}: scale is {}, expected more than 0 and at most 1", self.scale);
+        }
+        if self.view.is_empty() {
+            bail!("{name} has no views, expected a [[view]] with `camera` and `source` for each camera");
+        }
+        Ok(())
+    }
+}
+
+/// Checks a manifest's text alone, without the files it names; `name` stands for the file in messages.
+///
+/// # Errors
+/// As [`Sequence::open`], as far as the text goes.
+pub fn check_manifest(text: &str, name: &str) -> Result<()> {
+    parse_toml::<ManifestFile>(text, name)?.check(name)
+}
+
 impl Sequence {
     /// Opens a sequence: `path` is its manifest, or the folder with a `sequence.toml` in it. Every file it names is
     /// looked at (videos are counted, not decoded).
@@ -104,16 +128,8 @@ impl Sequence {
         let path = if path.is_dir() { path.join("sequence.toml") } else { path.to_path_buf() };
         let file: ManifestFile = read_toml(&path)?;
         let shown_path = path.display();
+        file.check(&shown_path.to_string())?;
         let dir = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        if !(file.fps.is_finite() && file.fps > 0.0) {
-            bail!("{shown_path}: fps is {}, expected a positive number of frames per second", file.fps);
-        }
-        if !(file.scale > 0.0 && file.scale <= 1.0) {
-            bail!("{shown_path}: scale is {}, expected more than 0 and at most 1", file.scale);
-        }
-        if file.view.is_empty() {
-            bail!("{shown_path} has no views, expected a [[view]] with `camera` and `source` for each camera");
-        }
         let existing = |key: &str, relative: &Path| -> Result<PathBuf> {
             let file = dir.join(relative);
             if !file.is_file() {

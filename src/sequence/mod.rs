@@ -13,6 +13,6 @@ pub use calibration::{
     write_cameras_toml,
 };
 pub use frames::{FrameReader, FrameSet, Source};
-pub use manifest::{Sequence, View};
+pub use manifest::{Sequence, View, check_manifest};
 pub use pictures::PicturePattern;
 pub use video::{VideoInfo, probe_video};
