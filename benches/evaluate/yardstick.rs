@@ -149,17 +149,17 @@ fn row_span(
 /// The filled pixels of a quad, a row at a time.
 fn rows(quad: &PartQuad, width: usize, height: usize, mut row: impl FnMut(usize, usize, usize)) {
     let ys = quad.corners.map(|c| c[1]);
-    let top = ((ys.iter().min().unwrap_or(&0) + 127) >> 8).max(0);
-    let bottom = ((ys.iter().max().unwrap_or(&0) + 127) >> 8).min(height as i32);
+    let top = ((ys.iter().min().unwrap_or(&0) + 255) >> 8).max(0);
+    let bottom = ((ys.iter().max().unwrap_or(&0) + 255) >> 8).min(height as i32);
     for y in top..bottom {
-        let centre = i64::from(256 * y + 128);
+        let centre = i64::from(256 * y);
         let (mut from, mut to) = (i64::MAX, i64::MIN);
         for corner in 0..4 {
             let (p, q) = (quad.corners[corner].map(i64::from), quad.corners[(corner + 1) % 4].map(i64::from));
             let (p, q) = if p[1] <= q[1] { (p, q) } else { (q, p) };
             if p[1] <= centre && centre < q[1] {
                 let dy = q[1] - p[1];
-                let x = ((p[0] - 128) * dy + (q[0] - p[0]) * (centre - p[1]) + 256 * dy - 1).div_euclid(256 * dy);
+                let x = (p[0] * dy + (q[0] - p[0]) * (centre - p[1]) + 256 * dy - 1).div_euclid(256 * dy);
                 (from, to) = (from.min(x), to.max(x));
             }
         }

@@ -68,7 +68,7 @@ pub fn draw_quads(quads: &[PartQuad], labels: &[u8], width: u32, height: u32) ->
 /// leftmost crossing of the outline with the line through the row's pixel centres, and left of the rightmost one.
 fn for_each_fill_pixel(corners: &[[i32; 2]; 4], width: u32, height: u32, mut paint: impl FnMut(usize)) {
     for y in 0..i64::from(height) {
-        let centre_y = 256 * y + 128;
+        let centre_y = 256 * y;
         let crossing_edges: Vec<([i64; 2], [i64; 2])> = (0..4)
             .map(|corner| (corners[corner].map(i64::from), corners[(corner + 1) % 4].map(i64::from)))
             .map(|(p, q)| if p[1] <= q[1] { (p, q) } else { (q, p) })
@@ -78,7 +78,7 @@ fn for_each_fill_pixel(corners: &[[i32; 2]; 4], width: u32, height: u32, mut pai
             continue;
         }
         for x in 0..i64::from(width) {
-            let centre_x = 256 * x + 128;
+            let centre_x = 256 * x;
             // The crossing is at top.x + dx (centre_y - top.y) / dy; both sides times dy, which is positive.
             let is_at_or_right_of = |&(top, bottom): &([i64; 2], [i64; 2])| {
                 (centre_x - top[0]) * (bottom[1] - top[1]) >= (bottom[0] - top[0]) * (centre_y - top[1])
@@ -179,5 +179,59 @@ impl Evaluator for Reference {
             *value = objective.fitness(row);
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A part with the given corners in pixels, at a depth.
+    fn part(corners: [[f64; 2]; 4], depth_squared: f32) -> PartQuad {
+        PartQuad { corners: corners.map(|c| c.map(|v| (v * 256.0).round() as i32)), depth_squared, drawn: true }
+    }
+
+    fn rows(image: &CandidateImage) -> Vec<String> {
+        let symbol = |byte: &u8| match byte {
+            0 => '.',
+            byte if byte & 0x80 != 0 => '#',
+            _ => 'o',
+        };
+        image.bytes.chunks(image.width as usize).map(|row| row.iter().map(symbol).collect()).collect()
+    }
+
+    #[test]
+    fn a_square_covers_the_pixels_whose_centres_it_holds() {
+        let square = part([[1.0, 1.0], [5.0, 1.0], [5.0, 4.0], [1.0, 4.0]], 1.0);
+        let image = draw_quads(&[square], &[9], 8, 6);
+        assert_eq!(rows(&image), ["........", ".#####..", ".#ooo#..", ".#ooo#..", ".#####..", "........"]);
+        // Fill alone: left and top included, right and bottom excluded, centred on the border's outline.
+        let mut filled = Vec::new();
+        for_each_fill_pixel(&square.corners, 8, 6, |pixel| filled.push(pixel));
+        let expected: Vec<usize> = (1..4).flat_map(|y| (1..5).map(move |x| y * 8 + x)).collect();
+        assert_eq!(filled, expected);
+    }
+
+    #[test]
+    fn a_nearer_fill_hides_a_border_and_a_nearer_border_does_not_hide_a_fill() {
+        let far = part([[0.0, 2.0], [7.0, 2.0], [7.0, 4.0], [0.0, 4.0]], 9.0);
+        let near = part([[2.0, 0.0], [5.0, 0.0], [5.0, 5.0], [2.0, 5.0]], 1.0);
+        let expected = ["..####..", "..#oo#..", "###oo###", "#o#oo#o#", "###oo###", "..####.."];
+        assert_eq!(rows(&draw_quads(&[far, near], &[1, 2], 8, 6)), expected);
+        assert_eq!(rows(&draw_quads(&[near, far], &[2, 1], 8, 6)), expected, "the order of parts plays no role");
+        // At equal depth the later one is nearer.
+        let level = PartQuad { depth_squared: 1.0, ..far };
+        assert_eq!(rows(&draw_quads(&[near, level], &[2, 1], 8, 6))[3], "#oooooo#");
+    }
+
+    #[test]
+    fn ties_of_a_line_go_to_the_larger_coordinate() {
+        // Two columns a row: half-way columns belong to the lower row.
+        let mut drawn = Vec::new();
+        let line = [[0, 0], [4 * 256, 2 * 256], [4 * 256, 2 * 256], [4 * 256, 2 * 256]];
+        for_each_border_pixel(&line, 5, 3, |pixel| drawn.push((pixel % 5, pixel / 5)));
+        drawn.sort_unstable();
+        drawn.dedup();
+        assert_eq!(drawn, [(0, 0), (1, 1), (2, 1), (3, 2), (4, 2)]);
     }
 }

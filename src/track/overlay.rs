@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use glam::DVec2;
-use image::RgbImage;
-use image::codecs::jpeg::JpegEncoder;
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder, RgbImage};
 
 use crate::body::Body;
 use crate::evaluate::Projector;
@@ -13,7 +13,6 @@ use crate::report::{Canvas, OverlayPolygon, part_colour};
 
 /// The folder of a track's overlays.
 pub(super) const FOLDER: &str = "overlay";
-const QUALITY: u8 = 88;
 const OPACITY: f64 = 0.35;
 
 /// Draws poses of a body over the pictures of its cameras.
@@ -57,16 +56,17 @@ impl<'a> Overlay<'a> {
         for (view, picture) in pictures.iter().enumerate() {
             let drawn = self.draw(picture, view, pose)?;
             output.write(&file_name(&self.cameras[view].name, frame), |writer| {
-                Ok(JpegEncoder::new_with_quality(writer, QUALITY).encode_image(&drawn)?)
+                let (width, height) = drawn.dimensions();
+                Ok(PngEncoder::new(writer).write_image(&drawn, width, height, ExtendedColorType::Rgb8)?)
             })?;
         }
         Ok(())
     }
 }
 
-/// `overlay/<camera>_%06d.jpg`. A camera may carry any name, a file may not.
+/// `overlay/<camera>_%06d.png`. A camera may carry any name, a file may not.
 pub(super) fn file_name(camera: &str, frame: usize) -> String {
-    format!("{FOLDER}/{}_{frame:06}.jpg", file_stem(camera))
+    format!("{FOLDER}/{}_{frame:06}.png", file_stem(camera))
 }
 
 /// A camera's name with what no file name can hold replaced.

@@ -44,7 +44,7 @@ pub(super) fn clear(output: &OutputFolder) -> Result<()> {
         let cannot = || format!("cannot read the folder {}", overlays.display());
         for entry in fs::read_dir(&overlays).with_context(cannot)? {
             let path = entry.with_context(cannot)?.path();
-            if path.extension().is_some_and(|extension| extension == "jpg") {
+            if path.extension().is_some_and(|extension| extension == "png") {
                 remove(&path)?;
             }
         }

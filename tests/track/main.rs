@@ -181,7 +181,7 @@ fn files_read_back_and_the_walk_is_followed() {
     assert_eq!(run["settings"]["backend"].as_str(), Some("cpu"));
     let report = fs::read_to_string(folder.join("report.html")).unwrap();
     assert!(report.contains("mean error of the joints") && report.ends_with("</html>\n"));
-    let overlay = image::open(folder.join("overlay/cam3_000004.jpg")).unwrap();
+    let overlay = image::open(folder.join("overlay/cam3_000004.png")).unwrap();
     assert_eq!((overlay.width(), overlay.height()), (160, 120));
     let left: Vec<_> = fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name()).collect();
     assert!(left.iter().all(|name| !name.to_string_lossy().ends_with(".tmp")), "{left:?}");
@@ -200,7 +200,7 @@ fn a_kill_at_any_frame_loses_nothing_but_time() {
         fs::create_dir(output.join("overlay")).unwrap();
         for frame in (0..frames).filter(|frame| frame % 2 == 0) {
             for camera in 0..4 {
-                let name = format!("overlay/cam{camera}_{frame:06}.jpg");
+                let name = format!("overlay/cam{camera}_{frame:06}.png");
                 fs::copy(whole().join(&name), output.join(&name)).unwrap();
             }
         }

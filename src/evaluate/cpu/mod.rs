@@ -221,6 +221,15 @@ fn evaluate_group(code: Code, projector: &Projector, planes: &[Planes], poses: &
             // SAFETY: the token proves that the processor has these features.
             unsafe { compiled(simd, projector, planes, poses, scratch) }
         }
+        #[cfg(target_arch = "x86_64")]
+        Code::Portable if is_x86_feature_detected!("sse4.2") && is_x86_feature_detected!("popcnt") => {
+            #[target_feature(enable = "sse4.2,popcnt")]
+            fn compiled(projector: &Projector, planes: &[Planes], poses: &[f32], scratch: &mut Scratch) {
+                evaluate_group_in(Portable, projector, planes, poses, scratch);
+            }
+            // SAFETY: the guard has just found both features.
+            unsafe { compiled(projector, planes, poses, scratch) }
+        }
         Code::Portable => evaluate_group_in(Portable, projector, planes, poses, scratch),
     }
 }

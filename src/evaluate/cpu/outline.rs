@@ -134,17 +134,17 @@ impl OutlineChunk {
             let downwards = y0[lane] <= y1[lane];
             let (top_x, bottom_x) = if downwards { (x0[lane], x1[lane]) } else { (x1[lane], x0[lane]) };
             let (top_y, bottom_y) = if downwards { (y0[lane], y1[lane]) } else { (y1[lane], y0[lane]) };
-            // Rows whose centre 256 row + 128 lies in [top_y, bottom_y).
-            let first = ((top_y + 127) >> 8).max(0);
-            let end = ((bottom_y + 127) >> 8).min(height);
+            // Rows whose centre 256 row lies in [top_y, bottom_y).
+            let first = ((top_y + 255) >> 8).max(0);
+            let end = ((bottom_y + 255) >> 8).min(height);
             self.fill_first[edge][lane] = first;
             self.fill_rows[edge][lane] = (end - first).max(0);
-            // ceil((X(row) - 128) / 256) with X the crossing, over the denominator 256 dy.
+            // ceil(X(row) / 256) with X the crossing, over the denominator 256 dy.
             let dx = f64::from(bottom_x - top_x);
             let dy = f64::from((bottom_y - top_y).max(1));
             let denominator = 256.0 * dy;
             let inverse = 1.0 / denominator;
-            let numerator = f64::from(top_x - 128) * dy + dx * f64::from(128 - top_y) + (denominator - 1.0) + 0.5;
+            let numerator = f64::from(top_x) * dy - dx * f64::from(top_y) + (denominator - 1.0) + 0.5;
             self.fill_slope[edge][lane] = dx * 256.0 * inverse;
             self.fill_offset[edge][lane] = numerator * inverse;
         }
