@@ -1,5 +1,6 @@
 //! `pantin demo`.
 
+use std::cmp::Ordering;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -82,18 +83,21 @@ pub fn run(args: &DemoArgs) -> Result<()> {
         bail!("stopped before frame {next}: run `pantin demo --force` to begin again");
     }
     print_summary(&summary, &args.output);
-    // The last overlay of the first half shows the walk from all sides.
-    let last = summary.frames.len().saturating_sub(1) / 2 / OVERLAY_EVERY * OVERLAY_EVERY;
+    // Of the frames that were drawn, the one that fits best; the first starts from the truth and shows little.
+    let drawn = summary.frames.iter().filter(|result| result.frame.is_multiple_of(OVERLAY_EVERY));
+    let best =
+        drawn.max_by(|a, b| (a.frame > 0, a.fitness).partial_cmp(&(b.frame > 0, b.fitness)).unwrap_or(Ordering::Equal));
+    let Some(best) = best.map(|result| result.frame) else { return Ok(()) };
     let pictures: Vec<RgbImage> = synthetic
         .cameras()
         .iter()
         .map(|camera| {
-            let path = args.output.join(format!("overlay/{}_{last:06}.jpg", camera.name));
+            let path = args.output.join(format!("overlay/{}_{best:06}.jpg", camera.name));
             Ok(image::open(&path).with_context(|| format!("cannot read {}", path.display()))?.to_rgb8())
         })
         .collect::<Result<_>>()?;
     let path = output.file(PICTURE)?;
     side_by_side(&pictures, 2, 6)?.save(&path).with_context(|| format!("cannot write {}", path.display()))?;
-    println!("the model over frame {last}: {}", path.display());
+    println!("the model over frame {best}: {}", path.display());
     Ok(())
 }
