@@ -92,7 +92,7 @@ pub fn run(args: &DemoArgs) -> Result<()> {
         .cameras()
         .iter()
         .map(|camera| {
-            let path = args.output.join(format!("overlay/{}_{best:06}.jpg", camera.name));
+            let path = args.output.join(format!("overlay/{}_{best:06}.png", camera.name));
             Ok(image::open(&path).with_context(|| format!("cannot read {}", path.display()))?.to_rgb8())
         })
         .collect::<Result<_>>()?;
