@@ -5,6 +5,7 @@
 mod convert;
 mod evaluate;
 mod features;
+mod fit;
 mod objective_flags;
 mod progress;
 mod score;
@@ -30,6 +31,8 @@ enum Command {
     Convert(convert::ConvertArgs),
     /// Score given poses against one frame: components and fitness.
     Evaluate(evaluate::EvaluateArgs),
+    /// Measure the person: adapt body proportions to silhouettes, find first poses.
+    Fit(fit::FitArgs),
     /// Measure the error of tracked points against a truth: per point, per frame, mean and standard deviation, mm.
     Score(score::ScoreArgs),
     Features(features::FeaturesArgs),
@@ -60,6 +63,7 @@ fn dispatch(command: Command) -> Result<()> {
     match command {
         Command::Convert(args) => convert::run(&args),
         Command::Evaluate(args) => evaluate::run(&args),
+        Command::Fit(args) => fit::run(&args),
         Command::Score(args) => score::run(&args),
         Command::Features(args) => features::run(&args),
         Command::Track(args) => track::run(&args),
