@@ -6,10 +6,12 @@ mod bvh;
 mod kinematics;
 mod loader;
 mod pose;
+mod proportions;
 mod save;
 mod skeleton;
 
 pub use adult::ADULT_HEIGHT;
 pub use loader::parse_body;
 pub use pose::{PoseTable, PoseWriter};
+pub use proportions::{Proportion, Proportions};
 pub use skeleton::{Body, Bone, Dof, DofAxis, FreeEnd, Marker, MeshSource, Part};

@@ -247,4 +247,23 @@ impl Body {
         }
         Ok(body)
     }
+
+    /// The same body with its lengths (offsets, parts, markers) rounded to tenths of a millimetre, as a file is better read.
+    /// Radii stay above zero.
+    pub fn rounded(&self) -> Self {
+        let tenths = |length: f64| (length * 10.0).round() / 10.0;
+        let point = |at: DVec3| DVec3::new(tenths(at.x), tenths(at.y), tenths(at.z));
+        let mut body = self.clone();
+        for bone in &mut body.bones {
+            bone.offset = point(bone.offset);
+        }
+        for part in &mut body.parts {
+            (part.a, part.b) = (point(part.a), point(part.b));
+            (part.radius_a, part.radius_b) = (tenths(part.radius_a).max(0.1), tenths(part.radius_b).max(0.1));
+        }
+        for marker in &mut body.markers {
+            marker.at = point(marker.at);
+        }
+        body
+    }
 }

@@ -6,6 +6,7 @@ mod convert;
 mod demo;
 mod evaluate;
 mod features;
+mod fit;
 mod objective_flags;
 mod progress;
 mod score;
@@ -32,6 +33,8 @@ enum Command {
     Demo(demo::DemoArgs),
     /// Score given poses against one frame: components and fitness.
     Evaluate(evaluate::EvaluateArgs),
+    /// Measure the person: adapt body proportions to silhouettes, find first poses.
+    Fit(fit::FitArgs),
     /// Measure the error of tracked points against a truth: per point, per frame, mean and standard deviation, mm.
     Score(score::ScoreArgs),
     Features(features::FeaturesArgs),
@@ -63,6 +66,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Convert(args) => convert::run(&args),
         Command::Demo(args) => demo::run(&args),
         Command::Evaluate(args) => evaluate::run(&args),
+        Command::Fit(args) => fit::run(&args),
         Command::Score(args) => score::run(&args),
         Command::Features(args) => features::run(&args),
         Command::Track(args) => track::run(&args),

@@ -125,6 +125,18 @@ impl Sequence {
     /// the calibration's, a missing or unreadable file, a scale or frame rate out of range, a camera that does not see
     /// what the others see.
     pub fn open(path: &Path) -> Result<Self> {
+        Self::open_with(path, true)
+    }
+
+    /// As [`Self::open`], but the files of the body and the start pose may be yet to be made.
+    ///
+    /// # Errors
+    /// As [`Self::open`], those two files apart.
+    pub fn open_unfitted(path: &Path) -> Result<Self> {
+        Self::open_with(path, false)
+    }
+
+    fn open_with(path: &Path, is_fitted: bool) -> Result<Self> {
         let path = if path.is_dir() { path.join("sequence.toml") } else { path.to_path_buf() };
         let file: ManifestFile = read_toml(&path)?;
         let shown_path = path.display();
@@ -138,8 +150,11 @@ impl Sequence {
             Ok(file)
         };
         let cameras_path = existing("cameras", &file.cameras)?;
-        let body = existing("body", &file.body)?;
-        let start = file.start.as_deref().map(|start| existing("start", start)).transpose()?;
+        let fitted = |key: &str, relative: &Path| -> Result<PathBuf> {
+            if is_fitted { existing(key, relative) } else { Ok(dir.join(relative)) }
+        };
+        let body = fitted("body", &file.body)?;
+        let start = file.start.as_deref().map(|start| fitted("start", start)).transpose()?;
         let truth = file.truth.as_deref().map(|truth| existing("truth", truth)).transpose()?;
         let calibrated = read_cameras(&cameras_path)?;
 

@@ -7,7 +7,9 @@ mod backend;
 mod confidence;
 mod driver;
 mod feed;
+mod fit;
 mod frame_range;
+mod hull;
 mod journal;
 mod objective_choice;
 mod overlay;
@@ -23,9 +25,13 @@ mod truth;
 pub use backend::{Backend, BuiltBackend};
 pub use confidence::Confidence;
 pub use driver::{ErrorSummary, FrameDone, Progress, RunStart, Silent, TrackSummary, track};
+pub use fit::{Coverage, Fit, FitSettings, fit};
 pub use frame_range::FrameRange;
 pub use journal::FrameResult;
 pub use objective_choice::ObjectiveChoice;
 pub use scoring::{ScoredFrame, score_poses, write_fitness};
 pub use settings::TrackSettings;
 pub use stages::StageSummary;
+
+#[cfg(test)]
+mod fit_tests;

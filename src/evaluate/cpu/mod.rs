@@ -25,6 +25,7 @@ use crate::features::Observation;
 use crate::geometry::Camera;
 
 use super::batch::{check_batch, check_observations};
+use super::rig::Rig;
 use super::{Components, Evaluator, Objective, Projector};
 
 use front::{Front, LANES, QuadChunk};
@@ -158,6 +159,28 @@ impl Cpu {
             .collect();
         let pin = workers > 1 && std::thread::available_parallelism().is_ok_and(|count| count.get() >= workers);
         Ok(Self { projector, planes, set, code, workers: Workers::new(workers, pin)?, scratch })
+    }
+
+    /// Exchanges the body for another one of as many degrees of freedom and parts; what was observed stays.
+    ///
+    /// # Errors
+    /// When their numbers differ.
+    pub fn set_body(&mut self, body: &Body) -> Result<()> {
+        let rig = Rig::new(body);
+        let (old, new) = (&self.projector.rig, &rig);
+        ensure!(
+            (new.dof_count, new.parts.len()) == (old.dof_count, old.parts.len()),
+            "a body of {} degrees of freedom and {} parts cannot take the place of one of {} and {}",
+            new.dof_count,
+            new.parts.len(),
+            old.dof_count,
+            old.parts.len()
+        );
+        for scratch in &mut self.scratch {
+            scratch.get_mut().unwrap_or_else(PoisonError::into_inner).front = Front::new(&rig);
+        }
+        self.projector.rig = rig;
+        Ok(())
     }
 
     /// Evaluates `poses` sixteen at a time and hands the components of each group to `finish` with its share of `results`.

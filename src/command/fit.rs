@@ -1,0 +1,124 @@
+//! `pantin fit`.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use anyhow::{Result, bail};
+
+use super::objective_flags::ObjectiveFlags;
+use crate::files::{Overwrite, write_atomically};
+use crate::sequence::Sequence;
+use crate::track::{Fit, FitSettings, FrameRange, fit};
+
+/// Measures the person in a sequence: adapts the proportions of the default body to the silhouettes of one or more frames
+/// and finds the poses in them. Every view needs a background or masks. Silhouettes hardly tell front from back, nor
+/// where a straight limb has its joint: give --heading if he came out backwards, and frames with bent limbs.
+#[derive(clap::Args, Debug)]
+pub struct FitArgs {
+    /// The sequence: its sequence.toml, or the folder that holds it. Its body and start need not exist yet.
+    #[arg(value_name = "SEQUENCE")]
+    sequence: PathBuf,
+    /// The body.toml to write. Without it the sequence's body stays, and only poses are found.
+    #[arg(short, long, value_name = "FILE", required_unless_present = "start_out")]
+    output: Option<PathBuf>,
+    /// The poses.csv to write, a row a frame used.
+    #[arg(long, value_name = "FILE")]
+    start_out: Option<PathBuf>,
+    /// Height of the person, mm [default: the visual hull's].
+    #[arg(long, value_name = "MM", requires = "output")]
+    height: Option<f64>,
+    /// Frames that may be used: A..B without B, A.., or ..B; counted from 0.
+    #[arg(long, value_name = "A..B", default_value = "0..1")]
+    frames: FrameRange,
+    /// How many of them at most, evenly spread.
+    #[arg(long, value_name = "N", default_value_t = FitSettings::default().samples)]
+    samples: usize,
+    /// A poses.csv to start from, with one pose or one for every frame used.
+    #[arg(long, value_name = "FILE", conflicts_with = "heading")]
+    start: Option<PathBuf>,
+    /// Where the person faces: degrees, 0 along x, 90 along y [default: tries all round].
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    heading: Option<f64>,
+    #[command(flatten)]
+    objective: ObjectiveFlags,
+    /// Poses scored at once.
+    #[arg(long, value_name = "N", default_value_t = FitSettings::default().particles)]
+    particles: usize,
+    /// Times that many poses are scored in a round.
+    #[arg(long, value_name = "K", default_value_t = FitSettings::default().iterations)]
+    iterations: usize,
+    /// Seed of all random numbers.
+    #[arg(long, value_name = "S", default_value_t = FitSettings::default().seed)]
+    seed: u64,
+    /// Replace the files.
+    #[arg(long)]
+    force: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// As [`fit`]; and when a file exists and may not be replaced, or cannot be written.
+pub fn run(args: &FitArgs) -> Result<()> {
+    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    // Said before the work, not after it.
+    for file in [&args.output, &args.start_out].into_iter().flatten() {
+        if !args.force && file.exists() {
+            bail!("{} exists: choose another name, or replace it with --force", file.display());
+        }
+    }
+    if let Some(heading) = args.heading.filter(|heading| !(-360.0..=360.0).contains(heading)) {
+        bail!("--heading is {heading}, expected -360 to 360 degrees");
+    }
+    let sequence =
+        if args.output.is_some() { Sequence::open_unfitted(&args.sequence)? } else { Sequence::open(&args.sequence)? };
+    let settings = FitSettings {
+        height: args.height,
+        frames: args.frames,
+        samples: args.samples,
+        start: args.start.clone(),
+        heading: args.heading,
+        keep_body: args.output.is_none(),
+        objective: args.objective.choice(),
+        particles: args.particles,
+        iterations: args.iterations,
+        seed: args.seed,
+    };
+    let fit = fit(&sequence, &settings)?;
+    let summary = summary(&fit);
+    print!("{summary}");
+    if let Some(file) = &args.output {
+        let comment: String = summary.lines().map(|line| format!("# {line}").trim_end().to_string() + "\n").collect();
+        let text = format!("# Measured by `pantin fit` on {}.\n#\n{comment}\n{}", sequence.name, fit.body.to_toml());
+        write_atomically(file, overwrite, |writer| Ok(writer.write_all(text.as_bytes())?))?;
+    }
+    if let Some(file) = &args.start_out {
+        fit.poses.write(file, overwrite, &fit.body)?;
+    }
+    Ok(())
+}
+
+/// What the user sees.
+fn summary(fit: &Fit) -> String {
+    let mut text = String::new();
+    // Writing into a String cannot fail.
+    let frames: Vec<String> = fit.poses.frames.iter().map(usize::to_string).collect();
+    let _ = writeln!(text, "frames {}, fitness {:.3}", frames.join(" "), fit.fitness);
+    let _ =
+        writeln!(text, "silhouettes: seen ones covered by the model, the model's on seen ones (first pose -> fitted)");
+    let [before, after] = &fit.coverage;
+    for ((view, before), after) in fit.views.iter().zip(before).zip(after) {
+        let percent = [before.seen, after.seen, before.drawn, after.drawn].map(|share| 100.0 * share);
+        let [seen, seen_after, drawn, drawn_after] = percent;
+        let _ = writeln!(text, "  {view}: {seen:.1} -> {seen_after:.1} %, {drawn:.1} -> {drawn_after:.1} %");
+    }
+    if let (Some(height), Some(proportions)) = (fit.height, &fit.proportions) {
+        let _ = writeln!(text, "height {height:.0} mm; against an adult of that height:");
+        let factors = proportions.0.iter().zip(&crate::body::Proportions::ALL);
+        let factors: Vec<String> = factors.map(|(factor, known)| format!("{} {factor:.2}", known.name)).collect();
+        for line in factors.chunks(5) {
+            let _ = writeln!(text, "  {}", line.join(", "));
+        }
+    }
+    text
+}

@@ -1,0 +1,154 @@
+use std::fs;
+use std::path::Path;
+
+use glam::{DAffine3, DMat3, DVec2, DVec3};
+use image::{GrayImage, Luma, Rgb, RgbImage};
+
+use super::{FitSettings, fit};
+use crate::body::{Body, Proportions};
+use crate::evaluate::Reference;
+use crate::features::Observation;
+use crate::geometry::{BrownConrady, Camera, Lens};
+use crate::sequence::{Sequence, write_cameras_toml};
+
+/// Three cameras round the origin, 4.5 m away and a little above the chest.
+pub(super) fn room() -> Vec<Camera> {
+    let lens = Lens::BrownConrady(BrownConrady {
+        focal: DVec2::splat(260.0),
+        centre: DVec2::new(99.5, 119.5),
+        radial: [0.0; 3],
+        tangential: [0.0; 2],
+    });
+    let camera = |(index, degrees): (usize, f64)| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let centre = DVec3::new(4500.0 * cos, 4500.0 * sin, 1500.0);
+        let forward = (DVec3::new(0.0, 0.0, 900.0) - centre).normalize();
+        let right = forward.cross(DVec3::Z).normalize();
+        let rotation = DMat3::from_cols(right, forward.cross(right), forward).transpose();
+        let camera_from_world = DAffine3::from_mat3_translation(rotation, -(rotation * centre));
+        Camera { name: format!("c{index}"), size: [200, 240], camera_from_world, lens }
+    };
+    [20.0, 110.0, -95.0].into_iter().enumerate().map(camera).collect()
+}
+
+/// What the cameras see of a body: its drawn silhouette.
+pub(super) fn seen(body: &Body, cameras: &[Camera], pose: &[f64]) -> Vec<Observation> {
+    let reference = Reference::new(body, cameras);
+    let pose: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
+    let views = 0..cameras.len();
+    views
+        .map(|view| {
+            let image = reference.draw(&pose, view);
+            let mut seen = Observation::empty(image.width, image.height);
+            for (byte, drawn) in seen.bytes.iter_mut().zip(&image.bytes) {
+                *byte = if *drawn != 0 { Observation::SILHOUETTE } else { 0 };
+            }
+            seen
+        })
+        .collect()
+}
+
+/// A sequence of one frame of masks and pictures in a folder.
+fn write_sequence(folder: &Path, cameras: &[Camera], seen: &[Observation]) {
+    let mut manifest = "name = \"drawn\"\nfps = 25.0\ncameras = \"cameras.toml\"\nbody = \"body.toml\"\n".to_string();
+    for (camera, seen) in cameras.iter().zip(seen) {
+        let name = &camera.name;
+        let is_person = |x: u32, y: u32| seen.bytes[(y * seen.width + x) as usize] != 0;
+        let mask = GrayImage::from_fn(seen.width, seen.height, |x, y| Luma([if is_person(x, y) { 255 } else { 0 }]));
+        let picture =
+            RgbImage::from_fn(seen.width, seen.height, |x, y| Rgb([if is_person(x, y) { 220 } else { 30 }; 3]));
+        mask.save(folder.join(format!("mask_{name}_00.png"))).unwrap();
+        picture.save(folder.join(format!("{name}_00.png"))).unwrap();
+        manifest +=
+            &format!("[[view]]\ncamera = \"{name}\"\nsource = \"{name}_%02d.png\"\nmask = \"mask_{name}_%02d.png\"\n");
+    }
+    fs::write(folder.join("sequence.toml"), manifest).unwrap();
+
+    write_cameras_toml(&folder.join("cameras.toml"), cameras, crate::files::Overwrite::Refuse).unwrap();
+}
+
+/// A stout short-armed person in a T-pose, drawn; measured from the silhouettes alone.
+#[test]
+fn a_drawn_person_is_measured() {
+    let index = |name: &str| Proportions::ALL.iter().position(|known| known.name == name).unwrap();
+    let mut wanted = Proportions::default();
+    for (name, factor) in
+        [("upper arm", 0.9), ("forearm", 0.9), ("belly girth", 1.25), ("thigh girth", 1.3), ("shoulder width", 1.1)]
+    {
+        wanted.0[index(name)] = factor;
+    }
+    let adult = Body::adult(1700.0).unwrap();
+    let person = wanted.apply(&adult);
+    let mut pose = person.standing_pose();
+    let dofs = person.dof_names();
+    for (name, value) in [("pelvis.tx", 150.0), ("pelvis.ty", -90.0)] {
+        pose[dofs.iter().position(|dof| dof == name).unwrap()] = value;
+    }
+    for (name, degrees) in [("pelvis.rz", 35.0_f64), ("left_shoulder.rx", 80.0), ("right_shoulder.rx", -85.0)] {
+        pose[dofs.iter().position(|dof| dof == name).unwrap()] = degrees.to_radians();
+    }
+    let cameras = room();
+    let folder = tempfile::tempdir().unwrap();
+    write_sequence(folder.path(), &cameras, &seen(&person, &cameras, &pose));
+    let sequence = Sequence::open_unfitted(folder.path()).unwrap();
+    let settings = FitSettings {
+        height: Some(1700.0),
+        particles: 200,
+        iterations: 50,
+        heading: Some(0.0),
+        ..FitSettings::default()
+    };
+    let found = fit(&sequence, &settings).unwrap();
+    let (before, after) = (&found.coverage[0], &found.coverage[1]);
+    let mean =
+        |views: &[super::Coverage]| views.iter().map(|v| v.seen + v.drawn).sum::<f64>() / 2.0 / views.len() as f64;
+    assert!(mean(after) > 0.95 && mean(after) > mean(before) + 0.01, "{before:?} {after:?}");
+    let proportions = found.proportions.unwrap();
+    for name in ["belly girth", "thigh girth"] {
+        assert!(proportions.0[index(name)] > 1.1, "{name}: {proportions:?}");
+    }
+    // From finger tips to finger tips: where between them the wrists are, silhouettes leave open.
+    let reach = |body: &Body, pose: &[f64]| -> f64 {
+        let bones = body.world_from_bones(pose).unwrap();
+        let tip = |name: &str| {
+            let hand = body.parts.iter().find(|part| part.name == name).unwrap();
+            bones[hand.bone].transform_point3(hand.b)
+        };
+        tip("left_hand").distance(tip("right_hand"))
+    };
+    let (found_reach, expected) = (reach(&found.body, &found.poses.poses[0]), reach(&person, &pose));
+    assert!((found_reach - expected).abs() < 80.0, "reach {found_reach}, expected {expected}");
+    // The same again from its own poses, keeping the body: and with the same seed the same result.
+    fs::write(folder.path().join("body.toml"), found.body.to_toml()).unwrap();
+    let start = folder.path().join("start.csv");
+    found.poses.write(&start, crate::files::Overwrite::Refuse, &found.body).unwrap();
+    let again = FitSettings { keep_body: true, start: Some(start), ..settings };
+    let sequence = Sequence::open(folder.path()).unwrap();
+    let [first, second] = [(); 2].map(|()| fit(&sequence, &again).unwrap());
+    assert_eq!(first.poses.poses, second.poses.poses);
+    assert!(first.fitness >= found.fitness - 1e-3, "{} {}", first.fitness, found.fitness);
+    assert!(first.proportions.is_none());
+}
+
+#[test]
+fn what_cannot_be_measured_is_said() {
+    let cameras = room();
+    let folder = tempfile::tempdir().unwrap();
+    let body = Body::adult(1700.0).unwrap();
+    write_sequence(folder.path(), &cameras, &seen(&body, &cameras, &body.standing_pose()));
+    let manifest = folder.path().join("sequence.toml");
+    let error = |settings: &FitSettings| {
+        let sequence = Sequence::open_unfitted(folder.path()).unwrap();
+        format!("{:#}", fit(&sequence, settings).unwrap_err())
+    };
+    let tall = error(&FitSettings { height: Some(17_000.0), ..FitSettings::default() });
+    assert!(tall.contains("the height of the person") && tall.contains("500 to 2500"), "{tall}");
+    let none = error(&FitSettings { samples: 0, ..FitSettings::default() });
+    assert!(none.contains("0 frames were asked for"), "{none}");
+    let late = error(&FitSettings { frames: "3..5".parse().unwrap(), ..FitSettings::default() });
+    assert!(late.contains("reach past the end"), "{late}");
+    let text = fs::read_to_string(&manifest).unwrap();
+    fs::write(&manifest, text.replace("mask = \"mask_c1_%02d.png\"\n", "")).unwrap();
+    let bare = error(&FitSettings::default());
+    assert!(bare.contains("camera \"c1\" has neither a background picture nor masks"), "{bare}");
+}
