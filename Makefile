@@ -26,6 +26,8 @@ test: toolchain ffmpeg
 	$(CARGO) fmt --check
 	$(CARGO) clippy --locked --all-targets -- -D warnings
 	$(CARGO) test --locked
+	@echo "one round of every benchmark, so that none rots"
+	$(CARGO) test --locked --bench evaluate --bench features --bench search
 	@[ -d ../shared/data ] || echo "SKIPPED: the tests on real recordings; ../shared/data is absent"
 
 bench: toolchain
