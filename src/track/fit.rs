@@ -36,7 +36,7 @@ const ROUNDS: i32 = 10;
 const NARROWING: f64 = 0.75;
 /// What a proportion one standard deviation off the tables costs in fitness: enough to settle what the silhouettes leave
 /// open (where a straight leg has its knee), too little to work against them.
-const PRIOR: f64 = 4e-4;
+const PRIOR: f64 = 2e-4;
 
 /// How a person is measured.
 #[derive(Clone, Debug, PartialEq)]
