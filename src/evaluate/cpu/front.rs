@@ -5,8 +5,8 @@
 #![allow(clippy::needless_range_loop, reason = "loops over lanes say so, and several rows share the index")]
 
 use crate::evaluate::rig::{
-    Rig, RigBone, RigCamera, RigLens, compose, depth_squared, end_on_corners, local_matrix, side_corners, sin_cos,
-    snap, transform,
+    Rig, RigBone, RigCamera, compose, depth_squared, end_on_corners, local_matrix, side_corners, sin_cos, snap,
+    transform,
 };
 
 /// Lanes of the front end.
@@ -183,11 +183,7 @@ impl Front {
                 }
             }
             let mut drawn = [1_u32; LANES];
-            // The lens is matched outside the loops, so that each loop is one straight piece of arithmetic.
-            match camera.lens {
-                RigLens::BrownConrady { .. } => project_corners(camera, &self.corners, quad, &mut drawn),
-                RigLens::Tsai { .. } => project_corners(camera, &self.corners, quad, &mut drawn),
-            }
+            project_corners(camera, &self.corners, quad, &mut drawn);
             for lane in 0..LANES {
                 quad.drawn[lane] = drawn[lane] != 0 && lane < radii.count;
             }

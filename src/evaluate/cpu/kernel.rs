@@ -65,24 +65,11 @@ impl Canvas {
         for place in 0..self.order.len() {
             let part = part_of(self.order[place]);
             let outline = &self.outlines[part / LANES];
+            let (lane, columns) = (part % LANES, planes.columns);
             if outline.is_near {
-                draw_part::<S, true>(
-                    simd,
-                    outline,
-                    part % LANES,
-                    planes.columns as i32,
-                    planes.columns,
-                    &mut self.cells,
-                );
+                draw_part::<S, true>(simd, outline, lane, columns, &mut self.cells);
             } else {
-                draw_part::<S, false>(
-                    simd,
-                    outline,
-                    part % LANES,
-                    planes.columns as i32,
-                    planes.columns,
-                    &mut self.cells,
-                );
+                draw_part::<S, false>(simd, outline, lane, columns, &mut self.cells);
             }
         }
         self.trim(simd, planes, &words, &blocks);
@@ -197,7 +184,6 @@ fn draw_part<S: Simd, const NEAR: bool>(
     simd: S,
     outline: &OutlineChunk,
     part: usize,
-    words: i32,
     columns: usize,
     cells: &mut [Cell],
 ) {
@@ -205,7 +191,7 @@ fn draw_part<S: Simd, const NEAR: bool>(
         return;
     }
     for edge in 0..4 {
-        draw_line::<S, NEAR>(simd, outline, edge, part, words, columns, cells);
+        draw_line::<S, NEAR>(simd, outline, edge, part, columns, cells);
     }
     draw_fill(simd, outline, part, columns, cells);
 }
@@ -217,13 +203,12 @@ fn draw_line<S: Simd, const NEAR: bool>(
     outline: &OutlineChunk,
     edge: usize,
     part: usize,
-    words: i32,
     columns: usize,
     cells: &mut [Cell],
 ) {
     let (first, count) = (outline.line_first[edge][part], outline.line_rows[edge][part]);
     let (left, right) = (outline.line_left[edge][part], outline.line_right[edge][part]);
-    let (first_word, end_word) = ((left >> 5).max(0), ((right + 31) >> 5).min(words));
+    let (first_word, end_word) = ((left >> 5).max(0), ((right + 31) >> 5).min(columns as i32));
     if count <= 0 || first_word >= end_word {
         return;
     }

@@ -198,7 +198,6 @@ impl OutlineChunk {
 /// A precision to compute border lines in.
 trait Real:
     Copy
-    + FromPixel
     + std::ops::Add<Output = Self>
     + std::ops::Sub<Output = Self>
     + std::ops::Mul<Output = Self>
@@ -208,6 +207,9 @@ trait Real:
     const HALF: Self;
     const TWO: Self;
 
+    /// A pixel coordinate, exact for those that occur.
+    fn from_pixel(value: i32) -> Self;
+
     /// Where slopes, begins and ends of an edge's lines are kept.
     fn coefficients(
         outline: &mut OutlineChunk,
@@ -215,28 +217,14 @@ trait Real:
     ) -> (&mut [Self; LANES], &mut [Self; LANES], &mut [Self; LANES]);
 }
 
-/// Conversion from pixel coordinates, exact for those that occur.
-trait FromPixel {
-    fn from_pixel(value: i32) -> Self;
-}
+impl Real for f32 {
+    const HALF: Self = 0.5;
+    const TWO: Self = 2.0;
 
-impl FromPixel for f32 {
     #[inline(always)]
     fn from_pixel(value: i32) -> Self {
         value as Self
     }
-}
-
-impl FromPixel for f64 {
-    #[inline(always)]
-    fn from_pixel(value: i32) -> Self {
-        Self::from(value)
-    }
-}
-
-impl Real for f32 {
-    const HALF: Self = 0.5;
-    const TWO: Self = 2.0;
 
     #[inline(always)]
     fn coefficients(
@@ -250,6 +238,11 @@ impl Real for f32 {
 impl Real for f64 {
     const HALF: Self = 0.5;
     const TWO: Self = 2.0;
+
+    #[inline(always)]
+    fn from_pixel(value: i32) -> Self {
+        Self::from(value)
+    }
 
     #[inline(always)]
     fn coefficients(
