@@ -9,20 +9,27 @@ OUT ?= out/demo
 SECONDS_EACH ?= 60
 SUDO := $(shell [ "$$(id -u)" = 0 ] || command -v sudo)
 
-.PHONY: demo test bench fuzz build ffmpeg toolchain help
+# The shader compiler, a C++ library that only the build uses. .cargo/config.toml names this folder, whatever CARGO_TARGET_DIR is.
+SHADERC := target/shaderc/libshaderc_combined.a
+# Debian's packages that hold its static libraries, and the libraries: libshaderc-dev's own "combined" one lacks glslang and SPIRV-Tools.
+SHADERC_PACKAGES := libshaderc-dev glslang-dev spirv-tools
+SHADERC_PARTS := shaderc_combined glslang SPIRV MachineIndependent GenericCodeGen OSDependent OGLCompiler HLSL SPIRV-Tools-opt \
+	SPIRV-Tools glslang-default-resource-limits
+
+.PHONY: demo test bench fuzz build ffmpeg shaderc toolchain help
 
 help:
 	@sed -n 's/^#   //p' Makefile
 
-demo: toolchain
+demo: toolchain shaderc
 	$(CARGO) build --release --locked
 	$(CARGO) run --release --locked --quiet -- demo -o $(OUT) --force
 	@echo "open $(OUT)/report.html in a browser"
 
-build: toolchain
+build: toolchain shaderc
 	$(CARGO) build --release --locked
 
-test: toolchain ffmpeg
+test: toolchain shaderc ffmpeg
 	$(CARGO) fmt --check
 	$(CARGO) clippy --locked --all-targets -- -D warnings
 	$(CARGO) test --locked
@@ -30,12 +37,10 @@ test: toolchain ffmpeg
 	$(CARGO) test --locked --bench evaluate --bench features --bench search
 	@[ -d ../shared/data ] || echo "SKIPPED: the tests on real recordings; ../shared/data is absent"
 
-bench: toolchain
+bench: toolchain shaderc
 	$(CARGO) bench --locked
 
-fuzz: toolchain
-	@command -v c++ >/dev/null || { echo "installing g++ (Debian package) to build the fuzzer"; \
-		$(SUDO) apt-get update -qq && $(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq g++ >/dev/null; }
+fuzz: toolchain shaderc
 	tests/fuzz/run.sh all $(SECONDS_EACH)
 
 # Video files are decoded by the ffmpeg program. The demo needs none: it reads numbered pictures.
@@ -48,10 +53,27 @@ ffmpeg:
 		echo "ffmpeg is not installed and there is no apt-get: please install ffmpeg by hand"; exit 1; \
 	fi
 
+# The packages are unpacked here and merged, not installed: nothing outside target/ changes.
+shaderc: toolchain
+	@if [ -n "$$SHADERC_LIB_DIR" ] || [ -f $(SHADERC) ]; then :; \
+	elif command -v apt-get >/dev/null && command -v dpkg-deb >/dev/null; then \
+		echo "fetching the shader compiler ($(SHADERC_PACKAGES), Debian packages) into target/shaderc"; \
+		set -e; mkdir -p target/shaderc; work=$$(mktemp -d); trap 'rm -rf "$$work"' EXIT; top=$$(pwd); cd "$$work"; \
+		fetch() { apt-get download -qq -o APT::Sandbox::User=root $(SHADERC_PACKAGES); }; \
+		fetch 2>/dev/null || { $(SUDO) apt-get update -qq && fetch; }; \
+		for package in *.deb; do dpkg-deb -x $$package .; done; \
+		mv $$(find usr/lib -name '*.a') .; \
+		{ echo create merged.a; for part in $(SHADERC_PARTS); do if [ -f lib$$part.a ]; then echo addlib lib$$part.a; fi; done; \
+			echo save; echo end; } | ar -M; \
+		mv merged.a "$$top/$(SHADERC)"; \
+	else \
+		echo "there is no apt-get: set SHADERC_LIB_DIR to a folder that holds libshaderc_combined.a or libshaderc, or build with"; \
+		echo "cargo build --features shaderc-from-source, which needs cmake, git and python3"; exit 1; fi
+
 toolchain:
 	@command -v $(CARGO) >/dev/null || { echo "cargo is not installed: get Rust from https://rustup.rs"; exit 1; }
-	@command -v cc >/dev/null || { \
+	@command -v cc >/dev/null && command -v c++ >/dev/null || { \
 		if command -v apt-get >/dev/null; then \
-			echo "installing gcc (Debian package) to link programs"; \
-			$(SUDO) apt-get update -qq && $(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq gcc libc6-dev >/dev/null; \
-		else echo "no C compiler (cc) is installed: install gcc"; exit 1; fi; }
+			echo "installing g++ (Debian package) to link programs and the shader compiler"; \
+			$(SUDO) apt-get update -qq && $(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq g++ libc6-dev >/dev/null; \
+		else echo "no C++ compiler (c++) is installed: install g++"; exit 1; fi; }

@@ -15,6 +15,7 @@ pub mod evaluate;
 pub mod features;
 pub mod files;
 pub mod geometry;
+pub mod gpu;
 pub mod motion;
 pub mod report;
 pub mod search;

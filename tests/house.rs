@@ -19,6 +19,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("sequence", 2),
     ("motion", 1),
     ("geometry", 1),
+    ("gpu", 1),
     ("files", 0),
 ];
 

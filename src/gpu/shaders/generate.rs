@@ -1,0 +1,190 @@
+//! A room's stages as Rust source text: a module a stage, the memory layouts they share, the constants of
+//! `constants.glsl`.
+
+use super::compile::{Compiled, Stage, compile};
+use super::constants::constants;
+use super::layouts::{Layouts, camel_case, identifier};
+use super::reflect::{Access, Kind, Reflection, reflect};
+use anyhow::{Context, Result, ensure};
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+/// Names of the folders under `root` that hold stages, in alphabetical order.
+///
+/// # Errors
+/// When a folder cannot be listed.
+pub fn rooms(root: &Path) -> Result<Vec<String>> {
+    let mut rooms = Vec::new();
+    for name in listed(root)? {
+        if root.join(&name).is_dir() && listed(&root.join(&name))?.iter().any(|file| Stage::of(file).is_some()) {
+            rooms.push(name);
+        }
+    }
+    Ok(rooms)
+}
+
+fn listed(folder: &Path) -> Result<Vec<String>> {
+    let cannot = || format!("cannot list {}", folder.display());
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder).with_context(cannot)? {
+        names.push(entry.with_context(cannot)?.file_name().to_string_lossy().into_owned());
+    }
+    names.sort();
+    Ok(names)
+}
+
+/// Rust source of every stage in the folder `room` under `root`, to be included as the content of a module of this
+/// crate.
+///
+/// # Errors
+/// One sentence with the file, and the line where there is one, for whatever does not compile, has no Rust type, or is
+/// laid out in two ways under one name.
+pub fn generate(root: &Path, room: &str) -> Result<String> {
+    let mut layouts = Layouts::default();
+    let mut modules = String::new();
+    let mut statics = Vec::new();
+    for file in listed(&root.join(room))?.iter().filter(|file| Stage::of(file).is_some()) {
+        let name = format!("{room}/{file}");
+        let compiled = compile(root, &name)?;
+        let reflection = reflect(&name, compiled.stage, &compiled.named)?;
+        let module = identifier(file);
+        ensure!(!statics.contains(&module), "{name}: another stage of the folder has the module name {module}");
+        modules += &stage(&name, &module, &compiled, &reflection, &mut layouts)?;
+        statics.push(module);
+    }
+    let mut text = String::new();
+    let shared = root.join(room).join("constants.glsl");
+    if shared.exists() {
+        text += &constants(&format!("{room}/constants.glsl"), &fs::read_to_string(&shared)?)?;
+    }
+    text += &modules;
+    text += &layouts.source();
+    let list: Vec<String> = statics.iter().map(|module| format!("&{module}::SHADER")).collect();
+    writeln!(text, "/// Every stage of the folder, for tests that try them all.")?;
+    writeln!(text, "#[cfg(test)]\n#[allow(dead_code)]")?;
+    writeln!(text, "pub static SHADERS: &[&crate::gpu::shader::Shader] = &[{}];", list.join(", "))?;
+    Ok(text)
+}
+
+fn stage(
+    name: &str,
+    module: &str,
+    compiled: &Compiled,
+    reflection: &Reflection,
+    layouts: &mut Layouts,
+) -> Result<String> {
+    let mut text = String::new();
+    let mut push_size = 0;
+    let mut push_type = None;
+    if let Some(push) = &reflection.push {
+        // Stages of one pipeline share their push constants, so `fill.vert` and `fill.frag` share `FillPush`.
+        let file = name.rsplit('/').next().unwrap_or(name);
+        let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+        let own = format!("{}Push", camel_case(stem));
+        push_size = layouts.block(name, &own, push)?;
+        push_type = Some(own);
+    }
+    let mut fields: Vec<String> = Vec::new();
+    for resource in &reflection.resources {
+        let field = identifier(&resource.name);
+        let (set, binding) = (resource.set, resource.binding);
+        ensure!(
+            !fields.contains(&field),
+            "{name}: two resources are called {field}; rename that of set {set}, binding {binding}"
+        );
+        fields.push(field);
+        if let Some(block) = &resource.block {
+            layouts.block(name, &camel_case(&block.name), block)?;
+        }
+    }
+    let kind = compiled.stage;
+    writeln!(text, "/// The stage `{name}`.\npub mod {module} {{")?;
+    if let Some(why) = &reflection.unread {
+        writeln!(text, "    // Accesses are as declared: naga cannot read this stage ({why}).")?;
+    }
+    writeln!(text, "    /// The compiled stage.")?;
+    writeln!(text, "    pub static SHADER: crate::gpu::shader::Shader = crate::gpu::shader::Shader {{")?;
+    writeln!(text, "        name: {name:?},\n        kind: crate::gpu::shader::ShaderKind::{kind:?},")?;
+    writeln!(text, "        spirv: &{:?},", compiled.spirv)?;
+    writeln!(text, "        workgroup_size: {:?},\n        push_size: {push_size},", reflection.workgroup_size)?;
+    writeln!(text, "        bindings: &[")?;
+    for resource in &reflection.resources {
+        let (set, binding, kind, access) = (resource.set, resource.binding, resource.kind, resource.access);
+        writeln!(
+            text,
+            "            crate::gpu::shader::BindingLayout {{ name: {:?}, set: {set}, binding: {binding}, \
+             kind: crate::gpu::shader::BindingKind::{kind:?}, access: crate::gpu::shader::Access::{access:?} }},",
+            resource.name
+        )?;
+    }
+    writeln!(text, "        ],\n        constants: &[")?;
+    for constant in &reflection.constants {
+        let (own, id, default) = (&constant.name, constant.id, constant.default);
+        writeln!(
+            text,
+            "            crate::gpu::shader::SpecConstant {{ name: {own:?}, id: {id}, default: {default} }},"
+        )?;
+    }
+    writeln!(text, "        ],\n    }};")?;
+    if !fields.is_empty() {
+        text += &bindings(reflection, &fields)?;
+    }
+    if let Some(own) = push_type {
+        writeln!(text, "    /// Push constants.\n    #[allow(dead_code)]\n    pub type Push = super::layout::{own};")?;
+    }
+    if !reflection.constants.is_empty() {
+        writeln!(
+            text,
+            "    /// Numbers of the specialisation constants.\n    #[allow(dead_code)]\n    pub mod constants {{"
+        )?;
+        for constant in &reflection.constants {
+            let own = constant.name.to_ascii_uppercase();
+            writeln!(text, "        /// `{}`, {} by default.", constant.name, constant.default)?;
+            writeln!(text, "        pub const {own}: u32 = {};", constant.id)?;
+        }
+        writeln!(text, "    }}")?;
+    }
+    writeln!(text, "}}")?;
+    Ok(text)
+}
+
+/// The struct that names a stage's resources, and its list of bindings.
+fn bindings(reflection: &Reflection, fields: &[String]) -> Result<String> {
+    let mut text = String::new();
+    writeln!(
+        text,
+        "    /// What the stage works on.\n    #[derive(Clone, Copy, Debug)]\n    pub struct Bindings<'a> {{"
+    )?;
+    let image = |kind: Kind| matches!(kind, Kind::SampledImage | Kind::StorageImage);
+    for (resource, field) in reflection.resources.iter().zip(fields) {
+        let what = match resource.kind {
+            Kind::StorageBuffer => "Storage buffer",
+            Kind::UniformBuffer => "Uniform buffer",
+            Kind::SampledImage => "Texture",
+            Kind::StorageImage => "Storage image",
+        };
+        let how = match resource.access {
+            Access::Read => "read",
+            Access::Write => "written",
+            Access::ReadWrite => "read and written",
+        };
+        let block = resource.block.as_ref().map(|block| format!(" `{}`", block.name)).unwrap_or_default();
+        let ty = if image(resource.kind) { "Image" } else { "Buffer" };
+        writeln!(text, "        /// {what}{block}, {how}; set {}, binding {}.", resource.set, resource.binding)?;
+        writeln!(text, "        pub {field}: &'a crate::gpu::{ty},")?;
+    }
+    let count = fields.len();
+    writeln!(text, "    }}\n    impl<'a> Bindings<'a> {{\n        /// Each resource with the place it goes to.")?;
+    writeln!(text, "        pub fn bound(&self) -> [crate::gpu::shader::Binding<'a>; {count}] {{\n            [")?;
+    for (index, (resource, field)) in reflection.resources.iter().zip(fields).enumerate() {
+        let variant = if image(resource.kind) { "Image" } else { "Buffer" };
+        writeln!(
+            text,
+            "                crate::gpu::shader::Binding {{ layout: &SHADER.bindings[{index}], \
+             bound: crate::gpu::shader::Bound::{variant}(self.{field}) }},"
+        )?;
+    }
+    writeln!(text, "            ]\n        }}\n    }}")?;
+    Ok(text)
+}
