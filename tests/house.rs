@@ -17,6 +17,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("features", 2),
     ("body", 2),
     ("sequence", 2),
+    ("gpu", 1),
     ("motion", 1),
     ("geometry", 1),
     ("gpu", 1),
@@ -24,7 +25,7 @@ const FLOORS: &[(&str, u32)] = &[
 ];
 
 /// Places that may hold `unsafe`, as path prefixes under src/.
-const UNSAFE_PLACES: &[&str] = &["evaluate/cpu/"];
+const UNSAFE_PLACES: &[&str] = &["evaluate/cpu/", "gpu/"];
 
 /// Names that say nothing of what is inside.
 const EMPTY_NAMES: &[&str] = &["utils", "util", "common", "types", "context", "manager", "helpers", "misc"];

@@ -1,16 +1,40 @@
-//! The graphics device: shaders and what they want bound.
+//! Vulkan, and nothing but: devices, memory, pipelines, and one way to run work. It knows nothing of bodies or cameras.
+//!
+//! Work is recorded as passes ([`Recorder`]) and run as often as wanted ([`Recording`]). A pass has a name, which is its debug
+//! label, its row of timings and its breadcrumb should the device be lost. What a pass must wait for is derived from
+//! what it reads and writes.
 
-pub mod shader;
+mod buffer;
+mod capability;
+mod device;
+mod hazards;
+mod image;
+mod instance;
+mod loss;
+mod memory;
+mod pipeline;
+mod recorder;
+mod recording;
+mod shader;
 #[cfg(feature = "reload")]
 pub mod shaders;
+mod timing;
+mod transform_feedback;
+mod validation;
 
-/// Memory on the device.
-#[derive(Debug)]
-pub struct Buffer;
-
-/// A picture on the device.
-#[derive(Debug)]
-pub struct Image;
+pub use buffer::Buffer;
+pub use capability::{Capabilities, DeviceFacts, DeviceKind, devices};
+pub use device::{ClockPair, Device, DeviceSettings};
+pub use image::{Format, Image, ImageUse};
+pub use instance::Instance;
+pub use loss::{DeviceLost, OutOfMemory};
+pub use memory::Memory;
+pub use pipeline::{Blend, Drawing, Pipeline, Stage, Topology};
+pub use recorder::{Clear, Dispatch, Draw, Feedback, Groups, Recorder, Target, Viewport};
+pub use recording::Recording;
+pub use shader::{Access, Binding, BindingKind, BindingLayout, Bound, Shader, ShaderKind, SpecConstant};
+pub use timing::{PassStatistics, PassTiming, Timing, by_name};
+pub use validation::{Validation, ValidationLog};
 
 #[cfg(test)]
 mod generated {
@@ -18,32 +42,4 @@ mod generated {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::generated::{self, double_comp, fill_vert, layout};
-    use super::shader::{Access, Bound, ShaderKind};
-    use super::{Buffer, Image};
-
-    #[test]
-    fn a_stage_s_bindings_go_where_its_shader_says() {
-        let (source, target) = (Buffer, Buffer);
-        let bound = double_comp::Bindings { source: &source, target: &target }.bound();
-        let at = bound.map(|binding| (binding.layout.name, binding.layout.binding, binding.layout.access));
-        assert_eq!(at, [("Source", 0, Access::Read), ("Target", 1, Access::Write)]);
-        assert!(bound.iter().all(|binding| matches!(binding.bound, Bound::Buffer(_))));
-        assert_eq!(fill_vert::Bindings { corners: &source }.bound().len(), 1);
-        assert_eq!(double_comp::SHADER.workgroup_size, [generated::DOUBLE_WORKGROUP, 1, 1]);
-        assert_eq!(double_comp::SHADER.push_size as usize, size_of::<double_comp::Push>());
-        let push = layout::DoublePush { count: 3, factor: 2.0 };
-        assert_eq!(bytemuck::bytes_of(&push)[..4], [3, 0, 0, 0]);
-        let _ = Bound::Image(&Image);
-    }
-
-    #[test]
-    fn every_stage_is_spir_v() {
-        let kinds: Vec<ShaderKind> = generated::SHADERS.iter().map(|shader| shader.kind).collect();
-        assert_eq!(kinds, [ShaderKind::Compute, ShaderKind::Fragment, ShaderKind::Vertex]);
-        for shader in generated::SHADERS {
-            assert_eq!(shader.spirv[..2], [0x0723_0203, 0x0001_0300], "{}", shader.name);
-        }
-    }
-}
+mod tests;

@@ -1,43 +1,43 @@
-//! A compiled shader stage and what it wants bound, as the build generates them from the files under `glsl/`.
+//! What the build knows of a shader stage: generated from GLSL by `build.rs`, so that a binding has one source.
 
 use super::{Buffer, Image};
 
-/// One compiled stage, generated from a file under `glsl/`.
+/// One compiled stage: generated from a file under `glsl/`.
 #[derive(Clone, Copy, Debug)]
 pub struct Shader {
-    /// Path under `glsl/`, such as `evaluate/project.comp`; also the debug label.
+    /// Path under `glsl/`, as in `evaluate/project.comp`.
     pub name: &'static str,
-    /// Place in the pipeline.
+    /// Pipeline stage.
     pub kind: ShaderKind,
-    /// SPIR-V 1.3 words; the entry point is `main`.
+    /// The code, SPIR-V 1.3.
     pub spirv: &'static [u32],
-    /// Invocations of a workgroup; 1, 1, 1 outside compute.
+    /// Invocations of a workgroup in x, y, z; ones outside of compute.
     pub workgroup_size: [u32; 3],
-    /// Bytes of push constants; 0 without.
+    /// Bytes of push constants, 0 without.
     pub push_size: u32,
-    /// Resources that the stage uses, by set and binding.
+    /// Everything the stage reads or writes through a descriptor.
     pub bindings: &'static [BindingLayout],
-    /// Specialisation constants, by number.
+    /// Its specialisation constants.
     pub constants: &'static [SpecConstant],
 }
 
-/// A stage's place in the pipeline.
+/// A pipeline stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShaderKind {
-    /// Workgroups.
+    /// Compute.
     Compute,
-    /// Corners.
+    /// Vertex.
     Vertex,
-    /// Primitives.
+    /// Geometry.
     Geometry,
-    /// Pixels.
+    /// Fragment.
     Fragment,
 }
 
-/// One resource that a stage uses.
+/// A descriptor of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BindingLayout {
-    /// GLSL name of the variable, or of the block when it has no instance name.
+    /// Name of the variable in GLSL.
     pub name: &'static str,
     /// Descriptor set.
     pub set: u32,
@@ -45,59 +45,71 @@ pub struct BindingLayout {
     pub binding: u32,
     /// What is bound.
     pub kind: BindingKind,
-    /// What the stage does to it.
+    /// What the stage really does with it.
     pub access: Access,
 }
 
-/// What is bound.
+/// What a descriptor points to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BindingKind {
-    /// A buffer block.
+    /// A buffer of any size, read or written.
     StorageBuffer,
-    /// A uniform block.
+    /// A small buffer, read.
     UniformBuffer,
-    /// A texture read with `texelFetch`, without a sampler.
+    /// An image read by texel, without a sampler.
     SampledImage,
-    /// An image read and written by pixel.
+    /// An image read or written by texel.
     StorageImage,
 }
 
-/// What a stage does to a resource.
+/// What a stage does with a resource.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
-    /// It only reads.
+    /// Reads only.
     Read,
-    /// It only writes.
+    /// Writes only.
     Write,
-    /// It reads and writes, or updates atomically.
+    /// Both.
     ReadWrite,
 }
 
-/// A constant that is set when the pipeline is made.
+impl Access {
+    /// Whether it writes.
+    pub fn writes(self) -> bool {
+        self != Self::Read
+    }
+
+    /// Whether it reads.
+    pub fn reads(self) -> bool {
+        self != Self::Write
+    }
+}
+
+/// A specialisation constant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SpecConstant {
-    /// GLSL name.
+    /// Name in GLSL.
     pub name: &'static str,
-    /// `constant_id`.
+    /// Its `constant_id`.
     pub id: u32,
-    /// Bits of the default value.
+    /// The bits of its default.
     pub default: u32,
 }
 
-/// What the caller binds.
+/// A resource at a descriptor.
 #[derive(Clone, Copy, Debug)]
 pub enum Bound<'a> {
-    /// A storage or uniform buffer.
+    /// A whole buffer.
     Buffer(&'a Buffer),
-    /// A texture or storage image.
+    /// A whole image.
     Image(&'a Image),
 }
 
-/// A resource and where it goes.
+/// A descriptor of a stage and what is bound there.
 #[derive(Clone, Copy, Debug)]
 pub struct Binding<'a> {
-    /// Where.
+    /// The descriptor.
     pub layout: &'static BindingLayout,
-    /// What.
+    /// The resource.
     pub bound: Bound<'a>,
 }

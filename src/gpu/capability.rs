@@ -1,0 +1,296 @@
+//! What a device can do, in one table: what the engine requires, what it uses when present, and the limits it sizes by.
+
+use std::ffi::CStr;
+
+use anyhow::{Context as _, Result};
+use ash::{ext, vk};
+
+use super::Instance;
+
+/// What kind of device it is, the preferred ones first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum DeviceKind {
+    /// A graphics card with memory of its own.
+    Discrete,
+    /// Graphics in the processor's package.
+    Integrated,
+    /// A part of a card lent to a virtual machine.
+    Virtual,
+    /// Vulkan computed by the processor.
+    Cpu,
+    /// Something else.
+    Other,
+}
+
+impl DeviceKind {
+    /// The name that `pantin devices` prints.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Discrete => "discrete",
+            Self::Integrated => "integrated",
+            Self::Virtual => "virtual",
+            Self::Cpu => "cpu",
+            Self::Other => "other",
+        }
+    }
+}
+
+/// Features and limits of a device. Tests lower them: whatever is false or small here is then neither enabled nor exceeded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Capabilities {
+    /// Invocations of a subgroup.
+    pub subgroup_size: u32,
+    /// Arithmetic over a subgroup in compute stages.
+    pub subgroup_arithmetic: bool,
+    /// Ballots over a subgroup in compute stages.
+    pub subgroup_ballot: bool,
+    /// Shuffles over a subgroup in compute stages.
+    pub subgroup_shuffle: bool,
+    /// Geometry stages.
+    pub geometry_shader: bool,
+    /// VK_EXT_transform_feedback, with at least one stream.
+    pub transform_feedback: bool,
+    /// Statistics of a pass: invocations, primitives.
+    pub pipeline_statistics: bool,
+    /// Writes from vertex and geometry stages to storage buffers.
+    pub vertex_stores: bool,
+    /// Writes from fragment stages to storage buffers.
+    pub fragment_stores: bool,
+    /// Timestamps around passes.
+    pub timestamps: bool,
+    /// Nanoseconds of a timestamp's tick.
+    pub timestamp_period_ns: f32,
+    /// Timestamps on the host's clock.
+    pub calibrated_timestamps: bool,
+    /// Largest side of a two-dimensional image or framebuffer, pixels.
+    pub max_image: u32,
+    /// Largest storage buffer, bytes.
+    pub max_storage: u64,
+    /// Largest workgroup count in x.
+    pub max_groups: u32,
+    /// Largest workgroup.
+    pub max_workgroup: u32,
+    /// Shared memory of a workgroup, bytes.
+    pub shared_memory: u32,
+    /// Push constants, bytes.
+    pub push_constants: u32,
+    /// Sub-pixel bits of the rasteriser.
+    pub sub_pixel_bits: u32,
+    /// Memory the engine may take, bytes.
+    pub memory: u64,
+}
+
+/// A device of this machine, and whether the engine can use it.
+#[derive(Clone, Debug)]
+pub struct DeviceFacts {
+    /// Its place in Vulkan's list.
+    pub index: usize,
+    /// Its name.
+    pub name: String,
+    /// Its kind.
+    pub kind: DeviceKind,
+    /// Vulkan version it offers: major, minor, patch.
+    pub vulkan: [u32; 3],
+    /// Driver and its version, in the driver's own words.
+    pub driver: String,
+    /// Features and limits.
+    pub capabilities: Capabilities,
+    /// Whether the engine can use it.
+    pub usable: bool,
+    /// One sentence for each requirement it fails and each option it lacks.
+    pub reasons: Vec<String>,
+    pub(super) handle: vk::PhysicalDevice,
+    pub(super) queue_family: u32,
+    pub(super) has_memory_budget: bool,
+}
+
+/// A row of the capability table.
+struct Row {
+    required: bool,
+    present: fn(&Capabilities) -> bool,
+    without: &'static str,
+}
+
+const TABLE: &[Row] = &[
+    Row {
+        required: true,
+        present: |c| c.max_workgroup >= 128,
+        without: "workgroups hold fewer than 128 invocations, which the compute stages need",
+    },
+    Row { required: true, present: |c| c.push_constants >= 128, without: "push constants hold fewer than 128 bytes" },
+    Row {
+        required: false,
+        present: |c| c.subgroup_arithmetic && c.subgroup_shuffle && c.subgroup_ballot && c.subgroup_size >= 4,
+        without: "no subgroup arithmetic and shuffles of 4 or more: comparison goes through shared memory",
+    },
+    Row {
+        required: false,
+        present: |c| c.transform_feedback,
+        without: "no transform feedback: vertices are projected by a compute stage",
+    },
+    Row { required: false, present: |c| c.geometry_shader, without: "no geometry stage" },
+    Row {
+        required: false,
+        present: |c| c.timestamps,
+        without: "no timestamps: stages are timed by the host, all together",
+    },
+    Row { required: false, present: |c| c.pipeline_statistics, without: "no pipeline statistics" },
+    Row {
+        required: false,
+        present: |c| c.calibrated_timestamps,
+        without: "no calibrated timestamps: traces align the device's clock to the end of a submission",
+    },
+];
+
+/// Every device of the machine, in Vulkan's order.
+///
+/// # Errors
+/// When the loader cannot list them.
+pub fn devices(instance: &Instance) -> Result<Vec<DeviceFacts>> {
+    // SAFETY: the instance is alive.
+    let handles =
+        unsafe { instance.shared.raw.enumerate_physical_devices() }.context("Vulkan cannot list its devices")?;
+    Ok(handles.into_iter().enumerate().map(|(index, handle)| facts(instance, index, handle)).collect())
+}
+
+fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> DeviceFacts {
+    let raw = &instance.shared.raw;
+    let mut subgroups = vk::PhysicalDeviceSubgroupProperties::default();
+    let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    // The first query goes without structs that a 1.0 device would not know.
+    // SAFETY: the handle comes from this instance; so in all calls below.
+    let first = unsafe { raw.get_physical_device_properties(handle) };
+    let is_recent = first.api_version >= vk::API_VERSION_1_3;
+    let mut properties = vk::PhysicalDeviceProperties2::default();
+    if is_recent {
+        properties = properties.push_next(&mut subgroups).push_next(&mut driver);
+    }
+    // SAFETY: as above; the chained structs belong to versions the device has.
+    unsafe { raw.get_physical_device_properties2(handle, &mut properties) };
+    let limits = properties.properties.limits;
+    // SAFETY: as above.
+    let extensions = unsafe { raw.enumerate_device_extension_properties(handle) }.unwrap_or_default();
+    let has = |name: &CStr| {
+        extensions.iter().any(|extension| extension.extension_name_as_c_str().is_ok_and(|found| found == name))
+    };
+
+    let mut vulkan_12 = vk::PhysicalDeviceVulkan12Features::default();
+    let mut vulkan_13 = vk::PhysicalDeviceVulkan13Features::default();
+    let mut feedback = vk::PhysicalDeviceTransformFeedbackFeaturesEXT::default();
+    let mut features = vk::PhysicalDeviceFeatures2::default();
+    if is_recent {
+        features = features.push_next(&mut vulkan_12).push_next(&mut vulkan_13);
+    }
+    if has(ext::transform_feedback::NAME) {
+        features = features.push_next(&mut feedback);
+    }
+    // SAFETY: as above.
+    unsafe { raw.get_physical_device_features2(handle, &mut features) };
+    let core = features.features;
+
+    // SAFETY: as above.
+    let families = unsafe { raw.get_physical_device_queue_family_properties(handle) };
+    let wanted = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
+    let family = families.iter().position(|family| family.queue_flags.contains(wanted));
+    // SAFETY: as above.
+    let memory = unsafe { raw.get_physical_device_memory_properties(handle) };
+    let heaps = &memory.memory_heaps[..memory.memory_heap_count as usize];
+    let device_local = heaps
+        .iter()
+        .filter(|heap| heap.flags.contains(vk::MemoryHeapFlags::DEVICE_LOCAL))
+        .map(|heap| heap.size)
+        .max()
+        .unwrap_or(0);
+
+    let in_compute = is_recent && subgroups.supported_stages.contains(vk::ShaderStageFlags::COMPUTE);
+    let subgroup = |feature| in_compute && subgroups.supported_operations.contains(feature);
+    let capabilities = Capabilities {
+        subgroup_size: if is_recent { subgroups.subgroup_size } else { 1 },
+        subgroup_arithmetic: subgroup(vk::SubgroupFeatureFlags::ARITHMETIC),
+        subgroup_ballot: subgroup(vk::SubgroupFeatureFlags::BALLOT),
+        subgroup_shuffle: subgroup(vk::SubgroupFeatureFlags::SHUFFLE),
+        geometry_shader: core.geometry_shader != 0,
+        transform_feedback: feedback.transform_feedback != 0,
+        pipeline_statistics: core.pipeline_statistics_query != 0,
+        vertex_stores: core.vertex_pipeline_stores_and_atomics != 0,
+        fragment_stores: core.fragment_stores_and_atomics != 0,
+        timestamps: family.is_some_and(|family| families[family].timestamp_valid_bits > 0)
+            && limits.timestamp_period > 0.0,
+        timestamp_period_ns: limits.timestamp_period,
+        calibrated_timestamps: has(ext::calibrated_timestamps::NAME) && has_host_clock(instance, handle),
+        max_image: limits.max_image_dimension2_d.min(limits.max_framebuffer_width).min(limits.max_framebuffer_height),
+        max_storage: u64::from(limits.max_storage_buffer_range),
+        max_groups: limits.max_compute_work_group_count[0],
+        max_workgroup: limits.max_compute_work_group_invocations.min(limits.max_compute_work_group_size[0]),
+        shared_memory: limits.max_compute_shared_memory_size,
+        push_constants: limits.max_push_constants_size,
+        sub_pixel_bits: limits.sub_pixel_precision_bits,
+        // A fifth is left to others: the display, the driver's own.
+        memory: device_local / 5 * 4,
+    };
+
+    let mut failures = Vec::new();
+    if !is_recent {
+        failures.push(format!(
+            "it offers Vulkan {}.{}, and 1.3 is needed",
+            vk::api_version_major(first.api_version),
+            vk::api_version_minor(first.api_version)
+        ));
+    } else {
+        for (present, name) in [
+            (vulkan_13.dynamic_rendering, "dynamic rendering"),
+            (vulkan_13.synchronization2, "synchronization2"),
+            (vulkan_12.timeline_semaphore, "timeline semaphores"),
+        ] {
+            if present == 0 {
+                failures.push(format!("it lacks {name}"));
+            }
+        }
+    }
+    if family.is_none() {
+        failures.push("none of its queues takes both graphics and compute".to_string());
+    }
+    let mut lacks = Vec::new();
+    for row in TABLE {
+        if !(row.present)(&capabilities) {
+            if row.required { &mut failures } else { &mut lacks }.push(row.without.to_string());
+        }
+    }
+    let text = |bytes: vk::PhysicalDeviceDriverProperties<'_>| {
+        let part = |text: std::result::Result<&CStr, _>| {
+            text.map_or_else(|_: std::ffi::FromBytesUntilNulError| String::new(), |t| t.to_string_lossy().into_owned())
+        };
+        format!("{} {}", part(bytes.driver_name_as_c_str()), part(bytes.driver_info_as_c_str())).trim().to_string()
+    };
+    DeviceFacts {
+        index,
+        name: first.device_name_as_c_str().map_or_else(|_| "?".to_string(), |name| name.to_string_lossy().into_owned()),
+        kind: match first.device_type {
+            vk::PhysicalDeviceType::DISCRETE_GPU => DeviceKind::Discrete,
+            vk::PhysicalDeviceType::INTEGRATED_GPU => DeviceKind::Integrated,
+            vk::PhysicalDeviceType::VIRTUAL_GPU => DeviceKind::Virtual,
+            vk::PhysicalDeviceType::CPU => DeviceKind::Cpu,
+            _ => DeviceKind::Other,
+        },
+        vulkan: [
+            vk::api_version_major(first.api_version),
+            vk::api_version_minor(first.api_version),
+            vk::api_version_patch(first.api_version),
+        ],
+        driver: text(driver),
+        capabilities,
+        usable: failures.is_empty(),
+        reasons: failures.into_iter().chain(lacks).collect(),
+        handle,
+        queue_family: family.unwrap_or(0) as u32,
+        has_memory_budget: has(ext::memory_budget::NAME),
+    }
+}
+
+/// Whether calibrated timestamps can be taken on the device and on the host's monotonic clock at once.
+fn has_host_clock(instance: &Instance, handle: vk::PhysicalDevice) -> bool {
+    let functions = ext::calibrated_timestamps::Instance::new(&instance.shared.entry, &instance.shared.raw);
+    // SAFETY: the handle belongs to the instance and the device has the extension.
+    let domains = unsafe { functions.get_physical_device_calibrateable_time_domains(handle) }.unwrap_or_default();
+    domains.contains(&vk::TimeDomainEXT::DEVICE) && domains.contains(&vk::TimeDomainEXT::CLOCK_MONOTONIC)
+}

@@ -1,0 +1,216 @@
+//! Named two-dimensional images: targets to draw into, and what stages read by texel.
+
+use std::sync::Arc;
+
+use anyhow::{Result, ensure};
+use ash::vk;
+use gpu_allocator::vulkan::Allocation;
+
+use super::device::{Device, DeviceShared};
+use super::memory::Memory;
+
+/// How a texel is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Four bytes, as fractions of 255.
+    Rgba8,
+    /// Four unsigned bytes.
+    Rgba8Uint,
+    /// An unsigned byte.
+    R8Uint,
+    /// A 32-bit unsigned integer.
+    R32Uint,
+    /// A 32-bit float.
+    R32Float,
+    /// Depth, a 32-bit float.
+    Depth32,
+}
+
+impl Format {
+    pub(super) fn vulkan(self) -> vk::Format {
+        match self {
+            Self::Rgba8 => vk::Format::R8G8B8A8_UNORM,
+            Self::Rgba8Uint => vk::Format::R8G8B8A8_UINT,
+            Self::R8Uint => vk::Format::R8_UINT,
+            Self::R32Uint => vk::Format::R32_UINT,
+            Self::R32Float => vk::Format::R32_SFLOAT,
+            Self::Depth32 => vk::Format::D32_SFLOAT,
+        }
+    }
+
+    pub(super) fn aspect(self) -> vk::ImageAspectFlags {
+        if self == Self::Depth32 { vk::ImageAspectFlags::DEPTH } else { vk::ImageAspectFlags::COLOR }
+    }
+
+    /// Bytes of a texel.
+    pub fn bytes(self) -> u64 {
+        if self == Self::R8Uint { 1 } else { 4 }
+    }
+}
+
+/// What an image is for, besides being copied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ImageUse {
+    /// Drawn into, then read by texel.
+    Target,
+    /// Read by texel.
+    Sampled,
+    /// Read and written by texel.
+    Storage,
+}
+
+/// An image of the device; clones are the same image.
+#[derive(Clone)]
+pub struct Image {
+    pub(super) shared: Arc<ImageShared>,
+}
+
+pub(super) struct ImageShared {
+    device: Arc<DeviceShared>,
+    pub(super) name: String,
+    pub(super) handle: vk::Image,
+    pub(super) view: vk::ImageView,
+    pub(super) format: Format,
+    pub(super) size: [u32; 2],
+    allocation: Option<Allocation>,
+}
+
+impl std::fmt::Debug for Image {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Image")
+            .field("name", &self.shared.name)
+            .field("size", &self.shared.size)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Device {
+    /// An image of `size` = [width, height] pixels. What it holds at first is undefined.
+    ///
+    /// # Errors
+    /// [`super::OutOfMemory`] when it does not fit; otherwise when a side is zero or larger than the device allows, or the
+    /// device cannot use the format so.
+    pub fn image(&self, name: &str, format: Format, size: [u32; 2], purpose: ImageUse) -> Result<Image> {
+        let limit = self.capabilities().max_image;
+        let [width, height] = size;
+        ensure!(
+            (1..=limit).contains(&width) && (1..=limit).contains(&height),
+            "the image {name} would be {width}x{height}, and this device allows 1 to {limit} pixels a side"
+        );
+        let copied = vk::ImageUsageFlags::TRANSFER_SRC | vk::ImageUsageFlags::TRANSFER_DST;
+        let usage = copied
+            | match (purpose, format) {
+                (ImageUse::Target, Format::Depth32) => {
+                    vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED
+                }
+                (ImageUse::Target, _) => vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
+                (ImageUse::Sampled, _) => vk::ImageUsageFlags::SAMPLED,
+                (ImageUse::Storage, _) => vk::ImageUsageFlags::STORAGE | vk::ImageUsageFlags::SAMPLED,
+            };
+        let vulkan = &self.shared.instance.shared.raw;
+        // SAFETY: the handle belongs to the instance.
+        let supported = unsafe {
+            vulkan.get_physical_device_image_format_properties(
+                self.shared.facts.handle,
+                format.vulkan(),
+                vk::ImageType::TYPE_2D,
+                vk::ImageTiling::OPTIMAL,
+                usage,
+                vk::ImageCreateFlags::empty(),
+            )
+        };
+        ensure!(supported.is_ok(), "this device has no images of format {format:?} to use as {purpose:?} ({name})");
+        let info = vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(format.vulkan())
+            .extent(vk::Extent3D { width, height, depth: 1 })
+            .mip_levels(1)
+            .array_layers(1)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .tiling(vk::ImageTiling::OPTIMAL)
+            .usage(usage);
+        let raw = &self.shared.raw;
+        // SAFETY: the device is open and has such images.
+        let handle = unsafe { raw.create_image(&info, None) }
+            .map_err(|result| self.shared.failure(result, &format!("make the image {name}"), || None))?;
+        // SAFETY: the handle was just made.
+        let requirements = unsafe { raw.get_image_memory_requirements(handle) };
+        let made = self.allocate(name, requirements, Memory::Device, false).and_then(|allocation| {
+            let view_info = vk::ImageViewCreateInfo::default()
+                .image(handle)
+                .view_type(vk::ImageViewType::TYPE_2D)
+                .format(format.vulkan())
+                .subresource_range(whole(format));
+            // SAFETY: the memory fits the image's requirements and nothing else is bound to its range; the view is of the
+            // image's own format.
+            let view = unsafe {
+                raw.bind_image_memory(handle, allocation.memory(), allocation.offset())
+                    .and_then(|()| raw.create_image_view(&view_info, None))
+            };
+            match view {
+                Ok(view) => Ok((view, allocation)),
+                Err(result) => {
+                    self.shared.free(allocation);
+                    Err(self.shared.failure(result, &format!("bind memory to the image {name}"), || None))
+                }
+            }
+        });
+        let (view, allocation) = match made {
+            Ok(made) => made,
+            Err(error) => {
+                // SAFETY: nothing uses it.
+                unsafe { raw.destroy_image(handle, None) };
+                return Err(error);
+            }
+        };
+        self.shared.name(handle, name);
+        let image = Image {
+            shared: Arc::new(ImageShared {
+                device: self.shared.clone(),
+                name: name.to_string(),
+                handle,
+                view,
+                format,
+                size,
+                allocation: Some(allocation),
+            }),
+        };
+        self.settle(&image)?;
+        Ok(image)
+    }
+}
+
+/// All of an image, as ranges name it.
+pub(super) fn whole(format: Format) -> vk::ImageSubresourceRange {
+    vk::ImageSubresourceRange { aspect_mask: format.aspect(), level_count: 1, layer_count: 1, ..Default::default() }
+}
+
+impl Image {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.shared.name
+    }
+
+    /// Width and height, pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.shared.size
+    }
+
+    /// How its texels are stored.
+    pub fn format(&self) -> Format {
+        self.shared.format
+    }
+}
+
+impl Drop for ImageShared {
+    fn drop(&mut self) {
+        // SAFETY: recordings hold what they use until the device is done, so nothing uses the image any more.
+        unsafe {
+            self.device.raw.destroy_image_view(self.view, None);
+            self.device.raw.destroy_image(self.handle, None);
+        }
+        if let Some(allocation) = self.allocation.take() {
+            self.device.free(allocation);
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! The errors of a device that callers act upon: fall back to the processor, or split the work.
+
+use std::fmt;
+
+/// The device is gone: a crash of its driver, a reset, or its removal. Nothing more can be run on it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DeviceLost {
+    /// Name of the device.
+    pub device: String,
+    /// The last pass that had begun, when a breadcrumb tells.
+    pub pass: Option<String>,
+}
+
+impl fmt::Display for DeviceLost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.pass {
+            Some(pass) => write!(f, "the device {} was lost in pass {pass}", self.device),
+            None => write!(f, "the device {} was lost before any pass began", self.device),
+        }
+    }
+}
+
+impl std::error::Error for DeviceLost {}
+
+/// A resource does not fit: smaller batches may.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutOfMemory {
+    /// Name of the resource.
+    pub resource: String,
+    /// Bytes asked for.
+    pub asked: u64,
+    /// Bytes that would have fitted.
+    pub available: u64,
+}
+
+impl fmt::Display for OutOfMemory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} needs {:.1} MiB of device memory, {:.1} MiB would fit",
+            self.resource,
+            self.asked as f64 / 1_048_576.0,
+            self.available as f64 / 1_048_576.0
+        )
+    }
+}
+
+impl std::error::Error for OutOfMemory {}

@@ -1,0 +1,380 @@
+//! Pipelines, laid out by what the build reflected of their stages.
+
+use std::ffi::CString;
+use std::sync::Arc;
+
+use anyhow::{Result, anyhow, ensure};
+use ash::vk;
+
+use super::device::{Device, DeviceShared};
+use super::image::Format;
+use super::shader::{BindingKind, Shader, ShaderKind};
+
+/// A compiled pipeline; clones are the same pipeline.
+#[derive(Clone)]
+pub struct Pipeline {
+    pub(super) shared: Arc<PipelineShared>,
+}
+
+pub(super) struct PipelineShared {
+    device: Arc<DeviceShared>,
+    pub(super) name: String,
+    pub(super) handle: vk::Pipeline,
+    pub(super) layout: vk::PipelineLayout,
+    pub(super) set_layouts: Vec<vk::DescriptorSetLayout>,
+    pub(super) bind_point: vk::PipelineBindPoint,
+    /// All descriptors of all stages: set, binding, kind, name.
+    pub(super) slots: Vec<(u32, u32, BindingKind, &'static str)>,
+    pub(super) push_stages: vk::ShaderStageFlags,
+    pub(super) push_size: u32,
+}
+
+impl std::fmt::Debug for Pipeline {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Pipeline").field("name", &self.shared.name).finish_non_exhaustive()
+    }
+}
+
+/// A stage of a pipeline and the values of its specialisation constants.
+#[derive(Clone, Copy, Debug)]
+pub struct Stage<'a> {
+    /// The stage.
+    pub shader: &'a Shader,
+    /// `constant_id` and the bits of its value; constants left out keep their defaults.
+    pub constants: &'a [(u32, u32)],
+}
+
+/// What the vertices of a draw form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Topology {
+    /// Points.
+    Points,
+    /// Every two vertices a line.
+    Lines,
+    /// Every three vertices a triangle.
+    Triangles,
+}
+
+/// How a fragment meets what is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Blend {
+    /// It replaces it.
+    Replace,
+    /// In each channel the larger value stays.
+    Max,
+}
+
+/// The fixed part of a graphics pipeline.
+#[derive(Clone, Copy, Debug)]
+pub struct Drawing {
+    /// What vertices form.
+    pub topology: Topology,
+    /// Format of the colour target; none where only transform feedback is wanted.
+    pub colour: Option<Format>,
+    /// Whether there is a depth target of [`Format::Depth32`], tested less or equal.
+    pub depth_test: bool,
+    /// Whether the depth is written where the test passes.
+    pub depth_write: bool,
+    /// Depth bias for draws that lie on others' surfaces: constant and slope factors.
+    pub depth_bias: Option<[f32; 2]>,
+    /// How colours meet.
+    pub blend: Blend,
+    /// Which channels are written: bit 0 red to bit 3 alpha.
+    pub channels: u8,
+}
+
+impl Device {
+    /// A compute pipeline.
+    ///
+    /// # Errors
+    /// When the stage is not one for compute, exceeds a limit of the device, or its driver refuses it.
+    pub fn compute_pipeline(&self, stage: Stage<'_>) -> Result<Pipeline> {
+        let shader = stage.shader;
+        let group: u32 = shader.workgroup_size.iter().product();
+        ensure!(shader.kind == ShaderKind::Compute, "{} is not a compute stage", shader.name);
+        ensure!(
+            group <= self.capabilities().max_workgroup,
+            "{} wants workgroups of {group}, and this device allows {}",
+            shader.name,
+            self.capabilities().max_workgroup
+        );
+        self.pipeline(shader.name, &[stage], |device, layout, stages| {
+            let info = [vk::ComputePipelineCreateInfo::default().stage(stages[0]).layout(layout)];
+            // SAFETY: the stage and layout live through the call.
+            unsafe { device.raw.create_compute_pipelines(device.pipelines, &info, None) }
+        })
+    }
+
+    /// A graphics pipeline without vertex buffers: vertex stages read storage buffers. Viewport and scissor are set a draw.
+    ///
+    /// # Errors
+    /// When the driver refuses it.
+    pub fn graphics_pipeline(&self, name: &str, stages: &[Stage<'_>], drawing: &Drawing) -> Result<Pipeline> {
+        self.pipeline(name, stages, |device, layout, stages| {
+            let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
+            let assembly = vk::PipelineInputAssemblyStateCreateInfo::default().topology(match drawing.topology {
+                Topology::Points => vk::PrimitiveTopology::POINT_LIST,
+                Topology::Lines => vk::PrimitiveTopology::LINE_LIST,
+                Topology::Triangles => vk::PrimitiveTopology::TRIANGLE_LIST,
+            });
+            let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
+            let [bias, slope] = drawing.depth_bias.unwrap_or_default();
+            let raster = vk::PipelineRasterizationStateCreateInfo::default()
+                .rasterizer_discard_enable(drawing.colour.is_none())
+                .polygon_mode(vk::PolygonMode::FILL)
+                .cull_mode(vk::CullModeFlags::NONE)
+                .depth_bias_enable(drawing.depth_bias.is_some())
+                .depth_bias_constant_factor(bias)
+                .depth_bias_slope_factor(slope)
+                .line_width(1.0);
+            let samples =
+                vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(vk::SampleCountFlags::TYPE_1);
+            let depth = vk::PipelineDepthStencilStateCreateInfo::default()
+                .depth_test_enable(drawing.depth_test)
+                .depth_write_enable(drawing.depth_write)
+                .depth_compare_op(vk::CompareOp::LESS_OR_EQUAL);
+            let attachment = [vk::PipelineColorBlendAttachmentState::default()
+                .blend_enable(drawing.blend == Blend::Max)
+                .src_color_blend_factor(vk::BlendFactor::ONE)
+                .dst_color_blend_factor(vk::BlendFactor::ONE)
+                .color_blend_op(vk::BlendOp::MAX)
+                .src_alpha_blend_factor(vk::BlendFactor::ONE)
+                .dst_alpha_blend_factor(vk::BlendFactor::ONE)
+                .alpha_blend_op(vk::BlendOp::MAX)
+                .color_write_mask(vk::ColorComponentFlags::from_raw(u32::from(drawing.channels & 15)))];
+            let formats: Vec<_> = drawing.colour.iter().map(|format| format.vulkan()).collect();
+            let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachment[..formats.len()]);
+            let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
+            let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
+            let mut rendering = vk::PipelineRenderingCreateInfo::default().color_attachment_formats(&formats);
+            if drawing.depth_test {
+                rendering = rendering.depth_attachment_format(Format::Depth32.vulkan());
+            }
+            let info = [vk::GraphicsPipelineCreateInfo::default()
+                .stages(stages)
+                .vertex_input_state(&vertex_input)
+                .input_assembly_state(&assembly)
+                .viewport_state(&viewport)
+                .rasterization_state(&raster)
+                .multisample_state(&samples)
+                .depth_stencil_state(&depth)
+                .color_blend_state(&blend)
+                .dynamic_state(&dynamic)
+                .layout(layout)
+                .push_next(&mut rendering)];
+            // SAFETY: everything `info` points to lives through the call.
+            unsafe { device.raw.create_graphics_pipelines(device.pipelines, &info, None) }
+        })
+    }
+
+    fn pipeline(
+        &self,
+        name: &str,
+        stages: &[Stage<'_>],
+        create: impl FnOnce(
+            &DeviceShared,
+            vk::PipelineLayout,
+            &[vk::PipelineShaderStageCreateInfo<'_>],
+        ) -> std::result::Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>,
+    ) -> Result<Pipeline> {
+        let device = &self.shared;
+        let mut slots: Vec<(u32, u32, BindingKind, &'static str)> = Vec::new();
+        let mut visible = Vec::new();
+        let (mut push_stages, mut push_size) = (vk::ShaderStageFlags::empty(), 0);
+        for Stage { shader, .. } in stages {
+            let flag = stage_flag(shader.kind);
+            for binding in shader.bindings {
+                let known = slots.iter().position(|slot| (slot.0, slot.1) == (binding.set, binding.binding));
+                match known {
+                    Some(place) => {
+                        ensure!(
+                            slots[place].2 == binding.kind,
+                            "{name}: {} and {} use set {} binding {} for different things",
+                            slots[place].3,
+                            binding.name,
+                            binding.set,
+                            binding.binding
+                        );
+                        visible[place] |= flag;
+                    }
+                    None => {
+                        slots.push((binding.set, binding.binding, binding.kind, binding.name));
+                        visible.push(flag);
+                    }
+                }
+            }
+            if shader.push_size > 0 {
+                push_stages |= flag;
+                push_size = push_size.max(shader.push_size);
+            }
+        }
+        ensure!(
+            push_size <= self.capabilities().push_constants,
+            "{name} takes {push_size} bytes of push constants, and this device {}",
+            self.capabilities().push_constants
+        );
+        let mut made =
+            Parts { device, set_layouts: Vec::new(), layout: vk::PipelineLayout::null(), modules: Vec::new() };
+        let sets = slots.iter().map(|slot| slot.0 + 1).max().unwrap_or(0);
+        for set in 0..sets {
+            let bindings: Vec<_> = slots
+                .iter()
+                .zip(&visible)
+                .filter(|(slot, _)| slot.0 == set)
+                .map(|(slot, stages)| {
+                    vk::DescriptorSetLayoutBinding::default()
+                        .binding(slot.1)
+                        .descriptor_type(descriptor_type(slot.2))
+                        .descriptor_count(1)
+                        .stage_flags(*stages)
+                })
+                .collect();
+            let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+            // SAFETY: the bindings live through the call.
+            let layout = unsafe { device.raw.create_descriptor_set_layout(&info, None) }
+                .map_err(|result| device.failure(result, &format!("lay out the bindings of {name}"), || None))?;
+            made.set_layouts.push(layout);
+        }
+        let push = [vk::PushConstantRange::default().stage_flags(push_stages).size(push_size.next_multiple_of(4))];
+        let info = vk::PipelineLayoutCreateInfo::default()
+            .set_layouts(&made.set_layouts)
+            .push_constant_ranges(if push_size > 0 { &push } else { &[] });
+        // SAFETY: everything `info` points to lives through the call.
+        made.layout = unsafe { device.raw.create_pipeline_layout(&info, None) }
+            .map_err(|result| device.failure(result, &format!("lay out {name}"), || None))?;
+
+        let mut entries = Vec::new();
+        let mut data = Vec::new();
+        for Stage { shader, constants } in stages {
+            for (id, _) in *constants {
+                ensure!(
+                    shader.constants.iter().any(|constant| constant.id == *id),
+                    "{} has no specialisation constant {id}",
+                    shader.name
+                );
+            }
+            entries.push(
+                (0..constants.len())
+                    .map(|nth| vk::SpecializationMapEntry {
+                        constant_id: constants[nth].0,
+                        offset: 4 * nth as u32,
+                        size: 4,
+                    })
+                    .collect::<Vec<_>>(),
+            );
+            data.push(constants.iter().flat_map(|(_, bits)| bits.to_ne_bytes()).collect::<Vec<u8>>());
+            let info = vk::ShaderModuleCreateInfo::default().code(shader.spirv);
+            // SAFETY: the code was made and validated by the build.
+            let module = unsafe { device.raw.create_shader_module(&info, None) }
+                .map_err(|result| device.failure(result, &format!("load the shader {}", shader.name), || None))?;
+            made.modules.push(module);
+        }
+        let special: Vec<_> = entries
+            .iter()
+            .zip(&data)
+            .map(|(entries, data)| vk::SpecializationInfo::default().map_entries(entries).data(data))
+            .collect();
+        let entry_point = CString::from(c"main");
+        let infos: Vec<_> = stages
+            .iter()
+            .zip(&made.modules)
+            .zip(&special)
+            .map(|((stage, module), special)| {
+                vk::PipelineShaderStageCreateInfo::default()
+                    .stage(stage_flag(stage.shader.kind))
+                    .module(*module)
+                    .name(&entry_point)
+                    .specialization_info(special)
+            })
+            .collect();
+        let handle = create(device, made.layout, &infos)
+            .map_err(|(_, result)| device.failure(result, &format!("compile {name}"), || None))?
+            .into_iter()
+            .next()
+            .ok_or_else(|| anyhow!("the driver made no pipeline of {name}"))?;
+        device.name(handle, name);
+        let is_compute = stages.first().is_some_and(|stage| stage.shader.kind == ShaderKind::Compute);
+        let (layout, set_layouts) = made.keep();
+        Ok(Pipeline {
+            shared: Arc::new(PipelineShared {
+                device: device.clone(),
+                name: name.to_string(),
+                handle,
+                layout,
+                set_layouts,
+                bind_point: if is_compute { vk::PipelineBindPoint::COMPUTE } else { vk::PipelineBindPoint::GRAPHICS },
+                slots,
+                push_stages,
+                push_size,
+            }),
+        })
+    }
+}
+
+/// Objects on the way to a pipeline, destroyed should it not be reached.
+struct Parts<'a> {
+    device: &'a DeviceShared,
+    set_layouts: Vec<vk::DescriptorSetLayout>,
+    layout: vk::PipelineLayout,
+    modules: Vec<vk::ShaderModule>,
+}
+
+impl Parts<'_> {
+    /// What a finished pipeline keeps.
+    fn keep(mut self) -> (vk::PipelineLayout, Vec<vk::DescriptorSetLayout>) {
+        (std::mem::take(&mut self.layout), std::mem::take(&mut self.set_layouts))
+    }
+}
+
+impl Drop for Parts<'_> {
+    fn drop(&mut self) {
+        // SAFETY: modules are not needed once a pipeline is made; layouts left here belong to none.
+        unsafe {
+            for module in &self.modules {
+                self.device.raw.destroy_shader_module(*module, None);
+            }
+            self.device.raw.destroy_pipeline_layout(self.layout, None);
+            for layout in &self.set_layouts {
+                self.device.raw.destroy_descriptor_set_layout(*layout, None);
+            }
+        }
+    }
+}
+
+impl Pipeline {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.shared.name
+    }
+}
+
+impl Drop for PipelineShared {
+    fn drop(&mut self) {
+        // SAFETY: recordings hold the pipelines they use until the device is done.
+        unsafe {
+            self.device.raw.destroy_pipeline(self.handle, None);
+            self.device.raw.destroy_pipeline_layout(self.layout, None);
+            for layout in &self.set_layouts {
+                self.device.raw.destroy_descriptor_set_layout(*layout, None);
+            }
+        }
+    }
+}
+
+fn stage_flag(kind: ShaderKind) -> vk::ShaderStageFlags {
+    match kind {
+        ShaderKind::Compute => vk::ShaderStageFlags::COMPUTE,
+        ShaderKind::Vertex => vk::ShaderStageFlags::VERTEX,
+        ShaderKind::Geometry => vk::ShaderStageFlags::GEOMETRY,
+        ShaderKind::Fragment => vk::ShaderStageFlags::FRAGMENT,
+    }
+}
+
+pub(super) fn descriptor_type(kind: BindingKind) -> vk::DescriptorType {
+    match kind {
+        BindingKind::StorageBuffer => vk::DescriptorType::STORAGE_BUFFER,
+        BindingKind::UniformBuffer => vk::DescriptorType::UNIFORM_BUFFER,
+        BindingKind::SampledImage => vk::DescriptorType::SAMPLED_IMAGE,
+        BindingKind::StorageImage => vk::DescriptorType::STORAGE_IMAGE,
+    }
+}

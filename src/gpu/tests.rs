@@ -1,0 +1,215 @@
+//! The room by itself, on whatever device this machine has, under the validation layer. Without Vulkan these tests say so and
+//! pass, unless PANTIN_NEEDS_VULKAN is set, as it is in CI.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use super::generated::{double_comp, fill_frag, fill_vert, layout};
+use super::*;
+
+/// A device under full validation, and its log.
+fn device(name: &str, settings: DeviceSettings) -> Option<(Device, ValidationLog)> {
+    match Instance::open(Validation::Synchronisation) {
+        Ok(instance) => Some((Device::open(&instance, settings).unwrap(), instance.validation_log())),
+        Err(error) => {
+            assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
+            println!("SKIPPED {name}: {error:#}");
+            None
+        }
+    }
+}
+
+fn assert_silent(log: &ValidationLog) {
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+/// Doubles 0..count twice over, through a buffer between: 4 x.
+fn quadruple(device: &Device, count: u32, timing: Timing) -> anyhow::Result<(Vec<f32>, Recording)> {
+    let pipeline = device.compute_pipeline(Stage { shader: &double_comp::SHADER, constants: &[] })?;
+    let input = device.buffer::<f32>("input", count as usize, Memory::Upload)?;
+    let middle = device.buffer::<f32>("middle", count as usize, Memory::Device)?;
+    let output = device.buffer::<f32>("output", count as usize, Memory::Readback)?;
+    input.write(0, &(0..count).map(|i| i as f32).collect::<Vec<_>>())?;
+    let push = layout::DoublePush { count, factor: 2.0 };
+    let mut recorder = device.recorder(timing)?;
+    for (name, source, target) in [("first", &input, &middle), ("second", &middle, &output)] {
+        recorder.compute(
+            name,
+            &[Dispatch {
+                pipeline: &pipeline,
+                bindings: &double_comp::Bindings { source, target }.bound(),
+                push: bytemuck::bytes_of(&push),
+                groups: Groups::Count([count.div_ceil(64), 1, 1]),
+            }],
+        )?;
+    }
+    let mut recording = recorder.finish()?;
+    recording.run()?;
+    let mut result = vec![0.0; count as usize];
+    output.read(0, &mut result)?;
+    Ok((result, recording))
+}
+
+#[test]
+fn dependent_passes_run_in_order_and_again() {
+    let Some((device, log)) = device("dependent_passes_run_in_order_and_again", DeviceSettings::default()) else {
+        return;
+    };
+    let (result, mut recording) = quadruple(&device, 1000, Timing::Statistics).unwrap();
+    assert!(result.iter().enumerate().all(|(i, &value)| value == 4.0 * i as f32));
+    recording.run().unwrap();
+    recording.run().unwrap();
+    assert_eq!(recording.passes(), ["first", "second"]);
+    let timings = recording.timings().unwrap();
+    if device.capabilities().timestamps {
+        assert_eq!(timings.len(), 2);
+        assert!(timings.iter().all(|timing| timing.end_ns >= timing.start_ns));
+        assert_eq!(by_name(&timings).len(), 2);
+    }
+    if device.capabilities().pipeline_statistics {
+        assert!(timings[0].statistics.unwrap().compute >= 1000);
+    }
+    drop(recording);
+    drop(device);
+    assert_silent(&log);
+}
+
+#[test]
+fn a_triangle_is_drawn_and_read_back() {
+    let Some((device, log)) = device("a_triangle_is_drawn_and_read_back", DeviceSettings::default()) else { return };
+    let stages =
+        [Stage { shader: &fill_vert::SHADER, constants: &[] }, Stage { shader: &fill_frag::SHADER, constants: &[] }];
+    let drawing = Drawing {
+        topology: Topology::Triangles,
+        colour: Some(Format::Rgba8),
+        depth_test: false,
+        depth_write: false,
+        depth_bias: None,
+        blend: Blend::Max,
+        channels: 0b0110,
+    };
+    let pipeline = device.graphics_pipeline("fill", &stages, &drawing).unwrap();
+    let corners = device.buffer::<layout::Corner>("corners", 3, Memory::Upload).unwrap();
+    let at = |x: f32, y: f32| layout::Corner { position: [x, y], colour: 0xffff_ffff, _pad0: [0] };
+    corners.write(0, &[at(-1.0, -1.0), at(3.0, -1.0), at(-1.0, 3.0)]).unwrap();
+    let image = device.image("target", Format::Rgba8, [16, 8], ImageUse::Target).unwrap();
+    let pixels = device.buffer::<u32>("pixels", 16 * 8, Memory::Readback).unwrap();
+    let mut recorder = device.recorder(Timing::Off).unwrap();
+    let target = Target { colour: (&image, Clear::Value([0.0; 4])), depth: None, area: [0, 0, 16, 8] };
+    recorder
+        .draw(
+            "draw",
+            &target,
+            &[Draw {
+                pipeline: &pipeline,
+                bindings: &fill_vert::Bindings { corners: &corners }.bound(),
+                push: &[],
+                viewport: Viewport { area: [0.0, 0.0, 16.0, 8.0], depth: [0.0, 1.0] },
+                scissor: [4, 2, 8, 4],
+                vertices: 0..3,
+                instances: 0..1,
+                indices: None,
+            }],
+        )
+        .unwrap();
+    recorder.read_image("read", &image, [0, 0, 16, 8], (&pixels, 0)).unwrap();
+    let mut recording = recorder.finish().unwrap();
+    for _ in 0..2 {
+        recording.run().unwrap();
+        let mut found = vec![0_u32; 16 * 8];
+        pixels.read(0, &mut found).unwrap();
+        for (place, pixel) in found.into_iter().enumerate() {
+            let (x, y) = (place % 16, place / 16);
+            let inside = (4..12).contains(&x) && (2..6).contains(&y);
+            assert_eq!(pixel, if inside { 0x00ff_ff00 } else { 0 }, "pixel {x}, {y}");
+        }
+    }
+    drop((recording, image, pixels, corners, pipeline, device));
+    assert_silent(&log);
+}
+
+#[test]
+fn a_recording_dropped_in_flight_is_retired() {
+    let Some((device, log)) = device("a_recording_dropped_in_flight_is_retired", DeviceSettings::default()) else {
+        return;
+    };
+    for _ in 0..3 {
+        let (_, mut recording) = quadruple(&device, 100_000, Timing::Off).unwrap();
+        recording.submit().unwrap();
+        drop(recording);
+    }
+    drop(device);
+    assert_silent(&log);
+}
+
+#[test]
+fn limits_are_errors_with_names_in_them() {
+    let lower: fn(&mut Capabilities) = |capabilities| {
+        capabilities.max_image = 64;
+        capabilities.max_storage = 1 << 16;
+        capabilities.memory = 1 << 18;
+        capabilities.transform_feedback = false;
+    };
+    let settings = DeviceSettings { lower: Some(lower), ..DeviceSettings::default() };
+    let Some((device, log)) = device("limits_are_errors_with_names_in_them", settings) else { return };
+    let message = |error: anyhow::Error| format!("{error:#}");
+    let error = message(device.image("big", Format::Rgba8, [65, 1], ImageUse::Target).unwrap_err());
+    assert_eq!(error, "the image big would be 65x1, and this device allows 1 to 64 pixels a side");
+    let error = message(device.buffer::<u32>("long", 16385, Memory::Device).unwrap_err());
+    assert_eq!(error, "the buffer long would have 65540 bytes, more than the 65536 that this device binds at once");
+    let mut held = Vec::new();
+    let error = loop {
+        match device.buffer::<u32>("one of many", 4096, Memory::Device) {
+            Ok(buffer) => held.push(buffer),
+            Err(error) => break error,
+        }
+        assert!(held.len() <= 16, "the budget was not kept");
+    };
+    let full = error.downcast_ref::<OutOfMemory>().unwrap();
+    assert_eq!((full.resource.as_str(), full.asked), ("one of many", 16384));
+    drop(held);
+    let again = device.buffer::<u32>("after", 1024, Memory::Device).unwrap();
+    let mut recorder = device.recorder(Timing::Off).unwrap();
+    let error = recorder.feedback("capture", &Feedback { buffer: &again, offset: 0, size: 64 }, &[]).unwrap_err();
+    assert_eq!(message(error), "the pass capture needs transform feedback, which this device does not have");
+    let error = again.write(0, &[1_u32]).unwrap_err();
+    assert_eq!(message(error), "the host cannot see the buffer after");
+    drop((recorder, again, device));
+    assert_silent(&log);
+}
+
+#[test]
+fn a_lost_device_is_named_with_its_pass_and_stays_lost() {
+    let settings = DeviceSettings { lose_after_passes: Some(3), ..DeviceSettings::default() };
+    let Some((device, log)) = device("a_lost_device_is_named_with_its_pass_and_stays_lost", settings) else { return };
+    let (_, mut recording) = quadruple(&device, 100, Timing::Off).unwrap();
+    let error = recording.run().unwrap_err();
+    let lost = error.downcast_ref::<DeviceLost>().unwrap();
+    assert_eq!(lost.pass.as_deref(), Some("second"));
+    assert!(format!("{error}").contains("was lost in pass second"), "{error}");
+    assert!(recording.run().unwrap_err().is::<DeviceLost>());
+    assert!(device.recorder(Timing::Off).unwrap_err().is::<DeviceLost>());
+    drop((recording, device));
+    assert_silent(&log);
+}
+
+#[test]
+fn a_missing_device_says_how_many_there_are() {
+    let Some((_, log)) = device("a_missing_device_says_how_many_there_are", DeviceSettings::default()) else { return };
+    let instance = Instance::open(Validation::Off).unwrap();
+    let error = Device::open(&instance, DeviceSettings { index: Some(99), ..DeviceSettings::default() }).unwrap_err();
+    assert!(format!("{error}").starts_with("there is no Vulkan device 99: this machine has "), "{error}");
+    assert_silent(&log);
+}
+
+#[test]
+fn the_validation_log_hears_of_a_fault() {
+    let Some((device, log)) = device("the_validation_log_hears_of_a_fault", DeviceSettings::default()) else { return };
+    // A buffer written by two passes without a barrier between: made by reaching behind the recorder.
+    let buffer = device.buffer::<u32>("twice", 1024, Memory::Device).unwrap();
+    let mut recorder = device.recorder(Timing::Off).unwrap();
+    recorder.fill("one", &buffer, 1).unwrap();
+    recorder.forget_hazards();
+    recorder.fill("two", &buffer, 2).unwrap();
+    recorder.finish().unwrap().run().unwrap();
+    assert!(log.messages().iter().any(|message| message.contains("HAZARD")), "{:?}", log.messages());
+}
