@@ -33,6 +33,7 @@ test: toolchain shaderc ffmpeg
 	$(CARGO) fmt --check
 	$(CARGO) clippy --locked --all-targets -- -D warnings
 	$(CARGO) test --locked
+	$(CARGO) test --locked --features reload --lib gpu::shaders
 	@echo "one round of every benchmark, so that none rots"
 	$(CARGO) test --locked --bench evaluate --bench features --bench search
 	@[ -d ../shared/data ] || echo "SKIPPED: the tests on real recordings; ../shared/data is absent"

@@ -46,7 +46,7 @@ fn refused(files: &[(&str, &str)]) -> String {
 fn reflected(file: &str, text: &str) -> Reflection {
     let root = folder(&[(file, text)]);
     let compiled = compile::compile(root.path(), file).unwrap();
-    reflect::reflect(file, compiled.stage, &compiled.named).unwrap()
+    reflect::reflect(file, &compiled).unwrap()
 }
 
 /// A compute stage with these declarations and this body.
@@ -109,6 +109,40 @@ fn std430_lies_as_computed_by_hand() {
     ] {
         assert!(source.contains(line), "{line} is missing in:\n{source}");
     }
+}
+
+#[test]
+fn unusual_blocks_are_laid_out_or_refused() {
+    let text = reading("", "vec4 a; float b; float _pad0; vec4 type;", "data.type.x");
+    let source = generated(&[("room/a.comp", &text)]).unwrap();
+    assert_eq!(fields(&source, "Data"), ["a: [f32; 4]", "b: f32", "_pad0: f32", "_pad1: [u32; 2]", "r#type: [f32; 4]"]);
+    let sentence = refused(&[("room/a.comp", &reading("", "float a[500000000];", "data.a[0]"))]);
+    assert_eq!(sentence, "room/a.comp: an array takes 2000000000 bytes, and 1073741824 are the most");
+    let sentence = refused(&[("room/a.comp", &reading("", "layout(row_major) mat4 a;", "data.a[0].x"))]);
+    assert_eq!(sentence, "room/a.comp: a row_major matrix has no Rust type here; use column_major");
+    let sentence = refused(&[("room/a.comp", &reading("", "float poseCount; float pose_count;", "data.pose_count"))]);
+    assert_eq!(sentence, "room/a.comp: two members of Data are called pose_count");
+    // Stages of one pipeline share a push block, whatever each calls it, and must agree on it.
+    let fragment = |name: &str, members: &str| {
+        format!(
+            "#version 460\nlayout(push_constant) uniform {name} {{ {members} }} push;\nlayout(location = 0) out float x;\n\
+             void main() {{ x = push.a; }}\n"
+        )
+    };
+    let vertex = "#version 460\nlayout(push_constant) uniform Push { vec2 b; float a; } push;\n\
+        void main() { gl_Position = vec4(push.b, push.a, 1); }\n";
+    let both = |text: &str| {
+        [("room/fill.vert".to_string(), vertex.to_string()), ("room/fill.frag".to_string(), text.to_string())]
+    };
+    let files = both(&fragment("Options", "vec2 b; float a;"));
+    let files: Vec<(&str, &str)> = files.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+    assert_eq!(fields(&generated(&files).unwrap(), "FillPush"), ["b: [f32; 2]", "a: f32", "_pad0: [u32; 1]"]);
+    let files = both(&fragment("Push", "float a; float b;"));
+    let files: Vec<(&str, &str)> = files.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+    assert_eq!(
+        refused(&files),
+        "room/fill.vert: FillPush has another memory layout than in room/fill.frag; give one of them another name"
+    );
 }
 
 #[test]
@@ -195,6 +229,15 @@ fn pictures_are_bound_without_samplers() {
         found,
         [("labels", 0, 0, Kind::SampledImage, Access::Read), ("target", 1, 2, Kind::StorageImage, Access::Write)]
     );
+    // naga cannot read atomics on images: they are found, and both read and written.
+    let text = compute(
+        "layout(binding = 0, r32ui) uniform uimage2D top; layout(binding = 1, r32ui) uniform uimage2D unused;",
+        "imageAtomicMax(top, ivec2(0), 1u);",
+    );
+    let reflection = reflected("room/a.comp", &text);
+    assert!(reflection.unread.is_some(), "naga reads image atomics now: the fallback is untested");
+    let found: Vec<_> = reflection.resources.iter().map(|r| (r.name.as_str(), r.kind, r.access)).collect();
+    assert_eq!(found, [("top", Kind::StorageImage, Access::ReadWrite)]);
     let sampler = compute(
         "layout(set = 0, binding = 0) uniform sampler2D photograph; layout(binding = 1) buffer R { vec4 r; };",
         "r = texture(photograph, vec2(0));",

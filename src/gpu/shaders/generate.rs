@@ -47,7 +47,7 @@ pub fn generate(root: &Path, room: &str) -> Result<String> {
     for file in listed(&root.join(room))?.iter().filter(|file| Stage::of(file).is_some()) {
         let name = format!("{room}/{file}");
         let compiled = compile(root, &name)?;
-        let reflection = reflect(&name, compiled.stage, &compiled.named)?;
+        let reflection = reflect(&name, &compiled)?;
         let module = identifier(file);
         ensure!(!statics.contains(&module), "{name}: another stage of the folder has the module name {module}");
         modules += &stage(&name, &module, &compiled, &reflection, &mut layouts)?;

@@ -63,6 +63,10 @@ impl Layouts {
         let (mut at, mut pads) = (0, 0);
         let mut pad = |fields: &mut String, bytes: u32| -> Result<()> {
             let ty = if bytes.is_multiple_of(4) { format!("[u32; {}]", bytes / 4) } else { format!("[u8; {bytes}]") };
+            // A member may have been padded by hand, with a name of ours.
+            while structure.members.iter().any(|member| member.name == format!("_pad{pads}")) {
+                pads += 1;
+            }
             if bytes > 0 {
                 writeln!(fields, "        /// Padding.\n        pub _pad{pads}: {ty},")?;
                 pads += 1;
@@ -84,7 +88,7 @@ impl Layouts {
         }
         ensure!(size >= at, "{stage}: {name} takes {at} bytes, but its array has steps of {size}");
         pad(&mut fields, size - at)?;
-        let mut source = format!("    /// `{}` in memory, {size} bytes.\n    #[repr(C)]\n", structure.name);
+        let mut source = format!("    /// `{name}` in memory, {size} bytes.\n    #[repr(C)]\n");
         writeln!(source, "    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]")?;
         writeln!(source, "    pub struct {name} {{\n{fields}    }}")?;
         writeln!(source, "    const _: () = assert!(size_of::<{name}>() == {size});")?;

@@ -20,7 +20,7 @@ use std::path::Path;
 /// constants are no longer those that the program was built with.
 pub fn reload(shader: &Shader, root: &Path) -> Result<Vec<u32>> {
     let compiled = compile::compile(root, shader.name)?;
-    let now = reflect::reflect(shader.name, compiled.stage, &compiled.named)?;
+    let now = reflect::reflect(shader.name, &compiled)?;
     let same_size = now.workgroup_size == shader.workgroup_size;
     let push = now.push.as_ref().map_or(0, reflect::Struct::size);
     let bindings =

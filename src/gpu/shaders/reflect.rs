@@ -4,11 +4,11 @@
 //! what the code really does to each resource. Where naga cannot read a stage (geometry shaders, transform feedback,
 //! some subgroup and atomic operations), the access is what the GLSL declares: `readonly`, `writeonly`, otherwise both.
 
-use super::compile::Stage;
+use super::compile::{Compiled, Stage};
 use anyhow::{Result, anyhow, bail, ensure};
 use spirq::ty::{AccessType, DescriptorType, MatrixAxisOrder, ScalarType, StructType, Type};
 use spirq::var::Variable;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The interface of one stage.
@@ -154,28 +154,39 @@ impl Struct {
     }
 }
 
-/// Reads the interface of the stage `name` from words that still have their names (`Compiled::named`).
+/// Reads the interface of the stage `name`: of what it declares, the part that the optimised words still use.
 ///
 /// # Errors
 /// One sentence with the stage and the resource for what the generator has no Rust type for: samplers, descriptor
 /// arrays, row-major matrices, several push blocks.
-pub fn reflect(name: &str, stage: Stage, words: &[u32]) -> Result<Reflection> {
+pub fn reflect(name: &str, compiled: &Compiled) -> Result<Reflection> {
+    // spirq's own search for what an entry point uses misses image atomics.
     let entries = spirq::ReflectConfig::new()
-        .spv(words)
-        .ref_all_rscs(false)
+        .spv(compiled.named.as_slice())
+        .ref_all_rscs(true)
         .reflect()
         .map_err(|error| anyhow!("{name}: its SPIR-V cannot be reflected: {error}"))?;
     let [entry] = entries.as_slice() else { bail!("{name}: {} entry points where one was expected", entries.len()) };
+    let (named, shipped) = (Scan::new(&compiled.named), Scan::new(&compiled.spirv));
+    let places = shipped.places();
+    let (accesses, unread) = match accesses(&compiled.named) {
+        Ok(accesses) => (accesses, None),
+        Err(why) => (HashMap::new(), Some(why)),
+    };
     let mut push = None;
     let mut resources = Vec::new();
     for variable in &entry.vars {
         match variable {
-            Variable::PushConstant { ty, .. } => {
+            Variable::PushConstant { ty, .. } if shipped.pushes => {
                 ensure!(push.is_none(), "{name}: it has several push-constant blocks, and a stage may have one");
                 push = Some(structure(name, ty)?);
             }
-            Variable::Descriptor { name: variable, desc_bind, desc_ty, ty, nbind } => {
-                let at = format!("{name}: set {}, binding {}", desc_bind.set(), desc_bind.bind());
+            Variable::Descriptor { name: own, desc_bind, desc_ty, ty, nbind } => {
+                let (set, binding) = desc_bind.into_inner();
+                if !places.contains(&(set, binding)) {
+                    continue;
+                }
+                let at = format!("{name}: set {set}, binding {binding}");
                 ensure!(*nbind == 1, "{at}: arrays of resources are not supported; use one buffer or an array texture");
                 let (kind, declared) =
                     kind(desc_ty).map_err(|found| anyhow!("{at}: {found} is not supported; {ADVICE}"))?;
@@ -183,11 +194,11 @@ pub fn reflect(name: &str, stage: Stage, words: &[u32]) -> Result<Reflection> {
                     Type::Struct(_) => Some(structure(name, ty)?),
                     _ => None,
                 };
-                let own = variable.clone().filter(|own| !own.is_empty());
+                let own = own.clone().filter(|own| !own.is_empty());
                 let own = own.or_else(|| block.as_ref().map(|block| block.name.clone())).unwrap_or_default();
                 ensure!(!own.is_empty(), "{at}: the resource has no name");
-                let (set, binding) = desc_bind.into_inner();
-                resources.push(Resource { name: own, set, binding, kind, access: declared, block });
+                let access = *accesses.get(&(set, binding)).unwrap_or(&declared);
+                resources.push(Resource { name: own, set, binding, kind, access, block });
             }
             _ => {}
         }
@@ -199,26 +210,11 @@ pub fn reflect(name: &str, stage: Stage, words: &[u32]) -> Result<Reflection> {
         let twice = (a.set, a.binding) == (b.set, b.binding);
         ensure!(!twice, "{name}: {} and {} share set {}, binding {}", a.name, b.name, a.set, a.binding);
     }
-    let unread = match accesses(words) {
-        Ok(accesses) => {
-            // What naga finds unused, the optimiser drops too.
-            resources.retain_mut(|resource| match accesses.get(&(resource.set, resource.binding)) {
-                Some(access) => {
-                    resource.access = *access;
-                    true
-                }
-                None => false,
-            });
-            None
-        }
-        Err(why) => Some(why),
-    };
-    let scan = Scan::new(words);
     Ok(Reflection {
-        workgroup_size: if stage == Stage::Compute { scan.workgroup_size } else { [1; 3] },
+        workgroup_size: if compiled.stage == Stage::Compute { named.workgroup_size } else { [1; 3] },
         push,
         resources,
-        constants: scan.constants(name)?,
+        constants: named.constants(name)?,
         unread,
     })
 }
@@ -264,12 +260,17 @@ fn layout(stage: &str, ty: &Type) -> Result<Layout> {
             let row_major = matrix.axis_order == Some(MatrixAxisOrder::RowMajor);
             ensure!(!row_major, "{stage}: a row_major matrix has no Rust type here; use column_major");
             let (scalar, bytes) = number(stage, &matrix.vector_ty.scalar_ty)?;
-            Layout::Matrix { scalar, bytes, columns: matrix.nvector, stride: bytes_of(stage, matrix.stride)? }
+            Layout::Matrix {
+                scalar,
+                bytes,
+                columns: matrix.nvector,
+                stride: step(stage, matrix.stride, matrix.nvector)?,
+            }
         }
         Type::Array(array) => Layout::Array {
             element: Box::new(layout(stage, &array.element_ty)?),
             count: array.nelement,
-            stride: bytes_of(stage, array.stride)?,
+            stride: step(stage, array.stride, array.nelement.unwrap_or(1))?,
         },
         Type::Struct(StructType { name, members }) => {
             let name = name.clone().unwrap_or_default();
@@ -290,8 +291,22 @@ fn layout(stage: &str, ty: &Type) -> Result<Layout> {
     })
 }
 
+/// No block is larger: sums of sizes then stay far from overflow.
+const LARGEST: usize = 1 << 30;
+
 fn bytes_of(stage: &str, bytes: Option<usize>) -> Result<u32> {
-    bytes.and_then(|bytes| u32::try_from(bytes).ok()).ok_or_else(|| anyhow!("{stage}: a block's layout is incomplete"))
+    let bytes = bytes.ok_or_else(|| anyhow!("{stage}: a block's layout is incomplete"))?;
+    ensure!(bytes <= LARGEST, "{stage}: a member lies {bytes} bytes into its block, and {LARGEST} are the most");
+    Ok(u32::try_from(bytes)?)
+}
+
+/// Bytes from one element to the next, of `count`.
+fn step(stage: &str, stride: Option<usize>, count: u32) -> Result<u32> {
+    let step = bytes_of(stage, stride)?;
+    ensure!(step > 0, "{stage}: a block's layout is incomplete");
+    let total = u64::from(step) * u64::from(count);
+    ensure!(total <= LARGEST as u64, "{stage}: an array takes {total} bytes, and {LARGEST} are the most");
+    Ok(step)
 }
 
 fn number(stage: &str, scalar: &ScalarType) -> Result<(&'static str, u32)> {
@@ -349,12 +364,15 @@ fn one_line(text: &str) -> String {
 }
 
 /// What is read from the words themselves: neither reader gives defaults of specialisation constants, nor a workgroup
-/// size that depends on one.
+/// size that depends on one, nor what of the named words the optimised ones still have.
 #[derive(Default)]
 struct Scan {
     names: HashMap<u32, String>,
     spec_ids: BTreeMap<u32, u32>,
     values: HashMap<u32, Vec<u32>>,
+    sets: HashMap<u32, u32>,
+    bindings: HashMap<u32, u32>,
+    pushes: bool,
     workgroup_size: [u32; 3],
 }
 
@@ -368,11 +386,15 @@ impl Scan {
         const SPEC_CONSTANT_FALSE: u32 = 49;
         const SPEC_CONSTANT: u32 = 50;
         const SPEC_CONSTANT_COMPOSITE: u32 = 51;
+        const VARIABLE: u32 = 59;
         const DECORATE: u32 = 71;
         const LOCAL_SIZE: u32 = 17;
         const SPEC_ID: u32 = 1;
         const BUILT_IN: u32 = 11;
         const WORKGROUP_SIZE: u32 = 25;
+        const BINDING: u32 = 33;
+        const DESCRIPTOR_SET: u32 = 34;
+        const PUSH_CONSTANT: u32 = 9;
         let mut scan = Self { workgroup_size: [1; 3], ..Self::default() };
         let mut composites: HashMap<u32, Vec<u32>> = HashMap::new();
         let mut size_id = None;
@@ -391,6 +413,13 @@ impl Scan {
                 (DECORATE, [id, SPEC_ID, number]) => {
                     scan.spec_ids.insert(*number, *id);
                 }
+                (DECORATE, [id, BINDING, number]) => {
+                    scan.bindings.insert(*id, *number);
+                }
+                (DECORATE, [id, DESCRIPTOR_SET, number]) => {
+                    scan.sets.insert(*id, *number);
+                }
+                (VARIABLE, [_, _, PUSH_CONSTANT, ..]) => scan.pushes = true,
                 (DECORATE, [id, BUILT_IN, WORKGROUP_SIZE]) => size_id = Some(*id),
                 (CONSTANT | SPEC_CONSTANT, [_, id, value @ ..]) => {
                     scan.values.insert(*id, value.to_vec());
@@ -420,6 +449,11 @@ impl Scan {
             }
         }
         scan
+    }
+
+    /// Set and binding of every resource in the module.
+    fn places(&self) -> HashSet<(u32, u32)> {
+        self.bindings.iter().map(|(id, binding)| (self.sets.get(id).copied().unwrap_or(0), *binding)).collect()
     }
 
     fn constants(&self, stage: &str) -> Result<Vec<Constant>> {
