@@ -4,6 +4,7 @@
 //! numbers have an address of their own (see [`Random`]), all ties go to the lower index and all its sums run in a fixed
 //! order, so its result depends on the seed and the fitness alone, never on the number of threads that computed that.
 
+mod arithmetic;
 mod particle_filter;
 mod philox;
 mod pso;
@@ -97,34 +98,6 @@ fn check_start(dof_count: usize, centre: &[f32], spread: &[f32]) -> Result<()> {
         anyhow::bail!("the search's spread is {} at index {index}, expected 0 or more", spread[index]);
     }
     Ok(())
-}
-
-/// Standard deviation of a degree of freedom over weighted rows, in double precision and index order.
-fn weighted_deviation(rows: &[f32], dof_count: usize, weights: impl Fn(usize) -> f64, mean: &[f64]) -> Vec<f32> {
-    let mut squares = vec![0.0; dof_count];
-    let mut total = 0.0;
-    for (index, row) in rows.chunks_exact(dof_count).enumerate() {
-        let weight = weights(index);
-        total += weight;
-        for ((square, value), mean) in squares.iter_mut().zip(row).zip(mean) {
-            *square += weight * (f64::from(*value) - mean).powi(2);
-        }
-    }
-    squares.into_iter().map(|square| (square / total).sqrt() as f32).collect()
-}
-
-/// Mean of a degree of freedom over weighted rows, in double precision and index order.
-fn weighted_mean(rows: &[f32], dof_count: usize, weights: impl Fn(usize) -> f64) -> Vec<f64> {
-    let mut sums = vec![0.0; dof_count];
-    let mut total = 0.0;
-    for (index, row) in rows.chunks_exact(dof_count).enumerate() {
-        let weight = weights(index);
-        total += weight;
-        for (sum, value) in sums.iter_mut().zip(row) {
-            *sum += weight * f64::from(*value);
-        }
-    }
-    sums.into_iter().map(|sum| sum / total).collect()
 }
 
 #[cfg(test)]

@@ -5,10 +5,11 @@ use std::ops::Range;
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
 
-use super::{
-    Draw, Estimate, Fitness, Random, Search, SearchSettings, SearchSpace, Stream, check_start, weighted_deviation,
-    weighted_mean,
-};
+use super::arithmetic::{Statistics, exp_of_negative};
+use super::{Draw, Estimate, Fitness, Random, Search, SearchSettings, SearchSpace, Stream, check_start};
+
+/// What a share of 1 counts in the integer sums that resampling goes by.
+pub(super) const WHOLE: f32 = 2_147_483_648.0;
 
 /// Constants of the filter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -28,6 +29,11 @@ impl FilterSettings {
         ensure!((1e-4..=10.0).contains(&self.sigma), "the filter's sigma is {}, expected 0.0001 to 10", self.sigma);
         Ok(())
     }
+
+    /// 1 / (2 sigma^2).
+    pub(super) fn sharpness(&self) -> f32 {
+        (0.5 / f64::from(self.sigma).powi(2)) as f32
+    }
 }
 
 /// The filter. Each frame it resamples the previous frame's particles by their weights (systematically: one random offset,
@@ -37,11 +43,13 @@ impl FilterSettings {
 /// w = 1 / (sigma sqrt(2 pi)) exp(-(1 - f)^2 / (2 sigma^2)),   normalised
 /// ```
 ///
+/// Weights are held as shares of the largest; resampling adds them up as integers of 2^-31 of it, exactly and so in any order.
 /// Its estimate is the weighted mean, scored as one more pose. It keeps its particles while each frame's centre is the
 /// estimate it gave before; any other centre (the first frame, a recovery) puts all of them there. Particles are scored
 /// in as many batches as there are iterations.
 pub struct ParticleFilter {
-    sigma: f64,
+    /// 1 / (2 sigma^2).
+    sharpness: f32,
     /// Particles scored in one iteration.
     batch: usize,
     iterations: usize,
@@ -55,7 +63,12 @@ pub struct ParticleFilter {
     /// The other half of a double buffer, for resampling.
     resampled: Vec<f32>,
     fitness: Vec<f32>,
-    weights: Vec<f64>,
+    /// Weights as shares of the largest.
+    shares: Vec<f32>,
+    /// The particle with the largest.
+    nearest: usize,
+    /// Sums of the shares up to and with each particle, 2^-31.
+    cumulated: Vec<u64>,
     /// The pose last estimated, which a next frame's centre is compared with; empty before.
     estimated: Vec<f32>,
 }
@@ -65,7 +78,7 @@ impl ParticleFilter {
     pub(super) fn new(settings: &SearchSettings, space: &SearchSpace) -> Self {
         let (count, dofs) = (settings.particles * settings.iterations, space.dof_count());
         Self {
-            sigma: f64::from(settings.filter.sigma),
+            sharpness: settings.filter.sharpness(),
             batch: settings.particles,
             iterations: settings.iterations,
             random: Random::new(settings.seed),
@@ -76,26 +89,26 @@ impl ParticleFilter {
             particles: vec![0.0; count * dofs],
             resampled: vec![0.0; count * dofs],
             fitness: vec![0.0; count],
-            weights: vec![0.0; count],
+            shares: vec![0.0; count],
+            nearest: 0,
+            cumulated: vec![0; count],
             estimated: Vec::with_capacity(dofs),
         }
     }
 
-    /// Copies of particles in proportion to their weights, which sum to 1.
+    /// Copies of particles in proportion to their weights.
     fn resample(&mut self, frame: u32) {
         let dofs = self.space.dof_count();
-        let count = self.weights.len();
-        let mut offset = [0.0];
+        let count = self.cumulated.len() as u64;
         let stream = Stream { frame, iteration: 0, particle: 0, draw: Draw::Resampling };
-        self.random.uniforms(stream, &mut offset);
+        let stride = self.cumulated[self.cumulated.len() - 1] / count;
+        // At most 2^31, a weight's mean, times a fraction of 2^32; less than a stride, so no pointer reaches the sum of all.
+        let offset = (stride * u64::from(self.random.first_word(stream))) >> 32;
         let mut chosen = 0;
-        let mut cumulated = self.weights[0];
         for (index, row) in self.resampled.chunks_exact_mut(dofs).enumerate() {
-            let pointer = (index as f64 + f64::from(offset[0])) / count as f64;
-            // Rounding may leave the sum a little below 1; the last particle with a weight then takes the rest.
-            while cumulated <= pointer && self.weights[chosen + 1..].iter().any(|&weight| weight > 0.0) {
+            let pointer = index as u64 * stride + offset;
+            while self.cumulated[chosen] <= pointer {
                 chosen += 1;
-                cumulated += self.weights[chosen];
             }
             row.copy_from_slice(&self.particles[chosen * dofs..(chosen + 1) * dofs]);
         }
@@ -107,29 +120,39 @@ impl ParticleFilter {
         0..self.done.unwrap_or(0) * self.batch
     }
 
-    /// Sets the normalised weights from the fitness; particles not scored get none. The common factor of the formula
-    /// cancels, and taking the best one's exponent out keeps the others from vanishing together.
+    /// Sets the weights from the fitness; particles not scored get none. The common factor of the formula cancels, and so
+    /// does the largest one's exponent, which keeps the others from vanishing together.
     fn weigh(&mut self) -> Result<()> {
         let scored = self.scored();
-        let exponent = |fitness: f32| -(1.0 - f64::from(fitness)).powi(2) / (2.0 * self.sigma * self.sigma);
         let fitness = &self.fitness[scored.clone()];
-        let finite = fitness.iter().filter(|fitness| fitness.is_finite());
-        let largest = finite.map(|&fitness| exponent(fitness)).fold(f64::NEG_INFINITY, f64::max);
-        ensure!(
-            largest > f64::NEG_INFINITY,
-            "none of the {} poses of frame {} has a finite fitness",
-            scored.len(),
-            self.frame
-        );
-        self.weights.fill(0.0);
-        for (weight, &fitness) in self.weights.iter_mut().zip(fitness) {
-            if fitness.is_finite() {
-                *weight = (exponent(fitness) - largest).exp();
+        let mut nearest = None;
+        for (index, fitness) in fitness.iter().enumerate().filter(|(_, fitness)| fitness.is_finite()) {
+            let distance = (1.0 - fitness).abs();
+            if nearest.is_none_or(|(_, least)| distance < least) {
+                nearest = Some((index, distance));
             }
         }
-        let total: f64 = self.weights.iter().sum();
-        self.weights.iter_mut().for_each(|weight| *weight /= total);
+        let Some((nearest, _)) = nearest else {
+            bail!("none of the {} poses of frame {} has a finite fitness", scored.len(), self.frame)
+        };
+        let largest = fitness[nearest];
+        self.nearest = nearest;
+        self.shares.fill(0.0);
+        for (share, &fitness) in self.shares.iter_mut().zip(fitness).filter(|(_, fitness)| fitness.is_finite()) {
+            // (1 - f)^2 less the same of the largest, without the digits that a difference of squares loses.
+            let exponent = (fitness - largest) * (2.0 - fitness - largest) * self.sharpness;
+            *share = exp_of_negative(if exponent > 0.0 { 0.0 } else { exponent });
+        }
+        self.cumulate();
         Ok(())
+    }
+
+    fn cumulate(&mut self) {
+        let mut sum = 0;
+        for (share, cumulated) in self.shares.iter().zip(&mut self.cumulated) {
+            sum += u64::from((share * WHOLE) as u32);
+            *cumulated = sum;
+        }
     }
 }
 
@@ -177,10 +200,8 @@ impl Search for ParticleFilter {
         let scored = self.scored().len();
         ensure!(scored > 0, "the search has scored no pose yet, so there is nothing to estimate");
         self.weigh()?;
-        let rows = &self.particles[..scored * dofs];
-        let mean = weighted_mean(rows, dofs, |index| self.weights[index]);
-        let spread = weighted_deviation(rows, dofs, |index| self.weights[index], &mean);
-        let mut pose: Vec<f32> = mean.into_iter().map(|value| value as f32).collect();
+        let reference = &self.particles[self.nearest * dofs..(self.nearest + 1) * dofs];
+        let Statistics { mean: mut pose, deviation: spread } = Statistics::of(&self.particles, &self.shares, reference);
         self.space.clamp(&mut pose);
         let mut score = [f32::NAN];
         fitness(&pose, &mut score)?;
@@ -202,7 +223,8 @@ mod tests {
         let weights = [0.0, 0.3, 0.05, 0.0, 0.4, 0.125, 0.125, 0.0];
         for frame in 0..200 {
             let mut filter = ParticleFilter::new(&settings, &space);
-            filter.weights.copy_from_slice(&weights);
+            filter.shares.copy_from_slice(&weights.map(|weight| (weight / 0.4) as f32));
+            filter.cumulate();
             for (index, particle) in filter.particles.iter_mut().enumerate() {
                 *particle = index as f32;
             }
@@ -228,14 +250,16 @@ mod tests {
             (-(1.0 - f64::from(f)).powi(2) / (2.0 * sigma * sigma)).exp() / (sigma * std::f64::consts::TAU.sqrt())
         };
         let plain = [formula(0.9), formula(0.85), 0.0, formula(0.7), formula(0.0)];
-        let total: f64 = plain.iter().sum();
-        for (weight, plain) in filter.weights.iter().zip(plain) {
-            assert!((weight - plain / total).abs() < 1e-12, "{weight} for {}", plain / total);
+        for (index, (share, plain)) in filter.shares.iter().zip(plain).enumerate() {
+            assert!((f64::from(*share) - plain / formula(0.9)).abs() < 1e-6, "{share} for {}", plain / formula(0.9));
+            let before = if index == 0 { 0 } else { filter.cumulated[index - 1] };
+            let weight = (filter.cumulated[index] - before) as f64 / f64::from(WHOLE);
+            assert!((weight - f64::from(*share)).abs() < 1e-9);
         }
         // Fitness so low that the plain formula would give 0 / 0.
-        filter.sigma = 1e-4;
+        filter.sharpness = FilterSettings { sigma: 1e-4 }.sharpness();
         filter.fitness.copy_from_slice(&[0.1, 0.1, f32::NAN, 0.0, 0.0]);
         filter.weigh().unwrap();
-        assert_eq!(filter.weights, [0.5, 0.5, 0.0, 0.0, 0.0]);
+        assert_eq!(filter.shares, [1.0, 1.0, 0.0, 0.0, 0.0]);
     }
 }

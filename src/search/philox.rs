@@ -1,6 +1,8 @@
 //! Counter-based random numbers: Philox 4x32-10 (Salmon, Moraes, Dror, Shaw: "Parallel random numbers: as easy as 1, 2,
 //! 3", 2011). A number is a pure function of its address, so any thread or device can draw it in any order.
 
+use super::arithmetic::box_muller;
+
 /// Philox's round multipliers.
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
 /// What the key grows by each round (Weyl sequence: golden ratio, square root of three minus one).
@@ -121,6 +123,11 @@ impl Random {
         out
     }
 
+    /// The first word of a row.
+    pub(super) fn first_word(&self, stream: Stream) -> u32 {
+        self.group(stream, 0)[0][0]
+    }
+
     /// A row of numbers uniform in [0, 1).
     pub fn uniforms(&self, stream: Stream, row: &mut [f32]) {
         for (group, values) in row.chunks_mut(GROUP).enumerate() {
@@ -160,50 +167,6 @@ fn scatter_rows(random: Random, stream: Stream, spread: &[f32], limits: [&[f32];
             }
         }
     }
-}
-
-/// Two independent normal numbers from two words, by Box and Muller's transform, in operations every device has in single
-/// precision (no library logarithm or sine, whose last bits differ between devices): `r = sqrt(-2 ln u)`, then `r cos t`
-/// and `r sin t`, with `u = (w0 / 2^9 + 1/2) / 2^23` (integer division; never 0, so at most 5.77 standard deviations) and
-/// `t = 2 pi w1 / 2^32` less an eighth of a turn.
-#[inline(always)]
-pub(super) fn box_muller(w0: u32, w1: u32) -> (f32, f32) {
-    let u = ((w0 >> 9) as i32 as f32 + 0.5) * (1.0 / 8_388_608.0);
-    let radius = (-2.0 * ln(u)).sqrt();
-    let (sin, cos) = turn(w1);
-    (radius * cos, radius * sin)
-}
-
-/// Natural logarithm of a normal positive number: exponent and mantissa apart, the mantissa in [sqrt(1/2), sqrt(2)) by
-/// `ln m = 2 artanh t`, `t = (m - 1) / (m + 1)`, whose series is cut after t^9 (error below 2^-27).
-#[inline(always)]
-fn ln(x: f32) -> f32 {
-    // Subtracting sqrt(1/2)'s bits makes the exponent field count from there.
-    const SQRT_HALF: u32 = 0x3F35_04F3;
-    let shifted = x.to_bits().wrapping_sub(SQRT_HALF);
-    let exponent = (shifted as i32) >> 23;
-    let mantissa = f32::from_bits((shifted & 0x007F_FFFF).wrapping_add(SQRT_HALF));
-    let t = (mantissa - 1.0) / (mantissa + 1.0);
-    let s = t * t;
-    let series = 1.0 + s * (1.0 / 3.0 + s * (1.0 / 5.0 + s * (1.0 / 7.0 + s * (1.0 / 9.0))));
-    exponent as f32 * std::f32::consts::LN_2 + 2.0 * t * series
-}
-
-/// Sine and cosine of `2 pi word / 2^32` less an eighth of a turn: the top two bits pick the quarter, the next 24 an angle
-/// within +-pi/4 of its middle, by Taylor's series to the 9th and 8th power (errors below 2^-25).
-#[inline(always)]
-fn turn(word: u32) -> (f32, f32) {
-    let quarter = word >> 30;
-    let fraction = ((word >> 6) & 0x00FF_FFFF) as i32 as f32 * (1.0 / 16_777_216.0) - 0.5;
-    let x = fraction * std::f32::consts::FRAC_PI_2;
-    let s = x * x;
-    let sin = x * (1.0 + s * (-1.0 / 6.0 + s * (1.0 / 120.0 + s * (-1.0 / 5040.0 + s * (1.0 / 362_880.0)))));
-    let cos = 1.0 + s * (-0.5 + s * (1.0 / 24.0 + s * (-1.0 / 720.0 + s * (1.0 / 40_320.0))));
-    // A quarter turn swaps the two; signs follow from the quarter's bits without a branch.
-    let (a, b) = if quarter & 1 == 0 { (sin, cos) } else { (cos, sin) };
-    let sin_sign = (quarter & 2) << 30;
-    let cos_sign = ((quarter ^ (quarter >> 1)) & 1) << 31;
-    (f32::from_bits(a.to_bits() ^ sin_sign), f32::from_bits(b.to_bits() ^ cos_sign))
 }
 
 #[cfg(test)]
@@ -267,24 +230,6 @@ mod tests {
         let before = numbers.len();
         numbers.dedup();
         assert!(before - numbers.len() <= 1, "numbers repeat between streams or dimensions");
-    }
-
-    #[test]
-    fn elementary_functions_are_good_to_single_precision() {
-        for step in 0..100_000_u32 {
-            let word = step.wrapping_mul(2_654_435_769);
-            let u = ((word >> 9) as f32 + 0.5) / 8_388_608.0;
-            let exact = f64::from(u).ln();
-            assert!((f64::from(ln(u)) - exact).abs() <= 2e-7 * exact.abs().max(1e-3), "ln {u}");
-            let angle = std::f64::consts::TAU * (f64::from(word) / 4_294_967_296.0 - 0.125);
-            let (sin, cos) = turn(word);
-            assert!((f64::from(sin) - angle.sin()).abs() < 3e-7, "sin {angle}");
-            assert!((f64::from(cos) - angle.cos()).abs() < 3e-7, "cos {angle}");
-        }
-        for word in [0, 1, 511, 512, u32::MAX] {
-            let (a, b) = box_muller(word, word);
-            assert!(a.is_finite() && b.is_finite() && a.hypot(b) < 5.8);
-        }
     }
 
     #[test]

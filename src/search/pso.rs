@@ -3,11 +3,9 @@
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
 
+use super::arithmetic::Statistics;
 use super::philox::GROUP;
-use super::{
-    Draw, Estimate, Fitness, Random, Search, SearchSettings, SearchSpace, Stream, check_start, weighted_deviation,
-    weighted_mean,
-};
+use super::{Draw, Estimate, Fitness, Random, Search, SearchSettings, SearchSpace, Stream, check_start};
 
 /// Constants of the swarm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -31,6 +29,13 @@ impl Default for PsoSettings {
 }
 
 impl PsoSettings {
+    /// Inertia of the move into iteration `iteration` (1 is the first move) of `iterations`.
+    pub(super) fn inertia_of(&self, iteration: usize, iterations: usize) -> f32 {
+        let [first, last] = self.inertia;
+        let moves = iterations.saturating_sub(2).max(1) as f32;
+        first + (last - first) * ((iteration - 1) as f32 / moves)
+    }
+
     pub(super) fn check(&self) -> Result<()> {
         for inertia in self.inertia {
             ensure!((0.0..=1.0).contains(&inertia), "the swarm's inertia is {inertia}, expected 0 to 1");
@@ -63,6 +68,7 @@ pub struct Pso {
     /// The swarm's best position and its fitness.
     leader: Vec<f32>,
     leader_fitness: f32,
+    equal_weights: Vec<f32>,
 }
 
 impl Pso {
@@ -83,14 +89,8 @@ impl Pso {
             best_fitness: vec![f32::NEG_INFINITY; count],
             leader: vec![0.0; dofs],
             leader_fitness: f32::NEG_INFINITY,
+            equal_weights: vec![1.0; count],
         }
-    }
-
-    /// Inertia of the move into iteration `iteration` (1 is the first move).
-    fn inertia(&self, iteration: usize) -> f32 {
-        let [first, last] = self.settings.inertia;
-        let moves = self.iterations.saturating_sub(2).max(1) as f32;
-        first + (last - first) * ((iteration - 1) as f32 / moves)
     }
 
     /// Moves every particle into iteration `iteration`.
@@ -98,7 +98,7 @@ impl Pso {
         let step = Move {
             random: self.random,
             stream: Stream { frame: self.frame, iteration: iteration as u32, particle: 0, draw: Draw::Cognitive },
-            omega: self.inertia(iteration),
+            omega: self.settings.inertia_of(iteration, self.iterations),
             cognitive: self.settings.cognitive,
             social: self.settings.social,
             leader: &self.leader,
@@ -214,7 +214,6 @@ impl Search for Pso {
     }
 
     fn estimate(&mut self, _fitness: &mut Fitness<'_>) -> Result<Estimate> {
-        let dofs = self.space.dof_count();
         let evaluations = self.done.unwrap_or(0) * self.fitness.len();
         ensure!(evaluations > 0, "the search has scored no pose yet, so there is nothing to estimate");
         ensure!(
@@ -222,8 +221,7 @@ impl Search for Pso {
             "none of the {evaluations} poses of frame {} has a finite fitness",
             self.frame
         );
-        let mean = weighted_mean(&self.best, dofs, |_| 1.0);
-        let spread = weighted_deviation(&self.best, dofs, |_| 1.0, &mean);
+        let spread = Statistics::of(&self.best, &self.equal_weights, &self.leader).deviation;
         Ok(Estimate { pose: self.leader.clone(), fitness: self.leader_fitness, spread, evaluations })
     }
 }
