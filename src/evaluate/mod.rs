@@ -17,6 +17,7 @@ pub use components::Components;
 pub use objective::{Objective, ObjectiveKind};
 pub use projection::{PartQuad, Projector};
 pub use reference::{CandidateImage, Reference, compare, draw_quads};
+pub use vulkan::DeviceEvaluator;
 
 use crate::features::Observation;
 
@@ -54,4 +55,9 @@ pub trait Evaluator: Send {
     /// # Errors
     /// As [`Self::components`].
     fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()>;
+
+    /// The evaluator as a search on its device records it, where it works on one.
+    fn on_device(&mut self) -> Option<&mut dyn DeviceEvaluator> {
+        None
+    }
 }

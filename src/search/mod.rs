@@ -5,14 +5,17 @@
 //! order, so its result depends on the seed and the fitness alone, never on the number of threads that computed that.
 
 mod arithmetic;
+mod device;
 mod particle_filter;
 mod philox;
 mod pso;
 mod settings;
 mod space;
+mod stages;
 
 use anyhow::{Result, ensure};
 
+pub use device::{DeviceFound, DeviceSearch};
 pub use particle_filter::{FilterSettings, ParticleFilter};
 pub use philox::{Draw, Random, Stream, philox4x32};
 pub use pso::{Pso, PsoSettings};

@@ -87,12 +87,8 @@ impl SearchSettings {
         self.filter.check()
     }
 
-    /// Makes the search.
-    ///
-    /// # Errors
-    /// As [`Self::check`], or when the settings ask for more memory than sense.
-    pub fn build(&self, space: &SearchSpace) -> Result<Box<dyn Search>> {
-        self.check()?;
+    /// Whether the search's buffers are of a sensible size.
+    pub(super) fn check_room(&self, space: &SearchSpace) -> Result<()> {
         let samples = match self.kind {
             SearchKind::Pso => self.particles,
             SearchKind::ParticleFilter => self.particles * self.iterations,
@@ -103,6 +99,16 @@ impl SearchSettings {
             space.dof_count(),
             LARGEST_BUFFER / space.dof_count()
         );
+        Ok(())
+    }
+
+    /// Makes the search.
+    ///
+    /// # Errors
+    /// As [`Self::check`], or when the settings ask for more memory than sense.
+    pub fn build(&self, space: &SearchSpace) -> Result<Box<dyn Search>> {
+        self.check()?;
+        self.check_room(space)?;
         Ok(match self.kind {
             SearchKind::Pso => Box::new(Pso::new(self, space)),
             SearchKind::ParticleFilter => Box::new(ParticleFilter::new(self, space)),

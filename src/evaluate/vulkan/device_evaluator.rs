@@ -6,7 +6,7 @@ use crate::evaluate::Objective;
 use crate::gpu::{Buffer, Device, Recorder};
 
 /// An evaluator whose poses and fitness stay on the device, so that all iterations of a frame need no host between them.
-pub(crate) trait DeviceEvaluator: Send {
+pub trait DeviceEvaluator: Send {
     /// The device it works on.
     fn device(&self) -> &Device;
 
@@ -16,8 +16,14 @@ pub(crate) trait DeviceEvaluator: Send {
     /// The fitness it gives, `[candidate]` single precision, in [0, 1].
     fn fitness(&self) -> &Buffer;
 
-    /// Makes room for so many candidates; `poses` and `fitness` may be other buffers afterwards, and what was recorded before
-    /// goes on working with the old ones.
+    /// The number of views.
+    fn view_count(&self) -> usize;
+
+    /// What stands behind the fitness, `[candidate][view]`: four words of drawn area, overlap, edge pixels and proximity (SPEC
+    /// A6, without the observed area).
+    fn sums(&self) -> &Buffer;
+
+    /// Makes room for so many candidates; the buffers may be others afterwards, and what was recorded before goes on working with the old ones.
     ///
     /// # Errors
     /// When the device has no room.

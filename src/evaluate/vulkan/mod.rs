@@ -7,7 +7,6 @@ mod model;
 mod tests;
 mod workspace;
 
-#[expect(unused_imports, reason = "the first backend on a device implements it")]
-pub(crate) use device_evaluator::DeviceEvaluator;
+pub use device_evaluator::DeviceEvaluator;
 pub(crate) use model::{Counts, DeviceModel};
 pub(crate) use workspace::Workspace;

@@ -1,0 +1,26 @@
+// What differs from frame to frame, and the random numbers of a frame.
+
+#include "search/philox.glsl"
+
+layout(std430, set = 0, binding = 0) readonly buffer Frame {
+    uint number;
+    uint goes_on;   // 1 where the filter resamples its particles, 0 where it puts all of them on the centre
+    uvec2 seed;     // low word, high word
+    float values[]; // rows of centre, spread, lower and upper limits
+} frame;
+
+uvec4 random_words(uint iteration, uint particle, uint draw, uint block) {
+    return philox(uvec4(particle, draw << 24 | block, iteration, frame.number), frame.seed);
+}
+
+// A normal step from `from`, held within the limits.
+float scattered(float from, float normal, uint d, uint dofs) {
+    precise float step = normal * frame.values[dofs + d];
+    precise float free = from + step;
+    return hold(free, frame.values[2u * dofs + d], frame.values[3u * dofs + d]);
+}
+
+// The running number of an invocation; groups may fill several rows.
+uint invocation() {
+    return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * SEARCH_GROUP + gl_LocalInvocationID.x;
+}

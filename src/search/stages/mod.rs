@@ -1,0 +1,48 @@
+//! The search's work on a device, stage by stage. A stage is one file here beside one shader of the same name under
+//! `glsl/search/`; the name is its debug label and its row of timings too.
+
+mod best;
+mod r#move;
+mod propagate;
+mod scatter;
+mod spread;
+mod weigh;
+
+#[allow(clippy::unreadable_literal, clippy::large_stack_arrays, reason = "written by the build")]
+mod generated {
+    include!(concat!(env!("OUT_DIR"), "/search_stages.rs"));
+}
+
+pub(super) use best::BestStage;
+pub(super) use generated::{best_comp, layout, move_comp, propagate_comp, scatter_comp, spread_comp, weigh_comp};
+pub(super) use r#move::{MoveStage, Pull};
+pub(super) use propagate::PropagateStage;
+pub(super) use scatter::ScatterStage;
+pub(super) use spread::SpreadStage;
+pub(super) use weigh::WeighStage;
+
+use crate::gpu::{Device, Groups};
+use generated::SEARCH_GROUP;
+
+/// Dimensions that eight blocks of random numbers serve.
+const DIMENSIONS: u32 = 32;
+/// Blocks of random numbers that serve them.
+const BLOCKS: u32 = 8;
+
+/// How many candidates of how many values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Extent {
+    pub(super) candidates: u32,
+    pub(super) dofs: u32,
+}
+
+impl Extent {
+    /// Workgroups for one invocation a block of random numbers of every candidate, in rows as long as the device allows.
+    fn block_groups(self, device: &Device) -> Groups<'static> {
+        let invocations = u64::from(self.candidates) * u64::from(BLOCKS * self.dofs.div_ceil(DIMENSIONS));
+        let groups = invocations.div_ceil(u64::from(SEARCH_GROUP));
+        let row = groups.min(u64::from(device.capabilities().max_groups)).max(1);
+        // A device allows 65535 rows and more; a recorder refuses what is beyond.
+        Groups::Count([row as u32, groups.div_ceil(row) as u32, 1])
+    }
+}

@@ -1,0 +1,45 @@
+//! A batch of the filter's particles, chosen and moved.
+
+use anyhow::Result;
+
+use super::Extent;
+use super::generated::propagate_comp;
+use crate::gpu::{Device, Dispatch, Pipeline, Recorder, Stage};
+
+/// The stage.
+#[derive(Debug)]
+pub(in crate::search) struct PropagateStage {
+    pipeline: Pipeline,
+    device: Device,
+}
+
+impl PropagateStage {
+    /// Its name in timings.
+    pub(in crate::search) const NAME: &'static str = "propagate";
+
+    /// Compiles it.
+    pub(in crate::search) fn new(device: &Device) -> Result<Self> {
+        let pipeline = device.compute_pipeline(Stage { shader: &propagate_comp::SHADER, constants: &[] })?;
+        Ok(Self { pipeline, device: device.clone() })
+    }
+
+    /// Records it, for the candidates from particle `first` on, of `count`.
+    pub(in crate::search) fn record(
+        &self,
+        recorder: &mut Recorder,
+        bindings: &propagate_comp::Bindings<'_>,
+        extent: Extent,
+        [first, count]: [u32; 2],
+    ) -> Result<()> {
+        let push = propagate_comp::Push { first, batch: extent.candidates, count, dofs: extent.dofs };
+        recorder.compute(
+            Self::NAME,
+            &[Dispatch {
+                pipeline: &self.pipeline,
+                bindings: &bindings.bound(),
+                push: bytemuck::bytes_of(&push),
+                groups: extent.block_groups(&self.device),
+            }],
+        )
+    }
+}
