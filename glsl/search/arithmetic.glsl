@@ -1,6 +1,6 @@
 // Arithmetic that every device repeats to the bit; src/search/arithmetic.rs holds the same operations and says why.
 
-// Low word in x, high word in y.
+// Low word in x, high word in y; by halves, since reflection cannot read umulExtended.
 uvec2 wide_product(uint a, uint b) {
     uint a0 = a & 0xFFFFu, a1 = a >> 16;
     uint b0 = b & 0xFFFFu, b1 = b >> 16;

@@ -20,7 +20,12 @@ float scattered(float from, float normal, uint d, uint dofs) {
     return hold(free, frame.values[2u * dofs + d], frame.values[3u * dofs + d]);
 }
 
-// The running number of an invocation; groups may fill several rows.
-uint invocation() {
-    return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * SEARCH_GROUP + gl_LocalInvocationID.x;
+// An invocation's candidate. A workgroup has eight blocks of eight candidates; rows of groups may be stacked in z.
+uint candidate_here() {
+    return (gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x) * (SEARCH_GROUP / 8u) + gl_LocalInvocationID.x / 8u;
+}
+
+// Its block of random numbers.
+uint block_here() {
+    return gl_WorkGroupID.y * 8u + gl_LocalInvocationID.x % 8u;
 }

@@ -24,9 +24,8 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
-    uint number = invocation();
-    uint particle = number / blocks_of(push.dofs);
-    uint block = number % blocks_of(push.dofs);
+    uint particle = candidate_here();
+    uint block = block_here();
     if (particle >= push.particles) return;
     bool improved = own[particle].y == 1u;
     vec4 r1 = uniforms_of(random_words(push.iteration, particle, DRAW_COGNITIVE, block));

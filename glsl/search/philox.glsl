@@ -19,10 +19,6 @@ uvec4 philox(uvec4 counter, uvec2 key) {
 }
 
 // A block is four words, for dimensions eight apart.
-uint blocks_of(uint dofs) {
-    return 8u * ((dofs + 31u) / 32u);
-}
-
 uint dimension_of(uint block, uint word) {
     return 32u * (block / 8u) + 8u * word + block % 8u;
 }

@@ -42,9 +42,8 @@ uint chosen_for(uint particle) {
 }
 
 void main() {
-    uint own = invocation();
-    uint row = own / blocks_of(push.dofs);
-    uint block = own % blocks_of(push.dofs);
+    uint row = candidate_here();
+    uint block = block_here();
     if (row >= push.batch) return;
     uint particle = push.first + row;
     bool goes_on = frame.goes_on == 1u;

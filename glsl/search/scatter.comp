@@ -18,9 +18,8 @@ layout(push_constant) uniform Push {
 } push;
 
 void main() {
-    uint own = invocation();
-    uint particle = own / blocks_of(push.dofs);
-    uint block = own % blocks_of(push.dofs);
+    uint particle = candidate_here();
+    uint block = block_here();
     if (particle >= push.particles) return;
     vec4 normals = normals_of(random_words(0u, particle, DRAW_SCATTER, block));
     for (uint word = 0u; word < 4u; word++) {

@@ -37,12 +37,11 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Workgroups for one invocation a block of random numbers of every candidate, in rows as long as the device allows.
+    /// Workgroups for one invocation a block of random numbers of every candidate: as many candidates in x as the device
+    /// allows and stacked in z, the dimensions in y.
     fn block_groups(self, device: &Device) -> Groups<'static> {
-        let invocations = u64::from(self.candidates) * u64::from(BLOCKS * self.dofs.div_ceil(DIMENSIONS));
-        let groups = invocations.div_ceil(u64::from(SEARCH_GROUP));
-        let row = groups.min(u64::from(device.capabilities().max_groups)).max(1);
-        // A device allows 65535 rows and more; a recorder refuses what is beyond.
-        Groups::Count([row as u32, groups.div_ceil(row) as u32, 1])
+        let groups = self.candidates.div_ceil(SEARCH_GROUP / BLOCKS).max(1);
+        let row = groups.min(device.capabilities().max_groups);
+        Groups::Count([row, self.dofs.div_ceil(DIMENSIONS), groups.div_ceil(row)])
     }
 }
