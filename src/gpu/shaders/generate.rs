@@ -63,7 +63,7 @@ pub fn generate(root: &Path, room: &str) -> Result<String> {
     let list: Vec<String> = statics.iter().map(|module| format!("&{module}::SHADER")).collect();
     writeln!(text, "/// Every stage of the folder, for tests that try them all.")?;
     writeln!(text, "#[cfg(test)]\n#[allow(dead_code)]")?;
-    writeln!(text, "pub static SHADERS: &[&crate::gpu::shader::Shader] = &[{}];", list.join(", "))?;
+    writeln!(text, "pub static SHADERS: &[&crate::gpu::Shader] = &[{}];", list.join(", "))?;
     Ok(text)
 }
 
@@ -104,8 +104,8 @@ fn stage(
         writeln!(text, "    // Accesses are as declared: naga cannot read this stage ({why}).")?;
     }
     writeln!(text, "    /// The compiled stage.")?;
-    writeln!(text, "    pub static SHADER: crate::gpu::shader::Shader = crate::gpu::shader::Shader {{")?;
-    writeln!(text, "        name: {name:?},\n        kind: crate::gpu::shader::ShaderKind::{kind:?},")?;
+    writeln!(text, "    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {{")?;
+    writeln!(text, "        name: {name:?},\n        kind: crate::gpu::ShaderKind::{kind:?},")?;
     writeln!(text, "        spirv: &{:?},", compiled.spirv)?;
     writeln!(text, "        workgroup_size: {:?},\n        push_size: {push_size},", reflection.workgroup_size)?;
     writeln!(text, "        bindings: &[")?;
@@ -113,18 +113,15 @@ fn stage(
         let (set, binding, kind, access) = (resource.set, resource.binding, resource.kind, resource.access);
         writeln!(
             text,
-            "            crate::gpu::shader::BindingLayout {{ name: {:?}, set: {set}, binding: {binding}, \
-             kind: crate::gpu::shader::BindingKind::{kind:?}, access: crate::gpu::shader::Access::{access:?} }},",
+            "            crate::gpu::BindingLayout {{ name: {:?}, set: {set}, binding: {binding}, \
+             kind: crate::gpu::BindingKind::{kind:?}, access: crate::gpu::Access::{access:?} }},",
             resource.name
         )?;
     }
     writeln!(text, "        ],\n        constants: &[")?;
     for constant in &reflection.constants {
         let (own, id, default) = (&constant.name, constant.id, constant.default);
-        writeln!(
-            text,
-            "            crate::gpu::shader::SpecConstant {{ name: {own:?}, id: {id}, default: {default} }},"
-        )?;
+        writeln!(text, "            crate::gpu::SpecConstant {{ name: {own:?}, id: {id}, default: {default} }},")?;
     }
     writeln!(text, "        ],\n    }};")?;
     if !fields.is_empty() {
@@ -176,13 +173,13 @@ fn bindings(reflection: &Reflection, fields: &[String]) -> Result<String> {
     }
     let count = fields.len();
     writeln!(text, "    }}\n    impl<'a> Bindings<'a> {{\n        /// Each resource with the place it goes to.")?;
-    writeln!(text, "        pub fn bound(&self) -> [crate::gpu::shader::Binding<'a>; {count}] {{\n            [")?;
+    writeln!(text, "        pub fn bound(&self) -> [crate::gpu::Binding<'a>; {count}] {{\n            [")?;
     for (index, (resource, field)) in reflection.resources.iter().zip(fields).enumerate() {
         let variant = if image(resource.kind) { "Image" } else { "Buffer" };
         writeln!(
             text,
-            "                crate::gpu::shader::Binding {{ layout: &SHADER.bindings[{index}], \
-             bound: crate::gpu::shader::Bound::{variant}(self.{field}) }},"
+            "                crate::gpu::Binding {{ layout: &SHADER.bindings[{index}], \
+             bound: crate::gpu::Bound::{variant}(self.{field}) }},"
         )?;
     }
     writeln!(text, "            ]\n        }}\n    }}")?;
