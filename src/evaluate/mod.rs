@@ -8,6 +8,8 @@ mod objective;
 mod projection;
 mod reference;
 mod rig;
+mod stages;
+mod vulkan;
 
 use anyhow::Result;
 

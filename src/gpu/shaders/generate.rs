@@ -78,10 +78,14 @@ fn stage(
     let mut push_size = 0;
     let mut push_type = None;
     if let Some(push) = &reflection.push {
-        // Stages of one pipeline share their push constants, so `fill.vert` and `fill.frag` share `FillPush`.
+        // A block of its own name is shared by every stage that includes it; one called `Push` belongs to its stage, and
+        // stages of one pipeline share it: `fill.vert` and `fill.frag` have `FillPush`.
         let file = name.rsplit('/').next().unwrap_or(name);
         let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-        let own = format!("{}Push", camel_case(stem));
+        let own = match push.name.as_str() {
+            "Push" | "" => format!("{}Push", camel_case(stem)),
+            shared => camel_case(shared),
+        };
         push_size = layouts.block(name, &own, push)?;
         push_type = Some(own);
     }

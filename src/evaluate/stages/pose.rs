@@ -1,0 +1,50 @@
+//! Poses to bone matrices (SPEC A3).
+
+use anyhow::Result;
+
+use crate::evaluate::vulkan::{DeviceModel, Workspace};
+use crate::gpu::{Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+
+use super::Share;
+use super::generated::pose_comp;
+
+/// The stage.
+#[derive(Debug)]
+pub(crate) struct PoseStage {
+    pipeline: Pipeline,
+}
+
+impl PoseStage {
+    /// Its name in timings.
+    pub(crate) const NAME: &'static str = "pose";
+
+    /// Compiles it.
+    pub(crate) fn new(device: &Device) -> Result<Self> {
+        Ok(Self { pipeline: device.compute_pipeline(Stage { shader: &pose_comp::SHADER, constants: &[] })? })
+    }
+
+    /// Records it: `workspace.poses` to `workspace.world`.
+    pub(crate) fn record(
+        &self,
+        recorder: &mut Recorder,
+        model: &DeviceModel,
+        workspace: &Workspace,
+        share: Share,
+    ) -> Result<()> {
+        let push: pose_comp::Push = model.batch(share);
+        recorder.compute(
+            Self::NAME,
+            &[Dispatch {
+                pipeline: &self.pipeline,
+                bindings: &pose_comp::Bindings {
+                    bones: &model.bones,
+                    poses: &workspace.poses,
+                    world: &workspace.world,
+                }
+                .bound(),
+                push: bytemuck::bytes_of(&push),
+                groups: Groups::Count([share.candidates.div_ceil(pose_comp::SHADER.workgroup_size[0]), 1, 1]),
+            }],
+        )
+    }
+}

@@ -1,0 +1,57 @@
+//! Every part of every candidate into every camera, once (SPEC A4, A2): snapped corners, nearest parts first.
+
+use anyhow::Result;
+
+use crate::evaluate::vulkan::{DeviceModel, Workspace};
+use crate::gpu::{Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+
+use super::Share;
+use super::generated::{PROJECT_GROUP, project_comp};
+
+/// Most parts of a body: a workgroup holds all parts of an image.
+pub(crate) const MOST_PARTS: usize = PROJECT_GROUP as usize;
+
+/// The stage.
+#[derive(Debug)]
+pub(crate) struct ProjectStage {
+    pipeline: Pipeline,
+}
+
+impl ProjectStage {
+    /// Its name in timings.
+    pub(crate) const NAME: &'static str = "project";
+
+    /// Compiles it.
+    pub(crate) fn new(device: &Device) -> Result<Self> {
+        Ok(Self { pipeline: device.compute_pipeline(Stage { shader: &project_comp::SHADER, constants: &[] })? })
+    }
+
+    /// Records it: `workspace.world` to `workspace.quads` and `workspace.bounds`.
+    pub(crate) fn record(
+        &self,
+        recorder: &mut Recorder,
+        model: &DeviceModel,
+        workspace: &Workspace,
+        share: Share,
+    ) -> Result<()> {
+        let push: project_comp::Push = model.batch(share);
+        let images_a_group = PROJECT_GROUP / model.counts.parts;
+        let images = share.candidates * model.counts.views;
+        recorder.compute(
+            Self::NAME,
+            &[Dispatch {
+                pipeline: &self.pipeline,
+                bindings: &project_comp::Bindings {
+                    parts: &model.parts,
+                    cameras: &model.cameras,
+                    world: &workspace.world,
+                    quads: &workspace.quads,
+                    all_bounds: &workspace.bounds,
+                }
+                .bound(),
+                push: bytemuck::bytes_of(&push),
+                groups: Groups::Count([images.div_ceil(images_a_group), 1, 1]),
+            }],
+        )
+    }
+}

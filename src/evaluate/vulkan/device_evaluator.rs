@@ -1,0 +1,38 @@
+//! Evaluation that a search on the device records into its own submission.
+
+use anyhow::Result;
+
+use crate::evaluate::Objective;
+use crate::gpu::{Buffer, Device, Recorder};
+
+/// An evaluator whose poses and fitness stay on the device, so that all iterations of a frame need no host between them.
+pub(crate) trait DeviceEvaluator: Send {
+    /// The device it works on.
+    fn device(&self) -> &Device;
+
+    /// The poses it scores, `[candidate][dof]` single precision, mm and radians; filled by whoever records before.
+    fn poses(&self) -> &Buffer;
+
+    /// The fitness it gives, `[candidate]` single precision, in [0, 1].
+    fn fitness(&self) -> &Buffer;
+
+    /// Makes room for so many candidates; `poses` and `fitness` may be other buffers afterwards, and what was recorded before
+    /// goes on working with the old ones.
+    ///
+    /// # Errors
+    /// When the device has no room.
+    fn reserve(&mut self, candidates: u32) -> Result<()>;
+
+    /// Records the copies that bring the body, the cameras and the newest observations to the device. Recorded once, they bring
+    /// whatever is newest at every submission.
+    ///
+    /// # Errors
+    /// When the device fails.
+    fn record_upload(&self, recorder: &mut Recorder) -> Result<()>;
+
+    /// Records everything from `poses` to `fitness` for the first `candidates` candidates.
+    ///
+    /// # Errors
+    /// When there is no room for so many, or the device fails.
+    fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()>;
+}
