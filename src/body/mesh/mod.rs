@@ -2,7 +2,10 @@
 //! a skinned glTF file.
 
 mod adjacency;
+mod binding;
 mod frusta;
+mod gltf_file;
+mod joint_names;
 mod source;
 
 use anyhow::{Result, ensure};
@@ -87,9 +90,7 @@ impl Mesh {
     pub fn of_body(body: &Body) -> Result<Self> {
         match &body.mesh {
             None => Self::frusta(body, DEFAULT_BASE, &Default::default()),
-            Some(MeshSource::Skinned { file, .. }) => {
-                anyhow::bail!("{} cannot be read: this build has no reader for glTF files", file.display())
-            }
+            Some(MeshSource::Skinned { file, skinning, joints }) => Self::read(file, body, *skinning, joints),
             Some(MeshSource::Frusta { base, flattening }) => Self::frusta(body, *base, flattening),
         }
     }
