@@ -61,7 +61,7 @@ impl Tiny {
         let mut bin: Vec<u8> = Vec::new();
         let mut views = Vec::new();
         let mut put = |bytes: &[u8]| {
-            while bin.len() % 4 != 0 {
+            while !bin.len().is_multiple_of(4) {
                 bin.push(0);
             }
             views.push(format!("{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{}}}", bin.len(), bytes.len()));
@@ -97,7 +97,7 @@ impl Tiny {
             views.join(","),
             accessors.join(",")
         );
-        while json.len() % 4 != 0 {
+        while !json.len().is_multiple_of(4) {
             json.push(' ');
         }
         let mut file = b"glTF".to_vec();

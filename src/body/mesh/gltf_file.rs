@@ -260,7 +260,7 @@ fn add_primitive(
         }
         None => (0..count as u64).collect(),
     };
-    ensure!(indices.len() % 3 == 0, "it has {} indices of triangles, expected a multiple of 3", indices.len());
+    ensure!(indices.len().is_multiple_of(3), "it has {} indices of triangles, expected a multiple of 3", indices.len());
     for corners in indices.chunks_exact(3) {
         let mut triangle = [0; 3];
         for (corner, &index) in triangle.iter_mut().zip(corners) {
