@@ -17,7 +17,7 @@ pub const NEAR: f32 = 100.0;
 pub const EDGE_BIAS: f32 = 30.0;
 
 /// Vertices nearer than this along the camera's axis have no image, mm: depths stay between 0 and 1 with the bias, too.
-const NEAREST: f32 = 2.0 * NEAR;
+pub const NEAREST: f32 = 2.0 * NEAR;
 
 /// A vertex of the mesh model as one camera sees it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

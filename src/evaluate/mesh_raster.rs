@@ -228,6 +228,15 @@ mod tests {
                 });
             }
         }
+        // The backs, turned round to be drawn, cover the same pixels: leaving them out changes nothing.
+        let mut behind = vec![false; 128 * 128];
+        for &[a, b, c] in &mesh.triangles {
+            let corners = [a, c, b].map(|vertex| vertices[vertex as usize]);
+            if faces_camera(&corners) {
+                for_each_triangle_pixel(&corners, 128, 128, |pixel, _| behind[pixel] = true);
+            }
+        }
+        assert_eq!(behind, filled);
         let area = filled.iter().filter(|pixel| **pixel).count() as f32;
         let circle = std::f32::consts::PI * 2500.0;
         assert!((area / circle - 1.0).abs() < 0.005, "{area} of {circle}");

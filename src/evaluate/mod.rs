@@ -14,7 +14,7 @@ mod rig;
 use anyhow::Result;
 
 pub use components::Components;
-pub use mesh_projection::{EDGE_BIAS, MeshProjector, NEAR, ProjectedVertex};
+pub use mesh_projection::{EDGE_BIAS, MeshProjector, NEAR, NEAREST, ProjectedVertex};
 pub use mesh_raster::draw_mesh;
 pub use objective::{Objective, ObjectiveKind};
 pub use projection::{PartQuad, Projector};

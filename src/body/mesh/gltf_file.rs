@@ -65,7 +65,8 @@ pub(super) fn read(path: &Path) -> Result<SkinnedFile> {
     parse(&bytes, path.parent()).with_context(|| path.display().to_string())
 }
 
-fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<SkinnedFile> {
+/// [`read`] for bytes already in memory; buffers beside the file lie in `folder`.
+pub(super) fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<SkinnedFile> {
     if bytes.starts_with(b"glTF") {
         // The crate subtracts the header's size from this length unseen.
         let length = bytes.get(8..12).and_then(|field| field.try_into().ok()).map_or(0, u32::from_le_bytes) as usize;
