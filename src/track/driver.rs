@@ -12,10 +12,10 @@ use super::overlay::Overlay;
 use super::page::write_report;
 use super::plan::Plan;
 use super::run_record::RunRecord;
+use super::searcher::{Searched, Start};
 use super::stages::{Span, Stages, Thread};
 use super::truth::Truth;
 use super::{StageSummary, TrackSettings, results};
-use crate::evaluate::Components;
 use crate::files::OutputFolder;
 use crate::motion::TrajectoryError;
 use crate::search::SearchKind;
@@ -245,20 +245,12 @@ impl Run<'_> {
         let Plan { start, objective, backend, search, .. } = &mut self.plan;
         let previous = self.frames.last().map_or(&*start, |result| &result.pose);
         let evaluator = backend.evaluator.as_mut();
-        evaluator.observe(&prepared.observations)?;
-        let mut evaluations: Vec<Span> = Vec::with_capacity(search.iterations() + 1);
         let counter =
             u32::try_from(frame).map_err(|_| anyhow!("frame {frame} is beyond the counters of the search"))?;
-        let estimate = search
-            .search_frame(counter, previous, &spread, &mut |poses, fitness| {
-                let start = Instant::now();
-                evaluator.fitness(poses, objective, fitness)?;
-                evaluations.push(Span::since(start));
-                Ok(())
-            })
+        let start = Start { frame: counter, centre: previous, spread: &spread };
+        let Searched { estimate, components, evaluations } = search
+            .search(evaluator, objective, &prepared.observations, start)
             .with_context(|| format!("frame {frame}"))?;
-        let mut components = vec![Components::default(); evaluator.view_count()];
-        evaluator.components(&estimate.pose, &mut components)?;
         let views = components.iter().map(|view| objective.view_terms(view)).collect();
 
         let whole = Span::since(begin);

@@ -19,6 +19,7 @@ mod plan;
 mod results;
 mod run_record;
 mod scoring;
+mod searcher;
 mod settings;
 mod stages;
 mod truth;

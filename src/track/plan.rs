@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 
 use super::feed::learns_background;
+use super::searcher::Searcher;
 use super::{BuiltBackend, TrackSettings};
 use crate::body::{Body, Mesh, PoseTable};
 use crate::evaluate::Objective;
 use crate::features::FeatureSettings;
-use crate::search::{Search, SearchSpace};
+use crate::search::SearchSpace;
 use crate::sequence::Sequence;
 
 /// The time the start pose is taken to be old, s: a pose set by hand is no nearer than one of a video of 25 frames/s.
@@ -28,7 +29,7 @@ pub(super) struct Plan {
     pub(super) objective: Objective,
     pub(super) features: FeatureSettings,
     pub(super) backend: BuiltBackend,
-    pub(super) search: Box<dyn Search>,
+    pub(super) search: Searcher,
     space: SearchSpace,
     fps: f64,
     spread: f64,
@@ -53,9 +54,10 @@ impl Plan {
         let mut start: Vec<f32> = start.into_iter().map(|value| value as f32).collect();
         // Rounding to single precision may have left the limits by a hair.
         space.clamp(&mut start);
-        let search = settings.search.build(&space)?;
+        settings.search.check()?;
         let mesh = settings.model.mesh(&body)?;
-        let backend = settings.backend.build(mesh.as_ref(), &body, &sequence.cameras)?;
+        let mut backend = settings.backend.build(mesh.as_ref(), &body, &sequence.cameras)?;
+        let search = Searcher::new(backend.evaluator.as_mut(), &objective, &settings.search, &space)?;
         Ok(Self {
             range,
             start,

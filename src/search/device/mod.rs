@@ -9,7 +9,7 @@ mod swarm;
 #[cfg(test)]
 mod tests;
 
-use anyhow::{Context, Result, anyhow, ensure};
+use anyhow::{Context, Result, ensure};
 
 use super::stages::{Extent, layout};
 use super::{Estimate, SearchKind, SearchSettings, SearchSpace, check_start};

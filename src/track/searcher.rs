@@ -1,0 +1,108 @@
+//! One frame's search: driven by the host over any evaluator, or whole on the device that the evaluator works on.
+
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+
+use super::stages::Span;
+use crate::evaluate::{Components, Evaluator, Objective};
+use crate::features::Observation;
+use crate::gpu::Timing;
+use crate::search::{DeviceSearch, Estimate, Search, SearchSettings, SearchSpace};
+
+/// The search of a run.
+pub(super) enum Searcher {
+    /// The host proposes poses and the evaluator scores a batch at a time.
+    Host(Box<dyn Search>),
+    /// A frame is one submission to a device.
+    Device(Box<DeviceSearch>),
+}
+
+/// Where a frame's search starts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start<'a> {
+    /// The frame, as the random numbers count it.
+    pub(super) frame: u32,
+    /// The pose before: mm, radians.
+    pub(super) centre: &'a [f32],
+    /// Standard deviation of the change since.
+    pub(super) spread: &'a [f32],
+}
+
+/// A frame's result.
+pub(super) struct Searched {
+    pub(super) estimate: Estimate,
+    /// What the comparison of the estimate with the observations yields, one a view.
+    pub(super) components: Vec<Components>,
+    /// When the evaluator worked. On a device that is the whole submission, the search's own stages included.
+    pub(super) evaluations: Vec<Span>,
+}
+
+impl Searcher {
+    /// The search of these settings, on the evaluator's device if it has one.
+    ///
+    /// # Errors
+    /// As [`SearchSettings::build`] and [`DeviceSearch::new`].
+    pub(super) fn new(
+        evaluator: &mut dyn Evaluator,
+        objective: &Objective,
+        settings: &SearchSettings,
+        space: &SearchSpace,
+    ) -> Result<Self> {
+        let name = evaluator.name();
+        Ok(match evaluator.on_device() {
+            None => Self::Host(settings.build(space)?),
+            Some(evaluator) => {
+                let search = DeviceSearch::new(evaluator, objective, settings, space, Timing::Off)
+                    .with_context(|| format!("the backend {name} cannot search; --backend cpu works without"))?;
+                Self::Device(Box::new(search))
+            }
+        })
+    }
+
+    /// Searches a frame whose observations are these.
+    ///
+    /// # Errors
+    /// When the observations do not fit the cameras, no pose has a finite fitness, or the device fails.
+    pub(super) fn search(
+        &mut self,
+        evaluator: &mut dyn Evaluator,
+        objective: &Objective,
+        observations: &[Observation],
+        start: Start<'_>,
+    ) -> Result<Searched> {
+        let Start { frame, centre, spread } = start;
+        evaluator.observe(observations)?;
+        match self {
+            Self::Host(search) => {
+                let mut evaluations = Vec::with_capacity(search.iterations() + 1);
+                let estimate = search.search_frame(frame, centre, spread, &mut |poses, fitness| {
+                    let begin = Instant::now();
+                    evaluator.fitness(poses, objective, fitness)?;
+                    evaluations.push(Span::since(begin));
+                    Ok(())
+                })?;
+                let mut components = vec![Components::default(); evaluator.view_count()];
+                evaluator.components(&estimate.pose, &mut components)?;
+                Ok(Searched { estimate, components, evaluations })
+            }
+            Self::Device(search) => {
+                let begin = Instant::now();
+                let found = search.search_frame(frame, centre, spread)?;
+                let evaluations = vec![Span::since(begin)];
+                let components = observations
+                    .iter()
+                    .zip(found.sums)
+                    .map(|(observation, [area_model, overlap, edges, proximity])| Components {
+                        area_obs: observation.area(),
+                        area_model,
+                        overlap,
+                        edges,
+                        proximity,
+                    })
+                    .collect();
+                Ok(Searched { estimate: found.estimate, components, evaluations })
+            }
+        }
+    }
+}
