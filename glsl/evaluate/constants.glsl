@@ -6,4 +6,7 @@
 // Invocations of a workgroup of the projection; also the most parts that a body may have there.
 const uint PROJECT_GROUP = 128u;
 
+// Invocations of a workgroup that draws and compares an image, a row each; a power of two.
+const uint RASTER_GROUP = 64u;
+
 #endif

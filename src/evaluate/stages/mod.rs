@@ -3,6 +3,7 @@
 
 mod pose;
 mod project;
+mod raster;
 
 #[allow(clippy::unreadable_literal, clippy::large_stack_arrays, reason = "written by the build")]
 mod generated {
@@ -12,6 +13,7 @@ mod generated {
 pub(crate) use generated::layout;
 pub(crate) use pose::PoseStage;
 pub(crate) use project::{MOST_PARTS, ProjectStage};
+pub(crate) use raster::RasterStage;
 
 /// Which candidates of a run a recorded pass works on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,6 +4,8 @@
 mod device_evaluator;
 mod model;
 #[cfg(test)]
+mod raster_tests;
+#[cfg(test)]
 mod tests;
 mod workspace;
 

@@ -53,7 +53,7 @@ impl Workspace {
             world: device.buffer::<[f32; 4]>("world", one * world, Memory::Device)?,
             quads: device.buffer::<layout::Quad>("quads", one * quads, Memory::Device)?,
             bounds: device.buffer::<layout::Bounds>("bounds", one * images, Memory::Device)?,
-            sums: device.buffer::<[u32; 4]>("sums", candidates as usize * images, Memory::Device)?,
+            sums: device.buffer::<layout::Sums>("sums", candidates as usize * images, Memory::Device)?,
         })
     }
 }
