@@ -50,7 +50,7 @@ impl RasterStage {
 
     /// Records it for some images of the share alone: `list` holds how many there are, 1, 1, and their numbers,
     /// (candidate - first) * views + view.
-    #[cfg_attr(not(test), expect(dead_code, reason = "hardware drawing gives it what overflows its tile"))]
+    #[allow(dead_code, reason = "hardware drawing gives it what overflows its tile")]
     pub(crate) fn record_listed(
         &self,
         recorder: &mut Recorder,
