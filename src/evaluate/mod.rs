@@ -11,7 +11,7 @@ mod projection;
 mod reference;
 mod rig;
 mod stages;
-mod vulkan;
+pub mod vulkan;
 
 use anyhow::Result;
 
@@ -21,7 +21,7 @@ pub use mesh_raster::draw_mesh;
 pub use objective::{Objective, ObjectiveKind};
 pub use projection::{PartQuad, Projector};
 pub use reference::{CandidateImage, Reference, compare, draw_quads};
-pub use vulkan::DeviceEvaluator;
+use vulkan::DeviceEvaluator;
 
 use crate::features::Observation;
 

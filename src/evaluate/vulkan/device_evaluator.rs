@@ -17,13 +17,14 @@ pub trait DeviceEvaluator: Send {
     fn fitness(&self) -> &Buffer;
 
     /// The number of views.
-    fn view_count(&self) -> usize;
+    fn views(&self) -> usize;
 
     /// What stands behind the fitness, `[candidate][view]`: four words of drawn area, overlap, edge pixels and proximity (SPEC
     /// A6, without the observed area).
     fn sums(&self) -> &Buffer;
 
-    /// Makes room for so many candidates; the buffers may be others afterwards, and what was recorded before goes on working with the old ones.
+    /// Makes room for so many candidates; the buffers may be others afterwards, and what was recorded before goes on working
+    /// with the old ones.
     ///
     /// # Errors
     /// When the device has no room.

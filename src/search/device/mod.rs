@@ -13,7 +13,8 @@ use anyhow::{Context, Result, ensure};
 
 use super::stages::{Extent, layout};
 use super::{Estimate, SearchKind, SearchSettings, SearchSpace, check_start};
-use crate::evaluate::{DeviceEvaluator, Objective};
+use crate::evaluate::Objective;
+use crate::evaluate::vulkan::DeviceEvaluator;
 use crate::gpu::{Buffer, Device, Memory, PassTiming, Recorder, Recording, Timing};
 
 /// What a search on a device found in a frame.
@@ -62,7 +63,7 @@ impl DeviceSearch {
         let found = evaluator.poses().size();
         ensure!(found >= room, "the evaluator has {found} bytes for poses, and the search needs {room}: other bodies?");
         let device = evaluator.device().clone();
-        let views = evaluator.view_count();
+        let views = evaluator.views();
         let memory = FrameMemory::new(&device, space.dof_count(), settings.iterations, views)?;
         let mut recorder = device.recorder(timing)?;
         recorder.copy("upload", (&memory.upload, 0), (&memory.frame, 0), memory.frame.size())?;

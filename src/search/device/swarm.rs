@@ -24,7 +24,7 @@ impl FrameRecording<'_> {
         // Positions live where the evaluator takes them from.
         let (positions, fitness) = (self.evaluator.poses().clone(), self.evaluator.fitness().clone());
         let sums = self.evaluator.sums().clone();
-        let views = self.evaluator.view_count() as u32;
+        let views = self.evaluator.views() as u32;
 
         self.recorder.fill("weights", &weights, 1.0_f32.to_bits())?;
         let bindings = scatter_comp::Bindings {

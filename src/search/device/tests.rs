@@ -113,7 +113,7 @@ impl DeviceEvaluator for Scorer {
     fn fitness(&self) -> &Buffer {
         &self.fitness
     }
-    fn view_count(&self) -> usize {
+    fn views(&self) -> usize {
         2
     }
     fn sums(&self) -> &Buffer {
