@@ -87,7 +87,7 @@ pub(super) fn exp_of_negative(x: f32) -> f32 {
     }
     let n = (x * std::f32::consts::LOG2_E + ROUND) - ROUND;
     // ln 2 in two pieces, the first of which times n is exact.
-    let r = (x - n * 0.693_359_375) - n * -2.121_944_4e-4;
+    let r = (x - n * (355.0 / 512.0)) - n * -2.121_944_4e-4;
     let series = 1.0 / 6.0 + r * (1.0 / 24.0 + r * (1.0 / 120.0 + r * (1.0 / 720.0 + r * (1.0 / 5040.0))));
     let series = 1.0 + r * (1.0 + r * (0.5 + r * series));
     series * f32::from_bits(((n as i32 + 127) as u32) << 23)

@@ -119,6 +119,37 @@ fn reference_and_cpu_write_the_same_bytes() {
 }
 
 #[test]
+fn a_device_tracks_as_the_processor_does() {
+    if !has_vulkan("a_device_tracks_as_the_processor_does") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    for search in ["pso", "pf"] {
+        let run = |backend: &str, name: &str, more: &[&str]| {
+            let output = folder.path().join(format!("{search}_{name}"));
+            let mut all = vec!["--search", search, "--backend", backend];
+            all.extend(more);
+            tracked(&output, &all);
+            output
+        };
+        let (here, there) = (run("cpu", "cpu", &[]), run("compute", "compute", &[]));
+        let read = |folder: &Path| fs::read(folder.join("poses.csv")).unwrap();
+        // The search is the same to the bit. So is the evaluation where the device is a processor that rounds quotients and
+        // roots as this one does; elsewhere a last place of the objective may turn a comparison.
+        let device = pantin::evaluate::vulkan::open_device().unwrap();
+        if device.facts().kind == pantin::gpu::DeviceKind::Cpu {
+            assert!(read(&there) == read(&here), "{search}: poses.csv differs");
+        }
+        same(&result_files(&run("compute", "again", &[])), &result_files(&there));
+        let stages = fs::read_to_string(there.join("stages.json")).unwrap();
+        let stages: serde_json::Value = serde_json::from_str(&stages).unwrap();
+        for stage in stages["stages"].as_array().unwrap() {
+            assert_eq!(stage["count"].as_u64(), Some(walk::FRAMES as u64), "{stage}");
+        }
+    }
+}
+
+#[test]
 fn the_number_of_threads_changes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("track");
@@ -467,7 +498,7 @@ fn compute_tracks_like_the_processor_and_survives_the_loss_of_its_device() {
         assert!((ours - theirs).abs() < 0.02, "{ours} against {theirs}");
     }
 
-    // Lost in the third frame: a frame is 6 evaluations and one of the result, of 6 passes or so each, and one upload of 5.
+    // Lost in the third frame: a frame is one submission of some 50 passes.
     let output = folder.path().join("lost");
     let lost = run(&output, Some("120"), &[]);
     refused(&lost, &["was lost", "frames before it are safe in", "--resume", "--backend cpu"]);

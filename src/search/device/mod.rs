@@ -9,7 +9,7 @@ mod swarm;
 #[cfg(test)]
 mod tests;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 
 use super::stages::{Extent, layout};
 use super::{Estimate, SearchKind, SearchSettings, SearchSpace, check_start};
@@ -111,6 +111,9 @@ impl DeviceSearch {
             self.memory.upload.write(first + row * dofs, values)?;
         }
         self.recording.run()?;
+        if let Some(message) = self.memory.device.validation_log().messages().first() {
+            bail!("the Vulkan validation layer finds a fault: {message}");
+        }
         self.take(frame)
     }
 
@@ -169,6 +172,7 @@ fn value_of(key: u32) -> f32 {
 
 /// What goes to the device and comes back in every frame.
 struct FrameMemory {
+    device: Device,
     upload: Buffer,
     frame: Buffer,
     outcome: Buffer,
@@ -198,6 +202,7 @@ impl FrameMemory {
             Places { values: header, history: outcome, fitness: outcome + iterations, sums: outcome + iterations + 1 };
         let words = |name: &str, count: usize, memory| device.buffer::<u32>(name, count, memory);
         Ok(Self {
+            device: device.clone(),
             upload: words("search frame staging", frame, Memory::Upload)?,
             frame: words("search frame", frame, Memory::Device)?,
             outcome: words("search outcome", outcome, Memory::Device)?,

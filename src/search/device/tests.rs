@@ -162,7 +162,7 @@ impl DeviceEvaluator for Scorer {
 
 /// Where limits, steps and target of dimension `d` lie: limits that take part, values from parts of a unit to thousands.
 fn space(dofs: usize) -> SearchSpace {
-    let centre = |d: usize| if d % 7 == 0 { 2500.0 } else { 0.0 };
+    let centre = |d: usize| if d.is_multiple_of(7) { 2500.0 } else { 0.0 };
     SearchSpace::new(
         (0..dofs).map(|d| centre(d) - 2.0 - d as f32 * 0.01).collect(),
         (0..dofs).map(|d| centre(d) + 3.0).collect(),
@@ -172,7 +172,7 @@ fn space(dofs: usize) -> SearchSpace {
 }
 
 fn start(dofs: usize) -> Vec<f32> {
-    (0..dofs).map(|d| if d % 7 == 0 { 2500.25 } else { 0.3 }).collect()
+    (0..dofs).map(|d| if d.is_multiple_of(7) { 2500.25 } else { 0.3 }).collect()
 }
 
 fn target_of(frame: u32, dofs: usize) -> Vec<f32> {
@@ -262,7 +262,7 @@ fn blocks_and_normals_are_the_processor_s() {
     let key = [0x89AB_CDEF, 0x0123_4567];
     let mut counters = vec![[0; 4], [u32::MAX; 4], [0x243f_6a88, 0x85a3_08d3, 0x1319_8a2e, 0x0370_7344]];
     for i in 0..20_000_u32 {
-        counters.push([i % 700, (i % 4) << 24 | i % 129, i / 1000, i.wrapping_mul(2_654_435_769)]);
+        counters.push([i % 700, ((i % 4) << 24) | (i % 129), i / 1000, i.wrapping_mul(2_654_435_769)]);
     }
     let staging = device.buffer::<[u32; 4]>("counters", counters.len(), Memory::Upload).unwrap();
     staging.write(0, &counters).unwrap();

@@ -1,0 +1,144 @@
+//! A frame searched in one submission over the compute backend is the frame that the host drives over the same backend, to the
+//! bit: what differs between devices, their evaluation, is the same device's here.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(dead_code, reason = "not all of the scene is used here")]
+
+mod scene;
+
+use std::time::Instant;
+
+use pantin::body::Body;
+use pantin::evaluate::vulkan::Compute;
+use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind};
+use pantin::features::Observation;
+use pantin::geometry::Camera;
+use pantin::gpu::{Device, DeviceSettings, Instance, Timing, Validation, by_name};
+use pantin::search::{DeviceFound, DeviceSearch, Estimate, Search, SearchKind, SearchSettings, SearchSpace};
+use scene::{Random, cameras, observations};
+
+fn device(name: &str, validation: Validation, settings: DeviceSettings) -> Option<Device> {
+    match Instance::open(validation).and_then(|instance| Device::open(&instance, settings)) {
+        Ok(device) => Some(device),
+        Err(error) => {
+            assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
+            println!("SKIPPED {name}: {error:#}");
+            None
+        }
+    }
+}
+
+fn standing(body: &Body) -> Vec<f32> {
+    body.standing_pose().into_iter().map(|value| value as f32).collect()
+}
+
+/// One frame driven by the host.
+fn driven(
+    search: &mut dyn Search,
+    compute: &mut Compute,
+    objective: &Objective,
+    frame: u32,
+    centre: &[f32],
+    spread: &[f32],
+) -> (Estimate, Vec<Components>) {
+    let estimate = search
+        .search_frame(frame, centre, spread, &mut |poses, fitness| compute.fitness(poses, objective, fitness))
+        .unwrap();
+    let mut components = vec![Components::default(); compute.view_count()];
+    compute.components(&estimate.pose, &mut components).unwrap();
+    (estimate, components)
+}
+
+fn same(found: &DeviceFound, (estimate, components): &(Estimate, Vec<Components>)) {
+    assert_eq!(found.estimate, *estimate);
+    for (found, expected) in found.sums.iter().zip(components) {
+        assert_eq!(*found, [expected.area_model, expected.overlap, expected.edges, expected.proximity]);
+    }
+}
+
+#[test]
+fn one_submission_finds_what_the_host_finds_batch_by_batch() {
+    let small = |capabilities: &mut pantin::gpu::Capabilities| capabilities.max_storage = 1 << 16;
+    for (name, lower) in [("as it is", None), ("little storage", Some(small as fn(&mut _)))] {
+        let settings = DeviceSettings { lower, ..DeviceSettings::default() };
+        let Some(device) = device("one_submission_finds_what_the_host_finds", Validation::Synchronisation, settings)
+        else {
+            return;
+        };
+        let (body, cameras) = (Body::adult(1750.0).unwrap(), cameras());
+        let space = SearchSpace::of(&body).unwrap();
+        let spread = space.spread(0.04).unwrap();
+        let mut random = Random(5);
+        let frames: Vec<Vec<Observation>> = (0..3).map(|_| observations(&cameras, &mut random)).collect();
+        for kind in SearchKind::ALL {
+            let objective = Objective { kind: ObjectiveKind::Sp, beta: 0.4, w1: 0.7, w2: 0.3 };
+            let settings = SearchSettings { kind, particles: 37, iterations: 4, seed: 3, ..SearchSettings::default() };
+            let mut compute = Compute::on(&device, &body, &cameras).unwrap();
+            let evaluator = compute.on_device().unwrap();
+            let mut there = DeviceSearch::new(evaluator, &objective, &settings, &space, Timing::Off).unwrap();
+            let mut here = settings.build(&space).unwrap();
+            let mut centre = standing(&body);
+            for (frame, seen) in frames.iter().enumerate() {
+                compute.observe(seen).unwrap();
+                let found = there.search_frame(frame as u32, &centre, &spread).unwrap();
+                // The host's way comes second with the same observations, and leaves the device's buffers as it likes.
+                let expected = driven(here.as_mut(), &mut compute, &objective, frame as u32, &centre, &spread);
+                same(&found, &expected);
+                centre = expected.0.pose;
+            }
+            println!("{name}, {kind:?}: the same poses");
+        }
+        assert_eq!(device.validation_log().messages(), Vec::<String>::new());
+    }
+}
+
+/// Four cameras of 640x480 in the places of the small ones.
+fn large_cameras() -> Vec<Camera> {
+    let mut cameras = cameras();
+    cameras.extend(cameras.clone());
+    cameras.truncate(4);
+    for camera in &mut cameras {
+        camera.size = [640, 480];
+    }
+    cameras
+}
+
+/// Run by hand: `cargo test --release --test device_search -- --ignored --nocapture`.
+#[test]
+#[ignore = "measures"]
+fn time_of_a_frame() {
+    let Some(device) = device("time_of_a_frame", Validation::Off, DeviceSettings::default()) else { return };
+    let (body, cameras) = (Body::adult(1750.0).unwrap(), large_cameras());
+    let space = SearchSpace::of(&body).unwrap();
+    let (spread, centre) = (space.spread(0.04).unwrap(), standing(&body));
+    let seen = observations(&cameras, &mut Random(5));
+    let objective = Objective::default();
+    for kind in SearchKind::ALL {
+        let settings = SearchSettings { kind, particles: 512, iterations: 15, ..SearchSettings::default() };
+        let mut compute = Compute::on(&device, &body, &cameras).unwrap();
+        let evaluator = compute.on_device().unwrap();
+        let mut timed = DeviceSearch::new(evaluator, &objective, &settings, &space, Timing::Stamps).unwrap();
+        let evaluator = compute.on_device().unwrap();
+        let mut there = DeviceSearch::new(evaluator, &objective, &settings, &space, Timing::Off).unwrap();
+        let mut here = settings.build(&space).unwrap();
+        let mut times = [const { Vec::new() }; 2];
+        for frame in 0..3 {
+            compute.observe(&seen).unwrap();
+            let begin = Instant::now();
+            there.search_frame(frame, &centre, &spread).unwrap();
+            times[0].push(begin.elapsed().as_secs_f64() * 1e3);
+            compute.observe(&seen).unwrap();
+            let begin = Instant::now();
+            driven(here.as_mut(), &mut compute, &objective, frame, &centre, &spread);
+            times[1].push(begin.elapsed().as_secs_f64() * 1e3);
+        }
+        timed.search_frame(0, &centre, &spread).unwrap();
+        let [one, many] = times.map(|mut times| {
+            times.sort_by(f64::total_cmp);
+            (times[0], times[times.len() / 2])
+        });
+        println!("{kind:?}: one submission {one:.2?} ms, driven by the host {many:.2?} ms (least, median)");
+        for (name, ms, count) in by_name(&timed.timings().unwrap()) {
+            println!("    {name:12} {count:3} x, {ms:.3} ms");
+        }
+    }
+}
