@@ -34,7 +34,7 @@ macro_rules! with_token {
 type Pair = [__m256i; 2];
 
 impl Simd for Avx2 {
-    const SKIPS_EDGES: bool = false;
+    const SKIPS_EDGES: bool = true;
     type Words = Pair;
     type Rows = [__m256d; 4];
     type ShortRows = [__m256; 2];

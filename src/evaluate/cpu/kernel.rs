@@ -42,6 +42,7 @@ impl Canvas {
     /// Draws `quads` and compares them with an observation.
     #[inline(always)]
     pub(super) fn compare<S: Simd>(&mut self, simd: S, quads: &[QuadChunk], planes: &Planes) -> Components {
+        self.sort(quads);
         let (width, height) = (planes.width as i32, planes.height as i32);
         let (mut left, mut right, mut top, mut bottom) = (width, 0, height, 0);
         for (outline, quad) in self.outlines.iter_mut().zip(quads) {
@@ -58,7 +59,6 @@ impl Canvas {
         let words = (left as u32 / CELL_COLUMNS) as usize..(right as u32).div_ceil(CELL_COLUMNS) as usize;
         let blocks = (top as u32 / CELL_ROWS) as usize..(bottom as u32).div_ceil(CELL_ROWS) as usize;
         let columns = planes.columns + 1;
-        self.sort(quads);
         for &lane in &self.order {
             let (outline, part) = (&self.outlines[lane / LANES], lane % LANES);
             if outline.is_near {
@@ -78,7 +78,7 @@ impl Canvas {
         if let ([quad], Ok(order)) = (quads, <&mut [usize; LANES]>::try_from(&mut self.order[..])) {
             // Each part's place is the number of parts nearer than it, counted for all at once. The bits compare as the
             // depths do, and give every part a place of its own even where a depth is no number.
-            let depths = quad.depth_squared.map(|depth| depth.to_bits() as i32);
+            let depths = quad.depth_squared.map(|depth| (depth.to_bits() as i32).min(i32::MAX - 1));
             let mut place = [0_u32; LANES];
             for other in 0..LANES {
                 for lane in 0..LANES {
