@@ -12,9 +12,11 @@ use std::time::Instant;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use pantin::body::Body;
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
+use pantin::evaluate::vulkan::Compute;
 use pantin::evaluate::{Components, Evaluator as _, Objective, Reference};
 use pantin::features::Observation;
 use pantin::geometry::{BrownConrady, Camera, Lens};
+use pantin::gpu::{Timing, by_name};
 use yardstick::Yardstick;
 
 /// Four cameras around a person who is `person` pixels tall in pictures of `size`.
@@ -101,6 +103,18 @@ fn scaling(body: &Body, threads: usize) {
     }
 }
 
+/// Prints what each stage on the device takes, of the second of two evaluations.
+fn stages(compute: &mut Compute, poses: &[f32], fitness: &mut [f32]) {
+    compute.time_stages(Timing::Stamps);
+    for _ in 0..2 {
+        compute.fitness(poses, &Objective::default(), fitness).unwrap();
+    }
+    let stages = by_name(&compute.timings().unwrap());
+    let text: Vec<String> = stages.iter().map(|(name, ms, _)| format!("{name} {ms:.3}")).collect();
+    println!("compute stages, ms: {}", text.join(", "));
+    compute.time_stages(Timing::Off);
+}
+
 struct Row {
     name: String,
     rounds_each: usize,
@@ -164,6 +178,31 @@ fn main() {
                 ms: Vec::new(),
             });
         }
+        match Compute::new(&body, &cameras) {
+            Ok(mut compute) => {
+                compute.observe(&seen).unwrap();
+                let (name, poses) = (format!("compute {}", compute.variant()), poses.clone());
+                println!("compute on {}", compute.facts().name);
+                let (mut fitness, mut out) = (vec![0.0; count], Vec::new());
+                let objective = Objective::default();
+                rows.push(Row {
+                    name,
+                    rounds_each: 2,
+                    run: Box::new(move || {
+                        compute.fitness(&poses, &objective, &mut fitness).unwrap();
+                        if out.is_empty() {
+                            out = vec![Components::default(); count * 4];
+                            compute.components(&poses, &mut out).unwrap();
+                            stages(&mut compute, &poses, &mut fitness);
+                            return out.clone();
+                        }
+                        Vec::new()
+                    }),
+                    ms: Vec::new(),
+                });
+            }
+            Err(error) => println!("SKIPPED compute: {error:#}"),
+        }
         if !filter.is_empty() {
             rows.retain(|row| filter.iter().any(|word| row.name.contains(word)));
         }
@@ -186,7 +225,7 @@ fn main() {
             continue;
         }
         println!(
-            "{:10} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10}",
+            "{:16} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10}",
             "variant", "ms", "min", "max", "us/image", "x rowspan", "x zbuffer"
         );
         let medians: Vec<f64> = rows
@@ -201,7 +240,7 @@ fn main() {
         };
         for (row, &ms) in rows.iter().zip(&medians) {
             println!(
-                "{:10} {:9.3} {:9.3} {:9.3} {:10.3} {:10.1} {:10.1}",
+                "{:16} {:9.3} {:9.3} {:9.3} {:10.3} {:10.1} {:10.1}",
                 row.name,
                 ms,
                 row.ms[0],

@@ -11,7 +11,7 @@ mod projection;
 mod reference;
 mod rig;
 mod stages;
-mod vulkan;
+pub mod vulkan;
 
 use anyhow::Result;
 
