@@ -10,7 +10,7 @@ use pantin::evaluate::cpu::{Cpu, InstructionSet};
 use pantin::evaluate::{Evaluator as _, Objective, ObjectiveKind, Reference};
 use pantin::features::Observation;
 use pantin::geometry::Camera;
-use scene::{Random, cameras, evaluate, first_difference, observations, poses, reference_in_parallel};
+use scene::{Random, brown, camera, cameras, evaluate, first_difference, observations, poses, reference_in_parallel};
 
 #[test]
 fn ten_thousand_poses_give_identical_integers() {
