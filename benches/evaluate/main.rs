@@ -78,6 +78,31 @@ fn observations(body: &Body, cameras: &[Camera], pose: &[f32]) -> Vec<Observatio
         .collect()
 }
 
+/// Prints the time of a batch by its size: a candidate should cost the same in any.
+fn scaling(body: &Body, threads: usize) {
+    let cameras = cameras([480, 270], 150.0);
+    let mut cpu = Cpu::with(body, &cameras, InstructionSet::best(), threads).unwrap();
+    let poses = swarm(body, 1024);
+    let seen = observations(body, &cameras, &poses[..body.dof_count()]);
+    cpu.observe(&seen).unwrap();
+    let mut sizes = [128, 256, 512, 1024].map(|count| (count, Vec::new()));
+    let mut fitness = vec![0.0; 1024];
+    for _ in 0..160 {
+        for (count, ms) in &mut sizes {
+            let start = Instant::now();
+            cpu.fitness(&poses[..*count * body.dof_count()], &Objective::default(), &mut fitness[..*count]).unwrap();
+            ms.push(start.elapsed().as_secs_f64() * 1e3);
+        }
+    }
+    println!("scaling: {} on A by candidates, {threads} threads", InstructionSet::best().name());
+    println!("{:>10} {:>9} {:>9} {:>10}", "candidates", "ms", "min", "us/image");
+    for (count, ms) in &mut sizes {
+        ms.sort_by(f64::total_cmp);
+        let median = ms[ms.len() / 2];
+        println!("{count:10} {median:9.3} {:9.3} {:10.3}", ms[0], median * 1e3 / (*count * cameras.len()) as f64);
+    }
+}
+
 /// Prints what each stage on the device takes, of the second of two evaluations.
 fn stages(compute: &mut Compute, poses: &[f32], fitness: &mut [f32]) {
     compute.time_stages(Timing::Stamps);
@@ -104,6 +129,9 @@ fn main() {
     let count = if measuring { 512 } else { 32 };
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let body = Body::adult(1750.0).unwrap();
+    if measuring && (filter.is_empty() || filter.iter().any(|word| "scaling".contains(word.as_str()))) {
+        scaling(&body, threads);
+    }
     for (title, size, person) in [("A", [480, 270], 150.0), ("B", [640, 480], 280.0)] {
         let cameras = cameras(size, person);
         let poses = swarm(&body, count);
