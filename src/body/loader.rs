@@ -2,12 +2,13 @@
 //! with the file and the key.
 
 use std::collections::{BTreeMap, HashMap};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use glam::DVec3;
 use serde::Deserialize;
 
+use super::mesh::{MeshEntry, build_source};
 use super::{Body, Bone, Dof, DofAxis, Marker, MeshSource, Part};
 use crate::files::{parse_toml, read_toml, shortened};
 use crate::geometry::EulerOrder;
@@ -94,12 +95,6 @@ struct MarkerEntry {
     at: [f64; 3],
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MeshEntry {
-    file: PathBuf,
-}
-
 impl Body {
     /// Reads and checks a `body.toml`.
     ///
@@ -110,10 +105,10 @@ impl Body {
     pub fn load(path: &Path) -> Result<Self> {
         let file: BodyFile = read_toml(path)?;
         let mut body = build(file).with_context(|| path.display().to_string())?;
-        if let (Some(mesh), Some(folder)) = (&mut body.mesh, path.parent()) {
+        if let (Some(MeshSource::Skinned { file, .. }), Some(folder)) = (&mut body.mesh, path.parent()) {
             // Absolute, so that a body saved elsewhere still finds it.
-            mesh.file = std::path::absolute(folder.join(&mesh.file))
-                .with_context(|| format!("{}: mesh file {}", path.display(), mesh.file.display()))?;
+            *file = std::path::absolute(folder.join(&*file))
+                .with_context(|| format!("{}: mesh file {}", path.display(), file.display()))?;
         }
         Ok(body)
     }
@@ -164,8 +159,14 @@ fn build(file: BodyFile) -> Result<Body> {
             build().with_context(|| format!("marker `{}`", entry.name))
         })
         .collect::<Result<Vec<_>>>()?;
-    let mesh = file.mesh.map(|mesh| MeshSource { file: mesh.file });
-    Ok(Body { name: file.name, bones, parts, markers, mesh, update_order })
+    let mut body = Body { name: file.name, bones, parts, markers, mesh: None, update_order };
+    if let Some(entry) = file.mesh {
+        let parts: Vec<&str> = body.parts.iter().map(|part| part.name.as_str()).collect();
+        let joints = body.joint_names();
+        let joints: Vec<&str> = joints.iter().map(String::as_str).collect();
+        body.mesh = Some(build_source(entry, &parts, &joints).context("table [mesh]")?);
+    }
+    Ok(body)
 }
 
 fn build_bone(entry: &BoneEntry, bone_index: &HashMap<&str, usize>, mm: f64) -> Result<Bone> {

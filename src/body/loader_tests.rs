@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::body::Skinning;
 
 const SMALL: &str = r#"
 name = "pointer"
@@ -130,6 +131,20 @@ fn every_bad_body_has_its_sentence() {
         (change("radius_a = 9", "radius = 9"), vec!["line 29", "unknown key `radius`", "`radius_"]),
         (change("label = 2", ""), vec!["missing field `label`"]),
         (format!("{SMALL}[mesh]\nfiel = \"a.glb\"\n"), vec!["unknown key `fiel`", "`file`"]),
+        (format!("{SMALL}[mesh]\n"), vec!["table [mesh]", "neither `file` nor `frusta`"]),
+        (format!("{SMALL}[mesh]\nfile = \"a\"\nfrusta = \"square\"\n"), vec!["both `file` and `frusta`"]),
+        (format!("{SMALL}[mesh]\nfrusta = \"round\"\n"), vec!["frusta is `round`, expected `square` or `elliptic`"]),
+        (format!("{SMALL}[mesh]\nfrusta = \"square\"\nvertices = 9\n"), vec!["vertices is 9, expected 8"]),
+        (format!("{SMALL}[mesh]\nfrusta = \"elliptic\"\nvertices = 60\n"), vec!["vertices is 60", "18, 34, 66"]),
+        (format!("{SMALL}[mesh]\nfrusta = \"square\"\nskinning = \"rigid\"\n"), vec!["`skinning` stands beside"]),
+        (format!("{SMALL}[mesh]\nfile = \"a\"\nvertices = 8\n"), vec!["`vertices` stands beside `file`"]),
+        (format!("{SMALL}[mesh]\nfile = \"a\"\nskinning = \"soft\"\n"), vec!["skinning is `soft`"]),
+        (format!("{SMALL}[mesh]\nfile = \"a\"\n[mesh.bones]\nfiner = \"b\"\n"), vec!["`finer`", "`finger`"]),
+        (
+            format!("{SMALL}[mesh]\nfrusta = \"square\"\nflattening = {{ plam = 0.5 }}\n"),
+            vec!["`plam`, which is no part", "`palm`"],
+        ),
+        (format!("{SMALL}[mesh]\nfrusta = \"square\"\nflattening = {{ palm = nan }}\n"), vec!["of `palm` is NaN"]),
         (SMALL[..SMALL.len() - 8].to_string(), vec!["pointer.toml, line 3"]),
     ];
     for (text, sentences) in cases {
@@ -145,9 +160,16 @@ fn every_bad_body_has_its_sentence() {
 fn files_are_loaded_and_saved_with_their_mesh() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("body.toml");
-    std::fs::write(&path, format!("{SMALL}[mesh]\nfile = \"person \\\"x\\\".glb\"\n")).unwrap();
+    let mesh =
+        "[mesh]\nfile = \"person \\\"x\\\".glb\"\nskinning = \"rigid\"\n[mesh.bones]\nfinger = \"a:b \\\"c\\\"\"\n";
+    std::fs::write(&path, format!("{SMALL}{mesh}")).unwrap();
     let body = Body::load(&path).unwrap();
-    assert_eq!(body.mesh.as_ref().unwrap().file, folder.path().join("person \"x\".glb"));
+    let expected = MeshSource::Skinned {
+        file: folder.path().join("person \"x\".glb"),
+        skinning: Skinning::Rigid,
+        joints: BTreeMap::from([("finger".to_string(), "a:b \"c\"".to_string())]),
+    };
+    assert_eq!(body.mesh, Some(expected));
     std::fs::create_dir(folder.path().join("elsewhere")).unwrap();
     let copy = folder.path().join("elsewhere/body.toml");
     body.save(&copy, crate::files::Overwrite::Refuse).unwrap();
@@ -162,6 +184,17 @@ fn files_are_loaded_and_saved_with_their_mesh() {
 
 fn change_first(text: &str, from: &str, to: &str) -> String {
     text.replacen(from, to, 1)
+}
+
+#[test]
+fn frusta_survive_their_own_file() {
+    let text = format!("{SMALL}[mesh]\nfrusta = \"elliptic\"\nvertices = 130\nflattening = {{ palm = 0.6 }}\n");
+    let body = parse_body(&text, "pointer.toml").unwrap();
+    let base = crate::body::FrustumBase::Elliptic { vertices: 130 };
+    let expected = MeshSource::Frusta { base, flattening: BTreeMap::from([("palm".to_string(), 0.6)]) };
+    assert_eq!(body.mesh, Some(expected));
+    assert_eq!(parse_body(&body.to_toml(), "again").unwrap(), body);
+    assert_eq!(crate::body::Mesh::of_body(&body).unwrap().vertices.len(), 260);
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod adult;
 mod bvh;
 mod kinematics;
 mod loader;
+mod mesh;
 mod pose;
 mod proportions;
 mod save;
@@ -12,6 +13,7 @@ mod skeleton;
 
 pub use adult::ADULT_HEIGHT;
 pub use loader::parse_body;
+pub use mesh::{FrustumBase, Mesh, MeshEdge, MeshSource, MeshVertex, Skinning};
 pub use pose::{PoseTable, PoseWriter};
 pub use proportions::{Proportion, Proportions};
-pub use skeleton::{Body, Bone, Dof, DofAxis, FreeEnd, Marker, MeshSource, Part};
+pub use skeleton::{Body, Bone, Dof, DofAxis, FreeEnd, Marker, Part};

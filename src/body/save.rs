@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::Result;
 use glam::DVec3;
 
-use super::{Body, Dof, DofAxis};
+use super::{Body, Dof, DofAxis, MeshSource};
 use crate::files::{Overwrite, write_atomically};
 use crate::geometry::EulerOrder;
 
@@ -60,8 +60,27 @@ impl Body {
             writeln!(text, "\n[[marker]]\nname = {}\nbone = {}", quoted(&marker.name), quoted(bone))?;
             writeln!(text, "at = {}", point(marker.at))?;
         }
-        if let Some(mesh) = &self.mesh {
-            writeln!(text, "\n[mesh]\nfile = {}", quoted(&mesh.file.display().to_string()))?;
+        match &self.mesh {
+            None => {}
+            Some(MeshSource::Skinned { file, skinning, joints }) => {
+                writeln!(text, "\n[mesh]\nfile = {}", quoted(&file.display().to_string()))?;
+                writeln!(text, "skinning = \"{}\"", skinning.name())?;
+                if !joints.is_empty() {
+                    writeln!(text, "\n[mesh.bones]")?;
+                }
+                for (bone, joint) in joints {
+                    writeln!(text, "{} = {}", quoted(bone), quoted(joint))?;
+                }
+            }
+            Some(MeshSource::Frusta { base, flattening }) => {
+                writeln!(text, "\n[mesh]\nfrusta = \"{}\"\nvertices = {}", base.name(), base.vertices())?;
+                if !flattening.is_empty() {
+                    writeln!(text, "\n[mesh.flattening]")?;
+                }
+                for (part, ratio) in flattening {
+                    writeln!(text, "{} = {ratio}", quoted(part))?;
+                }
+            }
         }
         Ok(())
     }

@@ -1,10 +1,9 @@
 //! What a body is. Reading it from `body.toml` is in the loader, posing it in the kinematics.
 
-use std::path::PathBuf;
-
 use anyhow::{Result, ensure};
 use glam::DVec3;
 
+use super::MeshSource;
 use crate::geometry::EulerOrder;
 
 /// A body: any tree of bones, any degrees of freedom. Built by the loader, which guarantees: exactly one root, no cycle,
@@ -23,13 +22,6 @@ pub struct Body {
     pub mesh: Option<MeshSource>,
     /// Indices of the bones, every parent before its children.
     pub update_order: Vec<usize>,
-}
-
-/// The mesh of a body (SPEC A4).
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MeshSource {
-    /// A skinned glTF file; [`Body::load`] makes it absolute, seen from the folder of the body's file.
-    pub file: PathBuf,
 }
 
 /// A point of a body that no bone has its origin in, named in joints.csv: an ankle, a wrist, the top of the head.

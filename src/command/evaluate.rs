@@ -8,7 +8,7 @@ use super::objective_flags::ObjectiveFlags;
 use crate::body::{Body, PoseTable};
 use crate::files::{OutputFolder, Overwrite};
 use crate::sequence::{Sequence, read_cameras};
-use crate::track::{Backend, ScoredFrame, score_poses, write_fitness};
+use crate::track::{Backend, Model, ScoredFrame, score_poses, write_fitness};
 
 /// Scores given poses against one frame: components.csv (counts of pixels a pose and view) and fitness.csv, and with --images
 /// every candidate as it was drawn. Without -o the fitness goes to the standard output. The frame is one of a sequence, or
@@ -36,6 +36,9 @@ pub struct EvaluateArgs {
     /// Who scores them: auto, reference or cpu.
     #[arg(long, value_name = "NAME", default_value = "auto", value_parser = Backend::from_name)]
     backend: Backend,
+    /// What the body is drawn as: flat (cones as quadrilaterals) or mesh (the body's [mesh], else frusta).
+    #[arg(long, value_name = "NAME", default_value = "flat", value_parser = Model::from_name)]
+    model: Model,
     #[command(flatten)]
     objective: ObjectiveFlags,
     /// The folder for the results.
@@ -74,7 +77,7 @@ pub fn run(args: &EvaluateArgs) -> Result<()> {
     let poses = PoseTable::read(&args.poses, &frame.body)?;
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     let output = args.output.as_deref().map(|path| OutputFolder::create(path, overwrite)).transpose()?;
-    let fitness = score_poses(&frame, &poses, args.backend, &objective, output.as_ref(), args.images)?;
+    let fitness = score_poses(&frame, &poses, args.backend, args.model, &objective, output.as_ref(), args.images)?;
     match &args.output {
         Some(path) => {
             println!("{} poses scored in {} views, results in {}", fitness.len(), frame.cameras.len(), path.display())

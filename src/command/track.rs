@@ -13,7 +13,7 @@ use super::objective_flags::ObjectiveFlags;
 use crate::files::{OutputFolder, Overwrite};
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::Sequence;
-use crate::track::{Backend, FrameDone, FrameRange, Progress, RunStart, TrackSettings, TrackSummary, track};
+use crate::track::{Backend, FrameDone, FrameRange, Model, Progress, RunStart, TrackSettings, TrackSummary, track};
 
 /// Tracks a person through a sequence: poses, joints and markers over time (CSV, TRC, C3D, BVH), how far they can be
 /// trusted, the model drawn over the pictures, and a report. A run that was stopped or killed goes on with --resume and
@@ -29,6 +29,9 @@ pub struct TrackArgs {
     /// Who scores the poses: auto, reference or cpu.
     #[arg(long, value_name = "NAME", default_value = "auto", value_parser = Backend::from_name)]
     backend: Backend,
+    /// What the body is drawn as: flat (cones as quadrilaterals) or mesh (the body's [mesh], else frusta).
+    #[arg(long, value_name = "NAME", default_value = "flat", value_parser = Model::from_name)]
+    model: Model,
     /// Poses scored at once.
     #[arg(long, value_name = "N", default_value_t = SearchSettings::default().particles)]
     particles: usize,
@@ -74,6 +77,7 @@ impl TrackArgs {
     fn settings(&self) -> TrackSettings {
         TrackSettings {
             backend: self.backend,
+            model: self.model,
             objective: self.objective.choice(),
             search: SearchSettings {
                 kind: self.search,

@@ -4,6 +4,8 @@
 mod batch;
 mod components;
 pub mod cpu;
+mod mesh_projection;
+mod mesh_raster;
 mod objective;
 mod projection;
 mod reference;
@@ -14,6 +16,8 @@ mod vulkan;
 use anyhow::Result;
 
 pub use components::Components;
+pub use mesh_projection::{EDGE_BIAS, MeshProjector, NEAR, NEAREST, ProjectedVertex};
+pub use mesh_raster::draw_mesh;
 pub use objective::{Objective, ObjectiveKind};
 pub use projection::{PartQuad, Projector};
 pub use reference::{CandidateImage, Reference, compare, draw_quads};

@@ -71,7 +71,7 @@ impl Projector {
     }
 
     /// Global matrices of the rig's bones.
-    fn bone_matrices(&self, pose: &[f32]) -> Vec<Affine> {
+    pub(crate) fn bone_matrices(&self, pose: &[f32]) -> Vec<Affine> {
         let mut world: Vec<Affine> = Vec::with_capacity(self.rig.bones.len());
         for bone in &self.rig.bones {
             let value = |slot: usize| bone.slots[slot].and_then(|index| pose.get(index).copied());

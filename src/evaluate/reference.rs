@@ -3,19 +3,24 @@
 
 use anyhow::Result;
 
-use crate::body::Body;
+use crate::body::{Body, Mesh};
 use crate::features::Observation;
 use crate::geometry::Camera;
 
 use super::batch::{check_batch, check_observations};
-use super::{Components, Evaluator, Objective, PartQuad, Projector};
+use super::{Components, Evaluator, MeshProjector, Objective, PartQuad, Projector, draw_mesh};
 
-/// The simplest evaluator.
+/// The simplest evaluator, of the flat or of the mesh model.
 #[derive(Clone, Debug)]
 pub struct Reference {
-    projector: Projector,
-    labels: Vec<u8>,
+    model: DrawnModel,
     observations: Vec<Observation>,
+}
+
+#[derive(Clone, Debug)]
+enum DrawnModel {
+    Flat { projector: Projector, labels: Vec<u8> },
+    Mesh(MeshProjector),
 }
 
 /// A drawn candidate in one view: one byte a pixel, bits 0..=6 the label of the visible part (0 = nothing), bit 7 a
@@ -31,20 +36,40 @@ pub struct CandidateImage {
 }
 
 impl Reference {
-    /// For a body and its cameras at working size.
+    /// The flat model of a body, for its cameras at working size.
     pub fn new(body: &Body, cameras: &[Camera]) -> Self {
+        let projector = Projector::new(body, cameras);
+        let labels = body.parts.iter().map(|part| part.label).collect();
+        Self::of(DrawnModel::Flat { projector, labels }, cameras)
+    }
+
+    /// The mesh model of a body, for its cameras at working size; `mesh` is bound to this body.
+    ///
+    /// # Errors
+    /// When the mesh is bound to another number of bones.
+    pub fn of_mesh(body: &Body, mesh: Mesh, cameras: &[Camera]) -> Result<Self> {
+        Ok(Self::of(DrawnModel::Mesh(MeshProjector::new(body, mesh, cameras)?), cameras))
+    }
+
+    fn of(model: DrawnModel, cameras: &[Camera]) -> Self {
         let observations = cameras.iter().map(|camera| Observation::empty(camera.size[0], camera.size[1])).collect();
-        Self {
-            projector: Projector::new(body, cameras),
-            labels: body.parts.iter().map(|part| part.label).collect(),
-            observations,
+        Self { model, observations }
+    }
+
+    fn projector(&self) -> &Projector {
+        match &self.model {
+            DrawnModel::Flat { projector, .. } => projector,
+            DrawnModel::Mesh(mesh) => &mesh.projector,
         }
     }
 
     /// Draws one pose into one view.
     pub fn draw(&self, pose: &[f32], view: usize) -> CandidateImage {
-        let [width, height] = self.projector.cameras[view].size;
-        draw_quads(&self.projector.quads(pose, view), &self.labels, width, height)
+        let [width, height] = self.projector().cameras[view].size;
+        match &self.model {
+            DrawnModel::Flat { projector, labels } => draw_quads(&projector.quads(pose, view), labels, width, height),
+            DrawnModel::Mesh(mesh) => draw_mesh(&mesh.vertices(pose, view), mesh.mesh(), width, height),
+        }
     }
 }
 
@@ -92,23 +117,30 @@ fn for_each_fill_pixel(corners: &[[i32; 2]; 4], width: u32, height: u32, mut pai
 
 /// Calls `paint` with the index of every pixel of the part's four border lines.
 fn for_each_border_pixel(corners: &[[i32; 2]; 4], width: u32, height: u32, mut paint: impl FnMut(usize)) {
-    let mut paint_inside = |x: i64, y: i64| {
+    for corner in 0..4 {
+        let ends = [corners[corner], corners[(corner + 1) % 4]];
+        for_each_line_pixel(ends, width, height, |pixel, _| paint(pixel));
+    }
+}
+
+/// Calls `paint` with the index of every pixel of the line between two snapped corners that lies in the picture, and with how
+/// far along it is from the first end (0) to the second (1), in steps of the longer side.
+pub(super) fn for_each_line_pixel(ends: [[i32; 2]; 2], width: u32, height: u32, mut paint: impl FnMut(usize, f64)) {
+    let [p, q] = ends.map(|end| end.map(|c| i64::from(c + 128).div_euclid(256)));
+    let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
+    let mut paint_inside = |x: i64, y: i64, step: i64, steps: i64| {
         if (0..i64::from(width)).contains(&x) && (0..i64::from(height)).contains(&y) {
-            paint((y * i64::from(width) + x) as usize);
+            let along = if steps == 0 { 0.0 } else { step as f64 / steps as f64 };
+            paint((y * i64::from(width) + x) as usize, along);
         }
     };
-    let pixels = corners.map(|corner| corner.map(|c| i64::from(c + 128).div_euclid(256)));
-    for corner in 0..4 {
-        let (p, q) = (pixels[corner], pixels[(corner + 1) % 4]);
-        let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
-        if dx.abs() >= dy.abs() {
-            for x in p[0].min(q[0])..=p[0].max(q[0]) {
-                paint_inside(x, p[1] + nearest(dy * (x - p[0]), dx));
-            }
-        } else {
-            for y in p[1].min(q[1])..=p[1].max(q[1]) {
-                paint_inside(p[0] + nearest(dx * (y - p[1]), dy), y);
-            }
+    if dx.abs() >= dy.abs() {
+        for x in p[0].min(q[0])..=p[0].max(q[0]) {
+            paint_inside(x, p[1] + nearest(dy * (x - p[0]), dx), x - p[0], dx);
+        }
+    } else {
+        for y in p[1].min(q[1])..=p[1].max(q[1]) {
+            paint_inside(p[0] + nearest(dx * (y - p[1]), dy), y, y - p[1], dy);
         }
     }
 }
@@ -147,15 +179,15 @@ impl Evaluator for Reference {
     }
 
     fn view_count(&self) -> usize {
-        self.projector.view_count()
+        self.projector().view_count()
     }
 
     fn dof_count(&self) -> usize {
-        self.projector.dof_count()
+        self.projector().dof_count()
     }
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
-        check_observations(observations, self.projector.cameras.iter().map(|camera| camera.size))?;
+        check_observations(observations, self.projector().cameras.iter().map(|camera| camera.size))?;
         self.observations = observations.to_vec();
         Ok(())
     }

@@ -265,7 +265,7 @@ impl RigCamera {
 /// A corner farther than this from the origin, in x or y, has no image.
 pub(crate) const FARTHEST_PIXEL: f32 = 16384.0;
 
-fn affine(transform: &DAffine3) -> Affine {
+pub(crate) fn affine(transform: &DAffine3) -> Affine {
     let rows: DMat3 = transform.matrix3.transpose();
     let mut m = [0.0; 12];
     for (row, axis) in [rows.x_axis, rows.y_axis, rows.z_axis].into_iter().enumerate() {

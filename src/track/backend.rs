@@ -2,7 +2,7 @@
 
 use anyhow::{Result, bail};
 
-use crate::body::Body;
+use crate::body::{Body, Mesh};
 use crate::evaluate::cpu::Cpu;
 use crate::evaluate::{Evaluator, Reference};
 use crate::geometry::Camera;
@@ -51,18 +51,26 @@ impl Backend {
         }
     }
 
-    /// Makes the evaluator for a body and its cameras at working size. Every backend gives the same integers, so which
-    /// one it is changes the time alone.
+    /// Makes the evaluator of a body for its cameras at working size: of its flat model, or of a mesh bound to it
+    /// ([`super::Model::mesh`]). Every backend gives the same integers for the same model, so which one it is changes the time
+    /// alone.
     ///
     /// # Errors
-    /// When there is no camera, no degree of freedom, or the evaluator cannot be made.
-    pub fn build(self, body: &Body, cameras: &[Camera]) -> Result<BuiltBackend> {
+    /// When there is no camera, no degree of freedom, the backend does not draw the model, or the evaluator cannot be made.
+    pub fn build(self, mesh: Option<&Mesh>, body: &Body, cameras: &[Camera]) -> Result<BuiltBackend> {
         if cameras.is_empty() {
             bail!("there are no cameras, expected at least one to compare poses with");
         }
         if body.dof_count() == 0 {
             bail!("the body `{}` has no degree of freedom, expected at least one to move", body.name);
         }
+        match mesh {
+            None => self.build_flat(body, cameras),
+            Some(mesh) => self.build_mesh(body, mesh, cameras),
+        }
+    }
+
+    fn build_flat(self, body: &Body, cameras: &[Camera]) -> Result<BuiltBackend> {
         Ok(match self {
             Self::Reference => BuiltBackend {
                 evaluator: Box::new(Reference::new(body, cameras)),
@@ -83,11 +91,24 @@ impl Backend {
             }
         })
     }
+
+    fn build_mesh(self, body: &Body, mesh: &Mesh, cameras: &[Camera]) -> Result<BuiltBackend> {
+        let reason = match self {
+            Self::Reference => "the reference evaluator of the mesh model, as asked",
+            Self::Auto => "auto chose reference: the only evaluator of this build that draws the mesh model",
+            Self::Cpu => {
+                bail!("the backend cpu draws the flat model alone, the mesh model needs graphics or reference")
+            }
+        };
+        let evaluator = Reference::of_mesh(body, mesh.clone(), cameras)?;
+        Ok(BuiltBackend { evaluator: Box::new(evaluator), reason: reason.to_string() })
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::track::Model;
 
     #[test]
     fn an_unknown_backend_names_the_known_ones() {
@@ -101,7 +122,23 @@ mod tests {
     #[test]
     fn auto_says_what_it_chose() {
         let body = Body::adult(1750.0).unwrap();
-        let error = Backend::Auto.build(&body, &[]).err().unwrap().to_string();
+        let error = Backend::Auto.build(None, &body, &[]).err().unwrap().to_string();
         assert!(error.contains("no cameras"), "{error}");
+    }
+
+    #[test]
+    fn the_mesh_model_is_drawn_by_those_that_can() {
+        let body = Body::adult(1750.0).unwrap();
+        let cameras = crate::synth::rig::four_cameras(glam::DVec2::splat(2000.0), [64, 48]);
+        assert!(Model::Flat.mesh(&body).unwrap().is_none());
+        let mesh = Model::Mesh.mesh(&body).unwrap();
+        let error = Backend::Cpu.build(mesh.as_ref(), &body, &cameras).err().unwrap().to_string();
+        assert_eq!(error, "the backend cpu draws the flat model alone, the mesh model needs graphics or reference");
+        for backend in [Backend::Auto, Backend::Reference] {
+            let built = backend.build(mesh.as_ref(), &body, &cameras).unwrap();
+            assert_eq!(built.evaluator.name(), "reference");
+        }
+        let error = Model::from_name("solid").unwrap_err().to_string();
+        assert_eq!(error, "there is no model `solid`, expected one of flat, mesh");
     }
 }

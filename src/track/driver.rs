@@ -218,7 +218,7 @@ impl Run<'_> {
             let result = self.search(&prepared)?;
             let start = Instant::now();
             if self.settings.overlay_every > 0 && frame.is_multiple_of(self.settings.overlay_every) {
-                let overlay = Overlay::new(&self.plan.body, &self.sequence.cameras);
+                let overlay = Overlay::new(&self.plan.body, self.plan.mesh.as_ref(), &self.sequence.cameras)?;
                 overlay.write(self.output, frame, &prepared.pictures, &result.pose)?;
             }
             self.journal.append(&result)?;

@@ -11,6 +11,7 @@ mod fit;
 mod frame_range;
 mod hull;
 mod journal;
+mod model;
 mod objective_choice;
 mod overlay;
 mod page;
@@ -28,6 +29,7 @@ pub use driver::{ErrorSummary, FrameDone, Progress, RunStart, Silent, TrackSumma
 pub use fit::{Coverage, Fit, FitSettings, fit};
 pub use frame_range::FrameRange;
 pub use journal::FrameResult;
+pub use model::Model;
 pub use objective_choice::ObjectiveChoice;
 pub use scoring::{ScoredFrame, score_poses, write_fitness};
 pub use settings::TrackSettings;

@@ -1,12 +1,14 @@
 //! The estimated model drawn over what the cameras saw.
 
+use std::collections::BTreeMap;
+
 use anyhow::Result;
 use glam::DVec2;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder, RgbImage};
 
-use crate::body::Body;
-use crate::evaluate::Projector;
+use crate::body::{Body, Mesh};
+use crate::evaluate::{CandidateImage, PartQuad, Projector, Reference};
 use crate::files::OutputFolder;
 use crate::geometry::Camera;
 use crate::report::{Canvas, OverlayPolygon, part_colour};
@@ -14,23 +16,44 @@ use crate::report::{Canvas, OverlayPolygon, part_colour};
 /// The folder of a track's overlays.
 pub(super) const FOLDER: &str = "overlay";
 const OPACITY: f64 = 0.35;
+const EDGE_OPACITY: f64 = 0.9;
 
 /// Draws poses of a body over the pictures of its cameras.
 pub(super) struct Overlay<'a> {
     body: &'a Body,
     cameras: &'a [Camera],
-    projector: Projector,
+    drawing: Drawing,
+}
+
+/// What of the body is laid over the pictures.
+enum Drawing {
+    Flat(Projector),
+    Mesh(Reference),
 }
 
 impl<'a> Overlay<'a> {
-    pub(super) fn new(body: &'a Body, cameras: &'a [Camera]) -> Self {
-        Self { body, cameras, projector: Projector::new(body, cameras) }
+    /// With the flat model, or with a mesh that is bound to the body.
+    pub(super) fn new(body: &'a Body, mesh: Option<&Mesh>, cameras: &'a [Camera]) -> Result<Self> {
+        let drawing = match mesh {
+            None => Drawing::Flat(Projector::new(body, cameras)),
+            Some(mesh) => Drawing::Mesh(Reference::of_mesh(body, mesh.clone(), cameras)?),
+        };
+        Ok(Self { body, cameras, drawing })
     }
 
     /// The picture of a view with the parts, nearer over farther, and the skeleton on it.
     pub(super) fn draw(&self, picture: &RgbImage, view: usize, pose: &[f32]) -> Result<RgbImage> {
+        let mut canvas = match &self.drawing {
+            Drawing::Flat(projector) => self.flat(picture, &projector.quads(pose, view)),
+            Drawing::Mesh(reference) => Canvas::new(&self.tinted(picture, &reference.draw(pose, view)), 1.0),
+        };
+        let values: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
+        canvas.skeleton(&self.bones(view, &values)?);
+        Ok(canvas.into_picture())
+    }
+
+    fn flat(&self, picture: &RgbImage, quads: &[PartQuad]) -> Canvas {
         let mut canvas = Canvas::new(picture, 1.0);
-        let quads = self.projector.quads(pose, view);
         let mut farthest_first: Vec<usize> = (0..quads.len()).filter(|&part| quads[part].drawn).collect();
         farthest_first.sort_by(|&l, &r| quads[r].depth_squared.total_cmp(&quads[l].depth_squared));
         for index in farthest_first {
@@ -38,9 +61,23 @@ impl<'a> Overlay<'a> {
             let corners = quads[index].corners.map(|[x, y]| DVec2::new(f64::from(x), f64::from(y)) / 256.0);
             canvas.polygon(&OverlayPolygon { corners, colour: part_colour(&part.name, part.label) }, OPACITY);
         }
-        let values: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
-        canvas.skeleton(&self.bones(view, &values)?);
-        Ok(canvas.into_picture())
+        canvas
+    }
+
+    /// The picture with the colour of its part on every pixel that a candidate covers, edges strongest.
+    fn tinted(&self, picture: &RgbImage, drawn: &CandidateImage) -> RgbImage {
+        let mut tinted = picture.clone();
+        let names = self.body.parts.iter().map(|part| (part.label, part_colour(&part.name, part.label)));
+        let colours: BTreeMap<u8, [u8; 3]> = names.collect();
+        for (pixel, byte) in tinted.pixels_mut().zip(&drawn.bytes) {
+            let Some(colour) = colours.get(&(byte & 0x7f)) else { continue };
+            let opacity = if byte & 0x80 != 0 { EDGE_OPACITY } else { OPACITY };
+            for (channel, colour) in pixel.0.iter_mut().zip(colour) {
+                let mixed = f64::from(*channel) * (1.0 - opacity) + f64::from(*colour) * opacity;
+                *channel = mixed.round() as u8;
+            }
+        }
+        tinted
     }
 
     /// Lines from every joint to its parent, in pixels.

@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail};
 
 use super::feed::learns_background;
 use super::{BuiltBackend, TrackSettings};
-use crate::body::{Body, PoseTable};
+use crate::body::{Body, Mesh, PoseTable};
 use crate::evaluate::Objective;
 use crate::features::FeatureSettings;
 use crate::search::{Search, SearchSpace};
@@ -19,6 +19,8 @@ const START_AGE: f64 = 1.0 / 25.0;
 /// A run prepared.
 pub(super) struct Plan {
     pub(super) body: Body,
+    /// What the body is drawn as, when that is not the flat model.
+    pub(super) mesh: Option<Mesh>,
     pub(super) range: Range<usize>,
     /// The pose the first frame's search starts round: mm, radians.
     pub(super) start: Vec<f32>,
@@ -52,7 +54,8 @@ impl Plan {
         // Rounding to single precision may have left the limits by a hair.
         space.clamp(&mut start);
         let search = settings.search.build(&space)?;
-        let backend = settings.backend.build(&body, &sequence.cameras)?;
+        let mesh = settings.model.mesh(&body)?;
+        let backend = settings.backend.build(mesh.as_ref(), &body, &sequence.cameras)?;
         Ok(Self {
             range,
             start,
@@ -62,6 +65,7 @@ impl Plan {
             backend,
             search,
             space,
+            mesh,
             fps: sequence.fps,
             spread: settings.spread,
             body,

@@ -5,9 +5,10 @@ use std::fs;
 use anyhow::{Context, Result, anyhow, bail};
 use toml::{Table, Value};
 
-use super::TrackSettings;
 use super::journal::checksum;
 use super::plan::Plan;
+use super::{Model, TrackSettings};
+use crate::body::MeshSource;
 use crate::evaluate::Objective;
 use crate::files::{OutputFolder, read_toml};
 use crate::search::SearchKind;
@@ -29,7 +30,7 @@ impl RunRecord {
         let mut table = Table::new();
         table.insert("run".into(), Value::Table(run(sequence, settings, plan)));
         table.insert("settings".into(), Value::Table(settings_table(sequence, settings, plan)));
-        table.insert("inputs".into(), Value::Table(inputs(sequence, plan)?));
+        table.insert("inputs".into(), Value::Table(inputs(sequence, settings, plan)?));
         table.insert("machine".into(), Value::Table(machine(plan)));
         Ok(Self { table })
     }
@@ -88,7 +89,7 @@ fn run(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Table {
     let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
     let command = format!(
         "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-         --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --overlay-every {}{start}",
+         --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}",
         sequence.path.display(),
         plan.range.start,
         plan.range.end,
@@ -99,6 +100,7 @@ fn run(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Table {
         settings.spread,
         kind.name(),
         plan.backend.evaluator.name(),
+        settings.model.name(),
         settings.overlay_every,
     );
     Table::from_iter([
@@ -135,13 +137,14 @@ fn settings_table(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) ->
     put("w1", single(w1));
     put("w2", single(w2));
     put("backend", Value::from(plan.backend.evaluator.name()));
+    put("model", Value::from(settings.model.name()));
     put("overlay_every", integer(settings.overlay_every as u64));
     put("features", Value::Table(sequence.features.clone().unwrap_or_default()));
     table
 }
 
 /// What the run reads: small inputs by a checksum of what they hold, pictures by where they are and how large.
-fn inputs(sequence: &Sequence, plan: &Plan) -> Result<Table> {
+fn inputs(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Result<Table> {
     let mut table = Table::new();
     let mut put = |name: &str, value: Value| table.insert(name.to_string(), value);
     put("name", Value::from(sequence.name.clone()));
@@ -150,6 +153,10 @@ fn inputs(sequence: &Sequence, plan: &Plan) -> Result<Table> {
     put("frame_count", integer(sequence.frame_count as u64));
     let body = fs::read(&sequence.body).with_context(|| format!("cannot read {}", sequence.body.display()))?;
     put("body", sum(&body));
+    if let (Model::Mesh, Some(MeshSource::Skinned { file, .. })) = (settings.model, &plan.body.mesh) {
+        let mesh = fs::read(file).with_context(|| format!("cannot read {}", file.display()))?;
+        put("mesh", sum(&mesh));
+    }
     put("start_pose", sum(bytemuck::cast_slice(&plan.start)));
     // The shortest text of every number, so equal exactly where the cameras are.
     put("cameras", sum(format!("{:?}", sequence.cameras).as_bytes()));

@@ -7,10 +7,10 @@ use anyhow::{Result, bail, ensure};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 
-use super::Backend;
 use super::feed::Feed;
 use super::overlay::file_stem;
 use super::plan::feature_settings;
+use super::{Backend, Model};
 use crate::body::{Body, PoseTable};
 use crate::evaluate::{Components, Evaluator, Objective, Reference};
 use crate::features::Observation;
@@ -89,11 +89,13 @@ pub fn score_poses(
     frame: &ScoredFrame,
     poses: &PoseTable,
     backend: Backend,
+    model: Model,
     objective: &Objective,
     output: Option<&OutputFolder>,
     images: bool,
 ) -> Result<Vec<f32>> {
-    let mut built = backend.build(&frame.body, &frame.cameras)?;
+    let mesh = model.mesh(&frame.body)?;
+    let mut built = backend.build(mesh.as_ref(), &frame.body, &frame.cameras)?;
     let evaluator = built.evaluator.as_mut();
     evaluator.observe(&frame.observations)?;
     let rows = single_precision(&frame.body, poses);
@@ -108,7 +110,10 @@ pub fn score_poses(
     output.write("components.csv", |writer| write_components(writer, frame, evaluator, &rows))?;
     output.write("fitness.csv", |writer| write_fitness(writer, &all))?;
     if images {
-        let drawing = Reference::new(&frame.body, &frame.cameras);
+        let drawing = match mesh {
+            None => Reference::new(&frame.body, &frame.cameras),
+            Some(mesh) => Reference::of_mesh(&frame.body, mesh, &frame.cameras)?,
+        };
         for (index, pose) in rows.chunks_exact(dofs).enumerate() {
             for (view, camera) in frame.cameras.iter().enumerate().take(views) {
                 let image = drawing.draw(pose, view);

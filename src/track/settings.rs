@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Result, ensure};
 
-use super::{Backend, FrameRange, ObjectiveChoice};
+use super::{Backend, FrameRange, Model, ObjectiveChoice};
 use crate::search::SearchSettings;
 
 /// How a sequence is tracked.
@@ -12,6 +12,8 @@ use crate::search::SearchSettings;
 pub struct TrackSettings {
     /// Who scores the poses.
     pub backend: Backend,
+    /// What the body is drawn as.
+    pub model: Model,
     /// What counts as a good pose; over the sequence's `[objective]` table.
     pub objective: ObjectiveChoice,
     /// How poses are searched; its seed decides all random numbers.
@@ -33,6 +35,7 @@ impl Default for TrackSettings {
     fn default() -> Self {
         Self {
             backend: Backend::default(),
+            model: Model::default(),
             objective: ObjectiveChoice::default(),
             search: SearchSettings::default(),
             spread: 1.0,

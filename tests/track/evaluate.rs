@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use pantin::body::{Body, PoseTable};
+use pantin::body::{Body, Mesh, PoseTable};
 use pantin::evaluate::Reference;
 use pantin::features::Observation;
 use pantin::files::Overwrite;
@@ -94,6 +94,32 @@ fn packed_observations_instead_of_a_sequence() {
     refused(&run(&arguments(folder.path())), &["cannot read", "cam2.png"]);
 }
 
+/// The mesh model: its own drawing, its own components, and who cannot draw it.
+#[test]
+fn the_mesh_model_is_drawn_and_scored() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("mesh");
+    let of_frame = ["--sequence", sequence().to_str().unwrap(), "--frame", "2", "--model", "mesh"];
+    let done = evaluate(&output, &[&of_frame[..], &["--images"]].concat());
+    assert!(done.status.success(), "{}", super::stderr(&done));
+    let body = Body::adult(1750.0).unwrap();
+    let reference = Reference::of_mesh(&body, Mesh::of_body(&body).unwrap(), &walk::cameras()).unwrap();
+    let pose: Vec<f32> = walk::poses(&body).poses[3].iter().map(|value| *value as f32).collect();
+    let drawn = reference.draw(&pose, 1);
+    let image = image::open(output.join("images/pose_000003_cam1.png")).unwrap().into_luma8();
+    assert!(image.into_raw() == drawn.bytes, "the picture is the candidate image");
+    let components = fs::read_to_string(output.join("components.csv")).unwrap();
+    let row = components.lines().find(|line| line.starts_with("3,cam1,")).unwrap();
+    let area = drawn.bytes.iter().filter(|byte| **byte != 0).count();
+    let edges = drawn.bytes.iter().filter(|byte| **byte & 0x80 != 0).count();
+    let numbers: Vec<&str> = row.split(',').collect();
+    assert_eq!((numbers[3], numbers[5]), (area.to_string().as_str(), edges.to_string().as_str()));
+    refused(
+        &evaluate(&folder.path().join("cpu"), &[&of_frame[..], &["--backend", "cpu"]].concat()),
+        &["the backend cpu draws the flat model alone, the mesh model needs graphics or reference"],
+    );
+}
+
 #[test]
 fn wrong_requests() {
     let folder = tempfile::tempdir().unwrap();
@@ -109,6 +135,7 @@ fn wrong_requests() {
         &["--frame", "1"],
         &["--observations", name],
         &["--sequence", name, "--frame", "1", "--backend", "cuda"],
+        &["--sequence", name, "--frame", "1", "--model", "solid"],
     ] {
         assert_eq!(evaluate(&output, wrong).status.code(), Some(2), "{wrong:?}");
     }

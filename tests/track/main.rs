@@ -286,6 +286,27 @@ fn the_particle_filter_resumes_too() {
 }
 
 #[test]
+fn the_mesh_model_is_tracked_and_resumed_as_such() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("mesh");
+    // Few poses: the reference draws them one by one.
+    let few = ["--frames", "0..2", "--particles", "12", "--iterations", "3"];
+    let run = |more: &[&str]| {
+        let mut arguments = vec!["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap()];
+        arguments.extend(few);
+        arguments.extend(more);
+        pantin(&arguments)
+    };
+    let done = run(&["--model", "mesh", "--overlay-every", "1"]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    let record = fs::read_to_string(output.join("run.toml")).unwrap();
+    assert!(record.contains("model = \"mesh\"") && record.contains("--model mesh"), "{record}");
+    assert!(output.join("overlay/cam1_000001.png").exists());
+    let flat = run(&["--overlay-every", "1", "--backend", "reference", "--resume"]);
+    refused(&flat, &["another model: \"mesh\" there, \"flat\" now"]);
+}
+
+#[test]
 fn part_of_the_frames() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("track");
