@@ -14,7 +14,7 @@ use super::plan::Plan;
 use super::run_record::RunRecord;
 use super::stages::{Span, Stages, Thread};
 use super::truth::Truth;
-use super::{StageSummary, TrackSettings, results};
+use super::{Backend, StageSummary, TrackSettings, results, run_record};
 use crate::evaluate::Components;
 use crate::files::OutputFolder;
 use crate::motion::TrajectoryError;
@@ -124,7 +124,15 @@ pub fn track(
     output: &OutputFolder,
     progress: &mut dyn Progress,
 ) -> Result<TrackSummary> {
-    let plan = Plan::new(sequence, settings)?;
+    // What auto once chose is kept to: another machine, or a moment of noise, must not change a run midway.
+    let recorded = match settings.backend {
+        Backend::Auto if settings.resume => run_record::recorded_backend(output)?,
+        _ => None,
+    };
+    let mut plan = Plan::new(sequence, settings, recorded.unwrap_or(settings.backend))?;
+    if let Some(backend) = recorded {
+        plan.backend.reason = format!("{}, which this run began with", backend.name());
+    }
     let mut warnings = Vec::new();
     let truth = match &sequence.truth {
         Some(path) => Truth::read(path, &plan.body, sequence.fps)?.map_err(|why| warnings.push(why)).ok(),
@@ -157,6 +165,7 @@ pub fn track(
         backend: plan.backend.reason.clone(),
         warnings: warnings.clone(),
     });
+    plan.backend.evaluator.measure_passes(settings.trace)?;
     let confidence = Confidence::new(&plan.body);
     let mut run = Run { sequence, settings, output, plan, truth, journal, frames: Vec::new(), stages, confidence };
     run.take_over(done)?;
@@ -247,6 +256,7 @@ impl Run<'_> {
         let evaluator = backend.evaluator.as_mut();
         evaluator.observe(&prepared.observations)?;
         let mut evaluations: Vec<Span> = Vec::with_capacity(search.iterations() + 1);
+        let mut passes = Vec::new();
         let counter =
             u32::try_from(frame).map_err(|_| anyhow!("frame {frame} is beyond the counters of the search"))?;
         let estimate = search
@@ -254,11 +264,13 @@ impl Run<'_> {
                 let start = Instant::now();
                 evaluator.fitness(poses, objective, fitness)?;
                 evaluations.push(Span::since(start));
+                passes.extend(evaluator.device_passes());
                 Ok(())
             })
             .with_context(|| format!("frame {frame}"))?;
         let mut components = vec![Components::default(); evaluator.view_count()];
         evaluator.components(&estimate.pose, &mut components)?;
+        passes.extend(evaluator.device_passes());
         let views = components.iter().map(|view| objective.view_terms(view)).collect();
 
         let whole = Span::since(begin);
@@ -268,6 +280,7 @@ impl Run<'_> {
         }
         let evaluating: Duration = evaluations.iter().map(|evaluation| evaluation.time).sum();
         self.stages.count("evaluate", evaluating);
+        self.stages.record_passes(frame, &passes)?;
         self.stages.count("search", whole.time.saturating_sub(evaluating));
         Ok(FrameResult { frame, pose: estimate.pose, fitness: estimate.fitness, spread: estimate.spread, views })
     }
@@ -293,7 +306,12 @@ impl Run<'_> {
             stopped_before,
             frames: self.frames,
         };
+        let has_passes = self.stages.has_device_passes();
         summary.stages = self.stages.finish()?;
+        if self.settings.trace && summary.stages.iter().any(|stage| stage.name == "search") && !has_passes {
+            let [name, variant] = summary.backend;
+            summary.warnings.push(format!("the trace holds no device passes: {name} ({variant}) told of none"));
+        }
         // Per frame: waiting for the features, searching, writing; the rest runs beside it.
         let busy: f64 = ["wait", "evaluate", "search", "output"]
             .iter()

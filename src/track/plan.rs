@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 
 use super::feed::learns_background;
-use super::{BuiltBackend, TrackSettings};
+use super::{Backend, BuiltBackend, TrackSettings};
 use crate::body::{Body, Mesh, PoseTable};
 use crate::evaluate::Objective;
 use crate::features::FeatureSettings;
@@ -35,7 +35,8 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    pub(super) fn new(sequence: &Sequence, settings: &TrackSettings) -> Result<Self> {
+    /// With `backend` in place of the settings'.
+    pub(super) fn new(sequence: &Sequence, settings: &TrackSettings, backend: Backend) -> Result<Self> {
         settings.check()?;
         let name = sequence.path.display().to_string();
         let range = settings.frames.within(sequence.frame_count, &name)?;
@@ -55,7 +56,7 @@ impl Plan {
         space.clamp(&mut start);
         let search = settings.search.build(&space)?;
         let mesh = settings.model.mesh(&body)?;
-        let backend = settings.backend.build(mesh.as_ref(), &body, &sequence.cameras)?;
+        let backend = backend.build(mesh.as_ref(), &body, &sequence.cameras, &start)?;
         Ok(Self {
             range,
             start,

@@ -272,6 +272,32 @@ fn killed_or_interrupted_it_goes_on() {
 }
 
 #[test]
+fn auto_keeps_to_what_the_run_began_with() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    tracked(&output, &["--backend", "reference"]);
+    let files = result_files(&output);
+    let again = track_with(sequence(), &output, &["--resume"]);
+    assert!(again.status.success(), "{}", stderr(&again));
+    assert!(stderr(&again).contains("reference, which this run began with"), "{}", stderr(&again));
+    same(&result_files(&output), &files);
+    let parts = ["another backend: \"reference\" there, \"cpu\" now"];
+    refused(&track_with(sequence(), &output, &["--resume", "--backend", "cpu"]), &parts);
+    let record = fs::read_to_string(output.join("run.toml")).unwrap();
+    fs::write(output.join("run.toml"), record.replace("backend = \"reference\"", "backend = \"cuda\"")).unwrap();
+    refused(&track_with(sequence(), &output, &["--resume"]), &["run.toml", "no backend `cuda`"]);
+}
+
+#[test]
+fn a_trace_of_the_device_is_missed_where_nothing_runs_on_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    let done = track_with(sequence(), &output, &["--backend", "cpu", "--trace"]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    assert!(stderr(&done).contains("the trace holds no device passes: cpu ("), "{}", stderr(&done));
+}
+
+#[test]
 fn the_particle_filter_resumes_too() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("track");
