@@ -9,8 +9,22 @@ use std::time::Instant;
 
 use pantin::bench::{Scene, Yardstick, YardstickKind, swarm};
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
+use pantin::evaluate::vulkan::Compute;
 use pantin::evaluate::{Components, Evaluator, Objective};
 use pantin::features::Observation;
+use pantin::gpu::{Timing, by_name};
+
+/// Prints what each stage on the device takes, of the second of two evaluations.
+fn stages(compute: &mut Compute, poses: &[f32], fitness: &mut [f32]) {
+    compute.time_stages(Timing::Stamps);
+    for _ in 0..2 {
+        compute.fitness(poses, &Objective::default(), fitness).unwrap();
+    }
+    let stages = by_name(&compute.timings().unwrap());
+    let text: Vec<String> = stages.iter().map(|(name, ms, _)| format!("{name} {ms:.3}")).collect();
+    println!("compute stages, ms: {}", text.join(", "));
+    compute.time_stages(Timing::Off);
+}
 
 struct Row {
     name: String,
@@ -71,6 +85,31 @@ fn main() {
                 ms: Vec::new(),
             });
         }
+        match Compute::new(&body, &cameras) {
+            Ok(mut compute) => {
+                compute.observe(&seen).unwrap();
+                let (name, poses) = (format!("compute {}", compute.variant()), poses.clone());
+                println!("compute on {}", compute.facts().name);
+                let (mut fitness, mut out) = (vec![0.0; count], Vec::new());
+                let objective = Objective::default();
+                rows.push(Row {
+                    name,
+                    rounds_each: 2,
+                    run: Box::new(move || {
+                        compute.fitness(&poses, &objective, &mut fitness).unwrap();
+                        if out.is_empty() {
+                            out = vec![Components::default(); count * 4];
+                            compute.components(&poses, &mut out).unwrap();
+                            stages(&mut compute, &poses, &mut fitness);
+                            return out.clone();
+                        }
+                        Vec::new()
+                    }),
+                    ms: Vec::new(),
+                });
+            }
+            Err(error) => println!("SKIPPED compute: {error:#}"),
+        }
         if !filter.is_empty() {
             rows.retain(|row| filter.iter().any(|word| row.name.contains(word)));
         }
@@ -93,7 +132,7 @@ fn main() {
             continue;
         }
         println!(
-            "{:10} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10}",
+            "{:16} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10}",
             "variant", "ms", "min", "max", "us/image", "x rowspan", "x zbuffer"
         );
         let medians: Vec<f64> = rows
@@ -108,7 +147,7 @@ fn main() {
         };
         for (row, &ms) in rows.iter().zip(&medians) {
             println!(
-                "{:10} {:9.3} {:9.3} {:9.3} {:10.3} {:10.1} {:10.1}",
+                "{:16} {:9.3} {:9.3} {:9.3} {:10.3} {:10.1} {:10.1}",
                 row.name,
                 ms,
                 row.ms[0],

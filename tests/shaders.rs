@@ -122,7 +122,7 @@ fn unusual_blocks_are_laid_out_or_refused() {
     assert_eq!(sentence, "room/a.comp: a row_major matrix has no Rust type here; use column_major");
     let sentence = refused(&[("room/a.comp", &reading("", "float poseCount; float pose_count;", "data.pose_count"))]);
     assert_eq!(sentence, "room/a.comp: two members of Data are called pose_count");
-    // Stages of one pipeline share a push block, whatever each calls it, and must agree on it.
+    // Stages of one stem share a block called Push and must agree on it; another name is its own.
     let fragment = |name: &str, members: &str| {
         format!(
             "#version 460\nlayout(push_constant) uniform {name} {{ {members} }} push;\nlayout(location = 0) out float x;\n\
@@ -134,7 +134,10 @@ fn unusual_blocks_are_laid_out_or_refused() {
     let both = |text: &str| {
         [("room/fill.vert".to_string(), vertex.to_string()), ("room/fill.frag".to_string(), text.to_string())]
     };
-    let files = both(&fragment("Options", "vec2 b; float a;"));
+    let files = both(&fragment("Options", "float a;"));
+    let files: Vec<(&str, &str)> = files.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+    assert_eq!(fields(&generated(&files).unwrap(), "Options"), ["a: f32"]);
+    let files = both(&fragment("Push", "vec2 b; float a;"));
     let files: Vec<(&str, &str)> = files.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
     assert_eq!(fields(&generated(&files).unwrap(), "FillPush"), ["b: [f32; 2]", "a: f32", "_pad0: [u32; 1]"]);
     let files = both(&fragment("Push", "float a; float b;"));

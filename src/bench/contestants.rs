@@ -2,14 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use anyhow::Result;
+use anyhow::{Result, anyhow, bail};
 use serde::Serialize;
 
 use super::Scene;
 use super::yardstick::{Yardstick, YardstickKind};
 use crate::body::{FrustumBase, Mesh};
 use crate::evaluate::cpu::{Cpu, InstructionSet};
+use crate::evaluate::vulkan::{Compute, device_settings, open_instance};
 use crate::evaluate::{Evaluator, Reference};
+use crate::gpu::{Capabilities, Device, DeviceSettings};
 
 /// A backend or variant that this machine cannot run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -56,9 +58,26 @@ pub(super) struct Contestants {
     pub(super) missing: Vec<Missing>,
 }
 
+/// Variants of the compute backend, and what is taken from a device for it to take the variant.
+const COMPUTE: [(&str, Option<Lower>); 2] =
+    [("subgroup", None), ("shared", Some(|capabilities| capabilities.subgroup_arithmetic = false))];
+
+type Lower = fn(&mut Capabilities);
+
+/// The device, opened once more where it is to be capable of less.
+fn variant_on(device: &Result<Device, String>, lower: Option<Lower>) -> Result<Device> {
+    let device = device.as_ref().map_err(|why| anyhow!("{why}"))?;
+    match lower {
+        None => Ok(device.clone()),
+        Some(_) => Device::open(&open_instance()?, DeviceSettings { lower, ..device_settings()? }),
+    }
+}
+
 impl Contestants {
     /// Everybody who draws the model; the first is the one whose fitness the others are held to.
-    pub(super) fn new(model: Model, scene: &Scene) -> Result<Self> {
+    ///
+    /// `device` is the Vulkan device, or why there is none.
+    pub(super) fn new(model: Model, scene: &Scene, device: &Result<Device, String>) -> Result<Self> {
         let Scene { body, cameras, .. } = scene;
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let mut all = Self::default();
@@ -71,6 +90,15 @@ impl Contestants {
                 for set in InstructionSet::ALL {
                     let cpu = Cpu::with(body, cameras, set, threads).map(|cpu| Box::new(cpu) as Box<dyn Evaluator>);
                     all.add(model, "cpu", set.name(), cpu);
+                }
+                for (variant, lower) in COMPUTE {
+                    let compute = variant_on(device, lower).and_then(|device| Compute::on(&device, body, cameras));
+                    let is_it = |compute: &Compute| compute.variant() == variant;
+                    let compute = compute.and_then(|compute| match is_it(&compute) {
+                        true => Ok(Box::new(compute) as Box<dyn Evaluator>),
+                        false => bail!("the device lacks what it needs: pantin devices says what"),
+                    });
+                    all.add(model, "compute", variant, compute);
                 }
             }
             Model::Frusta(base) => {

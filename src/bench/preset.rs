@@ -8,6 +8,7 @@ use super::contestants::{Contestants, Missing, Model};
 use super::report::{BenchReport, Row, machine};
 use super::rounds::{Round, Times, interleaved};
 use super::scene::{Scene, swarm};
+use crate::evaluate::vulkan::open_device;
 use crate::evaluate::{Evaluator, Objective};
 
 /// How far a fitness may lie from the first evaluator's.
@@ -94,11 +95,13 @@ impl Preset {
 /// When the scene cannot be made; an evaluator that fails is listed with its error instead.
 pub fn run(preset: Preset, begin: &mut dyn FnMut(&str)) -> Result<BenchReport> {
     let mut report = empty(preset);
+    let device = open_device().map_err(|error| format!("{error:#}"));
+    report.device = device.as_ref().ok().map(|device| format!("{}, {}", device.facts().name, device.facts().driver));
     for task in preset.tasks() {
         let [width, height] = task.size;
         begin(&format!("{}, {} particles, {width}x{height}", task.model.name(), task.particles));
         let scene = Scene::new(task.size, task.person)?;
-        let Contestants { present, missing } = Contestants::new(task.model, &scene)?;
+        let Contestants { present, missing } = Contestants::new(task.model, &scene, &device)?;
         let unheard = missing.into_iter().filter(|missing| !report.unavailable.contains(missing)).collect::<Vec<_>>();
         report.unavailable.extend(unheard);
         measure(&task, &scene, present, preset.share(), &mut report);
@@ -210,7 +213,7 @@ fn stages(entry: &mut Entry, poses: &[f32], objective: &Objective) -> Result<Vec
 
 fn row(task: &Task, scene: &Scene, evaluator: &dyn Evaluator, times: Times, stages: Vec<(String, f64)>) -> Row {
     let [width, height] = task.size;
-    let tiling = evaluator.tiling();
+    let footprint = evaluator.footprint();
     let poses_per_s = task.particles as f64 / times.median * 1e3;
     let images_per_s = poses_per_s * scene.cameras.len() as f64;
     Row {
@@ -221,8 +224,8 @@ fn row(task: &Task, scene: &Scene, evaluator: &dyn Evaluator, times: Times, stag
         views: scene.cameras.len(),
         width,
         height,
-        tile: tiling.map_or(task.size, |tiling| tiling.tile),
-        bytes_per_pixel: tiling.map(|tiling| tiling.bytes_per_pixel),
+        tile: footprint.map_or(task.size, |footprint| footprint.tile),
+        bytes_per_pixel: footprint.map(|footprint| footprint.bytes_per_pixel),
         ms: times.median,
         ms_min: times.min,
         ms_max: times.max,
@@ -266,7 +269,7 @@ mod tests {
     fn an_evaluator_that_scores_otherwise_is_not_measured() {
         let task = Task { model: Model::Flat, particles: 6, size: [96, 72], person: 50.0 };
         let scene = Scene::new(task.size, task.person).unwrap();
-        let mut all = Contestants::new(Model::Flat, &scene).unwrap();
+        let mut all = Contestants::new(Model::Flat, &scene, &Err("no device".to_string())).unwrap();
         // The last of them is made to look at something else.
         let mut blind = scene.observations.clone();
         blind.iter_mut().for_each(|seen| seen.bytes.fill(0));

@@ -5,7 +5,7 @@
 use anyhow::{Result, ensure};
 
 use crate::body::Body;
-use crate::evaluate::{Components, Evaluator, Objective, PartQuad, Projector, Tiling};
+use crate::evaluate::{Components, Evaluator, Footprint, Objective, PartQuad, Projector};
 use crate::features::Observation;
 use crate::geometry::Camera;
 
@@ -103,9 +103,9 @@ impl Evaluator for Yardstick {
         Ok(())
     }
 
-    fn tiling(&self) -> Option<Tiling> {
+    fn footprint(&self) -> Option<Footprint> {
         let [width, height] = self.sizes.first()?.map(|side| side as u32);
-        Some(Tiling { tile: [width, height], bytes_per_pixel: 1.0 })
+        Some(Footprint { tile: [width, height], bytes_per_pixel: 1.0 })
     }
 }
 

@@ -11,7 +11,7 @@ mod projection;
 mod reference;
 mod rig;
 mod stages;
-mod vulkan;
+pub mod vulkan;
 
 use anyhow::Result;
 
@@ -74,14 +74,14 @@ pub trait Evaluator: Send {
     }
 
     /// How a candidate's picture is kept in memory; none where that is not told.
-    fn tiling(&self) -> Option<Tiling> {
+    fn footprint(&self) -> Option<Footprint> {
         None
     }
 }
 
 /// How the picture of a candidate in a view is kept in memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tiling {
+pub struct Footprint {
     /// Width and height of the piece that is worked on at once, pixels.
     pub tile: [u32; 2],
     /// Memory written for a pixel of it, bytes.

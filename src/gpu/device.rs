@@ -17,6 +17,7 @@ use super::instance::Instance;
 use super::loss::DeviceLost;
 use super::recording::RecordingParts;
 use super::transform_feedback::FeedbackFunctions;
+use super::validation::ValidationLog;
 
 /// How a device is opened.
 #[derive(Clone, Debug)]
@@ -220,6 +221,11 @@ impl Device {
         &self.shared.facts.capabilities
     }
 
+    /// The validation log of its instance.
+    pub fn validation_log(&self) -> ValidationLog {
+        self.shared.instance.validation_log()
+    }
+
     /// Bytes of memory that can still be taken: its free budget, as far as the driver tells, within the engine's share.
     pub fn memory_available(&self) -> u64 {
         let own = self.shared.facts.capabilities.memory.saturating_sub(self.shared.memory_used.load(Ordering::Relaxed));
@@ -267,6 +273,11 @@ impl DeviceShared {
             && before + passes.len() as u64 > limit
         {
             let pass = passes.get(limit.saturating_sub(before) as usize).cloned();
+            // A crash leaves nothing running: let go of what was submitted before.
+            let queue = lock(&self.queue);
+            // SAFETY: the device is open, and its one queue is locked while this waits.
+            let _ = unsafe { self.raw.device_wait_idle() };
+            drop(queue);
             return Err(self.lose(pass).into());
         }
         self.collect();

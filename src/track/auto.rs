@@ -6,9 +6,10 @@ use anyhow::{Context, Result, anyhow};
 
 use crate::bench::{Round, interleaved, seen_of, swarm};
 use crate::body::Body;
+use crate::evaluate::vulkan::{device_settings, open_instance};
 use crate::evaluate::{Evaluator, Objective};
 use crate::geometry::Camera;
-use crate::gpu::{DeviceKind, Instance, Validation, devices};
+use crate::gpu::{DeviceKind, devices};
 
 /// Poses scored in a round of the measurement: a usual swarm.
 const POSES: usize = 256;
@@ -20,9 +21,10 @@ const ADVANTAGE: f64 = 1.1;
 
 /// Whether this machine has a device that may be faster than its processor; if not, why, in a sentence.
 pub(super) fn is_device_worth_measuring() -> Result<(), String> {
-    let found = Instance::open(Validation::Off).and_then(|instance| devices(&instance));
-    let found = found.map_err(|error| format!("{error:#}"))?;
-    let Some(best) = found.iter().filter(|device| device.usable).min_by_key(|device| device.kind) else {
+    let found = open_instance().and_then(|instance| Ok((devices(&instance)?, device_settings()?.index)));
+    let (found, index) = found.map_err(|error| format!("{error:#}"))?;
+    let usable = found.iter().filter(|device| device.usable && index.is_none_or(|index| index == device.index));
+    let Some(best) = usable.min_by_key(|device| device.kind) else {
         let why: Vec<String> = found.iter().map(|d| format!("{}: {}", d.name, d.reasons.join("; "))).collect();
         return Err(match why.is_empty() {
             true => "Vulkan finds no device on this machine".to_string(),
@@ -30,7 +32,7 @@ pub(super) fn is_device_worth_measuring() -> Result<(), String> {
         });
     };
     if best.kind == DeviceKind::Cpu {
-        return Err(format!("the only Vulkan device, {}, is computed by the processor itself", best.name));
+        return Err(format!("the best Vulkan device, {}, is computed by the processor itself", best.name));
     }
     Ok(())
 }

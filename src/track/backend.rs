@@ -1,10 +1,11 @@
 //! The evaluators by name, and which one `auto` takes.
 
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 
 use super::auto::{fastest, is_device_worth_measuring};
 use crate::body::{Body, Mesh};
 use crate::evaluate::cpu::Cpu;
+use crate::evaluate::vulkan::Compute;
 use crate::evaluate::{Evaluator, Reference};
 use crate::geometry::Camera;
 
@@ -18,6 +19,8 @@ pub enum Backend {
     Reference,
     /// The fast one on the processor.
     Cpu,
+    /// Drawing in compute on a Vulkan device, in the reference's integers.
+    Compute,
 }
 
 /// An evaluator and why it was taken.
@@ -30,7 +33,7 @@ pub struct BuiltBackend {
 
 impl Backend {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Auto, Self::Reference, Self::Cpu];
+    pub const ALL: [Self; 4] = [Self::Auto, Self::Reference, Self::Cpu, Self::Compute];
 
     /// The name as `--backend` takes it.
     pub fn name(self) -> &'static str {
@@ -38,6 +41,7 @@ impl Backend {
             Self::Auto => "auto",
             Self::Reference => "reference",
             Self::Cpu => "cpu",
+            Self::Compute => "compute",
         }
     }
 
@@ -82,6 +86,12 @@ impl Backend {
                 let reason = format!("the processor with {} instructions, as asked", cpu.variant());
                 BuiltBackend { evaluator: Box::new(cpu), reason }
             }
+            Self::Compute => {
+                let compute = Compute::new(body, cameras).map_err(|error| without_vulkan(self, &error))?;
+                let device = &compute.facts().name;
+                let reason = format!("compute on the Vulkan device {device} ({} sums), as asked", compute.variant());
+                BuiltBackend { evaluator: Box::new(compute), reason }
+            }
             Self::Auto => {
                 let cpu = Cpu::new(body, cameras)?;
                 let with = cpu.variant();
@@ -89,7 +99,16 @@ impl Backend {
                     let reason = format!("auto chose cpu, with {with} instructions: {why}");
                     return Ok(BuiltBackend { evaluator: Box::new(cpu), reason });
                 }
-                let (evaluator, reason) = fastest(vec![Box::new(cpu)], body, cameras, around)?;
+                let mut rivals: Vec<Box<dyn Evaluator>> = vec![Box::new(cpu)];
+                // Graphics is no rival: it need not give the same integers.
+                match Compute::new(body, cameras) {
+                    Ok(compute) => rivals.push(Box::new(compute)),
+                    Err(error) => {
+                        let reason = format!("auto chose cpu, with {with} instructions: compute failed ({error:#})");
+                        return Ok(BuiltBackend { evaluator: rivals.swap_remove(0), reason });
+                    }
+                }
+                let (evaluator, reason) = fastest(rivals, body, cameras, around)?;
                 let reason = format!("auto chose {}, {reason}", evaluator.name());
                 BuiltBackend { evaluator, reason }
             }
@@ -100,13 +119,25 @@ impl Backend {
         let reason = match self {
             Self::Reference => "the reference evaluator of the mesh model, as asked",
             Self::Auto => "auto chose reference: the only evaluator of this build that draws the mesh model",
-            Self::Cpu => {
-                bail!("the backend cpu draws the flat model alone, the mesh model needs graphics or reference")
+            Self::Cpu | Self::Compute => {
+                bail!(
+                    "the backend {} draws the flat model alone, the mesh model needs graphics or reference",
+                    self.name()
+                )
             }
         };
         let evaluator = Reference::of_mesh(body, mesh.clone(), cameras)?;
         Ok(BuiltBackend { evaluator: Box::new(evaluator), reason: reason.to_string() })
     }
+}
+
+/// The sentence of a backend on a device that could not be made.
+fn without_vulkan(backend: Backend, error: &anyhow::Error) -> anyhow::Error {
+    anyhow!(
+        "the backend {} cannot be used: {error:#}; a Vulkan driver (Debian: mesa-vulkan-drivers) makes it work, --backend cpu \
+         works without",
+        backend.name()
+    )
 }
 
 #[cfg(test)]
@@ -117,7 +148,7 @@ mod tests {
     #[test]
     fn an_unknown_backend_names_the_known_ones() {
         let error = Backend::from_name("cuda").unwrap_err().to_string();
-        assert_eq!(error, "there is no backend `cuda`, expected one of auto, reference, cpu");
+        assert_eq!(error, "there is no backend `cuda`, expected one of auto, reference, cpu, compute");
         for backend in Backend::ALL {
             assert_eq!(Backend::from_name(backend.name()).unwrap(), backend);
         }

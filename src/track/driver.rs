@@ -17,6 +17,7 @@ use super::truth::Truth;
 use super::{Backend, StageSummary, TrackSettings, results, run_record};
 use crate::evaluate::Components;
 use crate::files::OutputFolder;
+use crate::gpu::DeviceLost;
 use crate::motion::TrajectoryError;
 use crate::search::SearchKind;
 use crate::sequence::Sequence;
@@ -224,7 +225,7 @@ impl Run<'_> {
             self.stages.record("read", Thread::Features, frame, prepared.read)?;
             self.stages.record("features", Thread::Features, frame, prepared.features)?;
             self.stages.record("wait", Thread::Search, frame, waited)?;
-            let result = self.search(&prepared)?;
+            let result = self.search(&prepared).map_err(|error| self.how_to_go_on(frame, error))?;
             let start = Instant::now();
             if self.settings.overlay_every > 0 && frame.is_multiple_of(self.settings.overlay_every) {
                 let overlay = Overlay::new(&self.plan.body, self.plan.mesh.as_ref(), &self.sequence.cameras)?;
@@ -244,6 +245,17 @@ impl Run<'_> {
             }
         }
         Ok(())
+    }
+
+    /// What became of a frame whose device was lost, and what the user can do; other errors stay as they are.
+    fn how_to_go_on(&self, frame: usize, error: anyhow::Error) -> anyhow::Error {
+        let Some(lost) = error.downcast_ref::<DeviceLost>() else { return error };
+        anyhow!(
+            "frame {frame}: {lost}; the {} frames before it are safe in {}: run the same command with --resume to go on, or \
+             begin another folder with --backend cpu, which needs no device",
+            self.frames.len(),
+            self.output.path().display()
+        )
     }
 
     /// One frame: its search round the frame before, and the terms of the result in every view.

@@ -1,7 +1,13 @@
 //! `pantin track` from outside: the same files whatever computes them and however often it was killed, files that read
 //! back, and one sentence for everything that is wrong.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test says what went wrong by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test says what went wrong by panicking"
+)]
 
 mod evaluate;
 mod walk;
@@ -448,4 +454,77 @@ fn wrong_inputs_are_one_sentence() {
         assert!(stderr(&wrong).contains(part), "{}", stderr(&wrong));
     }
     assert!(!output.join("run.toml").exists(), "nothing is written before all is checked");
+}
+
+/// Whether there is a Vulkan device for the backends that need one; none is a failure in CI.
+fn has_vulkan(test: &str) -> bool {
+    let opened = pantin::evaluate::vulkan::open_device();
+    if let Err(error) = &opened {
+        assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
+        println!("SKIPPED {test}: {error:#}");
+    }
+    opened.is_ok()
+}
+
+#[test]
+fn compute_tracks_like_the_processor_and_survives_the_loss_of_its_device() {
+    if !has_vulkan("compute_tracks_like_the_processor_and_survives_the_loss_of_its_device") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let run = |output: &Path, passes: Option<&str>, more: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_pantin"));
+        command.args(["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap(), "--backend", "compute"]);
+        command.args(SEARCH).args(more).env("PANTIN_VALIDATION", "sync").env("XDG_CACHE_HOME", folder.path());
+        command.envs(passes.map(|passes| ("PANTIN_LOSE_DEVICE_AFTER", passes))).output().unwrap()
+    };
+    let output = folder.path().join("whole");
+    let done = run(&output, None, &[]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    assert!(stderr(&done).contains("compute on the Vulkan device"), "{}", stderr(&done));
+    let record: toml::Table = fs::read_to_string(output.join("run.toml")).unwrap().parse().unwrap();
+    assert_eq!(record["settings"]["backend"].as_str(), Some("compute"));
+    let fitness = |folder: &Path| -> Vec<f64> {
+        let text = fs::read_to_string(folder.join("confidence.csv")).unwrap();
+        text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse().unwrap()).collect()
+    };
+    // The same integers, so the same swarm but for a last place of the objective that turns a comparison.
+    for (ours, theirs) in fitness(&output).iter().zip(fitness(&whole())) {
+        assert!((ours - theirs).abs() < 0.02, "{ours} against {theirs}");
+    }
+
+    // Lost in the third frame: a frame is 6 evaluations and one of the result, of 6 passes or so each, and one upload of 5.
+    let output = folder.path().join("lost");
+    let lost = run(&output, Some("120"), &[]);
+    refused(&lost, &["was lost", "frames before it are safe in", "--resume", "--backend cpu"]);
+    let journal = fs::read_to_string(output.join("journal.txt")).unwrap();
+    let frames = journal.lines().count();
+    assert!((1..walk::FRAMES).contains(&frames) && stderr(&lost).contains(&format!("the {frames} frames")), "{frames}");
+    let other = track_with(sequence(), &output, &["--resume", "--backend", "cpu"]);
+    refused(&other, &["another backend", "compute", "cpu"]);
+    let done = run(&output, None, &["--resume"]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    same(&result_files(&output), &result_files(&folder.path().join("whole")));
+}
+
+#[test]
+fn without_vulkan_the_backend_says_what_to_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |name: &str, value: &str| {
+        Command::new(env!("CARGO_BIN_EXE_pantin"))
+            .args(["track", sequence().to_str().unwrap(), "-o", folder.path().join("track").to_str().unwrap()])
+            .args(["--backend", "compute", "--force"])
+            .env(name, value)
+            .output()
+            .unwrap()
+    };
+    // A driver file that does not exist: the loader finds no driver.
+    let failed = run("VK_ICD_FILENAMES", "/nonexistent/driver.json");
+    refused(&failed, &["the backend compute cannot be used", "mesa-vulkan-drivers", "--backend cpu works without"]);
+    if !has_vulkan("without_vulkan_the_backend_says_what_to_do") {
+        return;
+    }
+    refused(&run("PANTIN_DEVICE", "first"), &["PANTIN_DEVICE is `first`, expected a number"]);
+    refused(&run("PANTIN_DEVICE", "99"), &["no Vulkan device 99"]);
+    refused(&run("PANTIN_VALIDATION", "all"), &["PANTIN_VALIDATION is `all`, expected core or sync"]);
 }

@@ -26,7 +26,7 @@ use crate::geometry::Camera;
 
 use super::batch::{check_batch, check_observations};
 use super::rig::Rig;
-use super::{Components, Evaluator, Objective, Projector, Tiling};
+use super::{Components, Evaluator, Footprint, Objective, Projector};
 
 use front::{Front, LANES, QuadChunk};
 use kernel::Canvas;
@@ -314,8 +314,8 @@ impl Evaluator for Cpu {
         })
     }
 
-    fn tiling(&self) -> Option<Tiling> {
+    fn footprint(&self) -> Option<Footprint> {
         // A bit for what is covered and one for what is an edge.
-        Some(Tiling { tile: [planes::CELL_COLUMNS, planes::CELL_ROWS], bytes_per_pixel: 0.25 })
+        Some(Footprint { tile: [planes::CELL_COLUMNS, planes::CELL_ROWS], bytes_per_pixel: 0.25 })
     }
 }

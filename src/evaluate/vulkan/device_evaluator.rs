@@ -6,6 +6,7 @@ use crate::evaluate::Objective;
 use crate::gpu::{Buffer, Device, Recorder};
 
 /// An evaluator whose poses and fitness stay on the device, so that all iterations of a frame need no host between them.
+#[allow(dead_code, reason = "the search on the device records with it")]
 pub(crate) trait DeviceEvaluator: Send {
     /// The device it works on.
     fn device(&self) -> &Device;

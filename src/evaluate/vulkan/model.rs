@@ -51,6 +51,7 @@ pub(crate) struct DeviceModel {
     pub(crate) planes: Buffer,
     /// The packed bytes of the observations, four pixels a word, rows padded to whole words. A view's begin at its camera's
     /// `first_pixel_word`.
+    #[allow(dead_code, reason = "what hardware drawing compares with")]
     pub(crate) pixels: Buffer,
     uploads: Vec<Uploaded>,
     camera_rows: Vec<layout::Camera>,

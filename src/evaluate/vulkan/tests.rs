@@ -86,7 +86,17 @@ pub(super) fn fetch<T: bytemuck::Pod>(device: &Device, buffer: &Buffer, len: usi
 
 /// A model and a workspace with its poses on the device.
 pub(super) fn set_up(device: &Device, body: &Body, poses: &[f32]) -> (Projector, DeviceModel, Workspace, Share) {
-    let projector = Projector::new(body, &cameras());
+    set_up_with(device, body, &cameras(), poses)
+}
+
+/// The same with other cameras.
+pub(super) fn set_up_with(
+    device: &Device,
+    body: &Body,
+    cameras: &[Camera],
+    poses: &[f32],
+) -> (Projector, DeviceModel, Workspace, Share) {
+    let projector = Projector::new(body, cameras);
     let labels = body.parts.iter().map(|part| part.label).collect();
     let model = DeviceModel::new(device, &projector, labels).unwrap();
     let candidates = (poses.len() / body.dof_count()) as u32;
@@ -156,13 +166,13 @@ fn pose_and_project_give_the_reference_s_corners() {
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 
-struct Bounds {
-    low: [i32; 2],
-    high: [i32; 2],
+pub(super) struct Bounds {
+    pub(super) low: [i32; 2],
+    pub(super) high: [i32; 2],
 }
 
 /// The rounded corners of the drawn parts that meet the picture, clipped to it.
-fn bounds_of(quads: &[crate::evaluate::PartQuad], size: [i32; 2]) -> Bounds {
+pub(super) fn bounds_of(quads: &[crate::evaluate::PartQuad], size: [i32; 2]) -> Bounds {
     let mut bounds = Bounds { low: size, high: [0, 0] };
     for quad in quads.iter().filter(|quad| quad.drawn) {
         let side = |axis: usize| {

@@ -3,7 +3,7 @@
 use anyhow::{Result, ensure};
 
 use crate::evaluate::stages::layout;
-use crate::gpu::{Buffer, Device, Memory};
+use crate::gpu::{Buffer, Device, Memory, OutOfMemory};
 
 use super::Counts;
 
@@ -27,33 +27,54 @@ pub(crate) struct Workspace {
 }
 
 impl Workspace {
-    /// For runs of `candidates`, in batches as large as the device allows.
+    /// For runs of `candidates`, in batches as large as the device allows and has memory for.
     ///
     /// # Errors
     /// When not even one candidate fits.
     pub(crate) fn new(device: &Device, counts: Counts, candidates: u32) -> Result<Self> {
-        let (candidates, images) = (candidates.max(1), counts.views as usize);
-        let Counts { bones, parts, dofs, .. } = counts;
-        let world = bones as usize * 3;
-        let quads = images * parts as usize;
+        let candidates = candidates.max(1);
+        let Counts { views, bones, parts, .. } = counts;
         let limit = device.capabilities().max_storage;
-        let most = [world * size_of::<[f32; 4]>(), quads * size_of::<layout::Quad>()]
-            .iter()
-            .map(|&bytes| limit / bytes.max(1) as u64)
-            .min()
-            .unwrap_or(0)
-            .min(u64::from(device.capabilities().max_groups / counts.views.max(1)));
+        let one = [
+            u64::from(bones) * 3 * size_of::<[f32; 4]>() as u64,
+            u64::from(views) * u64::from(parts) * size_of::<layout::Quad>() as u64,
+        ];
+        let most = one.iter().map(|bytes| limit / bytes.max(&1)).min().unwrap_or(0);
+        let most = most.min(u64::from(device.capabilities().max_groups / views.max(1)));
         ensure!(most > 0, "not even one candidate fits the {limit} bytes that this device binds at once");
-        let batch = u64::from(candidates).min(most) as u32;
-        let one = batch as usize;
+        let available = device.memory_available();
+        // The recordings to come want an eighth.
+        let fitting = (available - available / 8).saturating_sub(Self::bytes(counts, candidates, 0))
+            / Self::bytes(counts, 0, 1).max(1);
+        let mut batch = u64::from(candidates).min(most).min(fitting.max(1)) as u32;
+        loop {
+            match Self::with_batch(device, counts, candidates, batch) {
+                Err(error) if batch > 1 && error.is::<OutOfMemory>() => batch = batch.div_ceil(2),
+                done => return done,
+            }
+        }
+    }
+
+    /// Bytes for a run and a batch of so many candidates.
+    fn bytes(counts: Counts, candidates: u32, batch: u32) -> u64 {
+        let Counts { views, bones, parts, dofs } = counts;
+        let run = dofs as usize * size_of::<f32>() + views as usize * size_of::<layout::Sums>();
+        let image = parts as usize * size_of::<layout::Quad>() + size_of::<layout::Bounds>();
+        let one = bones as usize * 3 * size_of::<[f32; 4]>() + views as usize * image;
+        u64::from(candidates) * run as u64 + u64::from(batch) * one as u64
+    }
+
+    fn with_batch(device: &Device, counts: Counts, candidates: u32, batch: u32) -> Result<Self> {
+        let Counts { views, bones, parts, dofs } = counts;
+        let (run, images) = (candidates as usize, batch as usize * views as usize);
         Ok(Self {
             candidates,
             batch,
-            poses: device.buffer::<f32>("poses", candidates as usize * dofs as usize, Memory::Device)?,
-            world: device.buffer::<[f32; 4]>("world", one * world, Memory::Device)?,
-            quads: device.buffer::<layout::Quad>("quads", one * quads, Memory::Device)?,
-            bounds: device.buffer::<layout::Bounds>("bounds", one * images, Memory::Device)?,
-            sums: device.buffer::<[u32; 4]>("sums", candidates as usize * images, Memory::Device)?,
+            poses: device.buffer::<f32>("poses", run * dofs as usize, Memory::Device)?,
+            world: device.buffer::<[f32; 4]>("world", batch as usize * bones as usize * 3, Memory::Device)?,
+            quads: device.buffer::<layout::Quad>("quads", images * parts as usize, Memory::Device)?,
+            bounds: device.buffer::<layout::Bounds>("bounds", images, Memory::Device)?,
+            sums: device.buffer::<layout::Sums>("sums", run * views as usize, Memory::Device)?,
         })
     }
 }

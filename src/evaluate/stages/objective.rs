@@ -1,0 +1,64 @@
+//! Components to fitness (SPEC A7).
+
+use anyhow::Result;
+
+use crate::evaluate::vulkan::{DeviceModel, Workspace};
+use crate::evaluate::{Objective, ObjectiveKind};
+use crate::gpu::{Buffer, Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+
+use super::generated::{
+    OBJECTIVE_AOSP, OBJECTIVE_AOWS, OBJECTIVE_GROUP, OBJECTIVE_POSP, OBJECTIVE_SP, OBJECTIVE_WS, objective_comp,
+};
+
+/// The stage.
+#[derive(Debug)]
+pub(crate) struct ObjectiveStage {
+    pipeline: Pipeline,
+}
+
+impl ObjectiveStage {
+    /// Its name in timings.
+    pub(crate) const NAME: &'static str = "objective";
+
+    /// Compiles it.
+    pub(crate) fn new(device: &Device) -> Result<Self> {
+        Ok(Self { pipeline: device.compute_pipeline(Stage { shader: &objective_comp::SHADER, constants: &[] })? })
+    }
+
+    /// Records it for the first `candidates` of the run, in one go however many batches they took: `workspace.sums` to
+    /// `fitness`, single precision, one a candidate.
+    pub(crate) fn record(
+        &self,
+        recorder: &mut Recorder,
+        model: &DeviceModel,
+        workspace: &Workspace,
+        objective: &Objective,
+        candidates: u32,
+        fitness: &Buffer,
+    ) -> Result<()> {
+        let push = objective_comp::Push {
+            candidates,
+            views: model.counts.views,
+            kind: match objective.kind {
+                ObjectiveKind::Ws => OBJECTIVE_WS,
+                ObjectiveKind::Sp => OBJECTIVE_SP,
+                ObjectiveKind::Aows => OBJECTIVE_AOWS,
+                ObjectiveKind::Aosp => OBJECTIVE_AOSP,
+                ObjectiveKind::Posp => OBJECTIVE_POSP,
+            },
+            beta: objective.beta,
+            w1: objective.w1,
+            w2: objective.w2,
+        };
+        recorder.compute(
+            Self::NAME,
+            &[Dispatch {
+                pipeline: &self.pipeline,
+                bindings: &objective_comp::Bindings { cameras: &model.cameras, all_sums: &workspace.sums, fitness }
+                    .bound(),
+                push: bytemuck::bytes_of(&push),
+                groups: Groups::Count([candidates.div_ceil(OBJECTIVE_GROUP), 1, 1]),
+            }],
+        )
+    }
+}

@@ -1,0 +1,96 @@
+//! Drawing and comparison without any framebuffer, in the reference's integers (docs/RASTER.md, SPEC A6).
+
+use anyhow::Result;
+
+use crate::evaluate::vulkan::{DeviceModel, Workspace};
+use crate::gpu::{Buffer, Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+
+use super::Share;
+use super::generated::{RASTER_GROUP, raster_comp, raster_shared_comp};
+
+/// The stage.
+#[derive(Debug)]
+pub(crate) struct RasterStage {
+    /// For all images of a batch.
+    all: Pipeline,
+    /// For the images of a list.
+    listed: Pipeline,
+    has_subgroups: bool,
+}
+
+impl RasterStage {
+    /// Its name in timings.
+    pub(crate) const NAME: &'static str = "raster";
+
+    /// Columns and rows that a workgroup works on at once: two words of bits a row, a row an invocation.
+    pub(crate) const TILE: [u32; 2] = [64, RASTER_GROUP];
+
+    /// Compiles it, with sums over subgroups where the device has them.
+    pub(crate) fn new(device: &Device) -> Result<Self> {
+        let has_subgroups = device.capabilities().subgroup_arithmetic;
+        let shader = if has_subgroups { &raster_comp::SHADER } else { &raster_shared_comp::SHADER };
+        let compile = |listed: u32| device.compute_pipeline(Stage { shader, constants: &[(0, listed)] });
+        Ok(Self { all: compile(0)?, listed: compile(1)?, has_subgroups })
+    }
+
+    /// `subgroup` or `shared`: how it sums.
+    pub(crate) fn variant(&self) -> &'static str {
+        if self.has_subgroups { "subgroup" } else { "shared" }
+    }
+
+    /// Records it: `workspace.quads` and `bounds` to `workspace.sums`.
+    pub(crate) fn record(
+        &self,
+        recorder: &mut Recorder,
+        model: &DeviceModel,
+        workspace: &Workspace,
+        share: Share,
+    ) -> Result<()> {
+        let images = share.candidates * model.counts.views;
+        // The list is not read.
+        self.dispatch(recorder, &self.all, (model, workspace, share), &model.cameras, Groups::Count([images, 1, 1]))
+    }
+
+    /// Records it for some images of the share alone: `list` holds how many there are, 1, 1, and their numbers,
+    /// (candidate - first) * views + view.
+    #[allow(dead_code, reason = "hardware drawing gives it what overflows its tile")]
+    pub(crate) fn record_listed(
+        &self,
+        recorder: &mut Recorder,
+        model: &DeviceModel,
+        workspace: &Workspace,
+        share: Share,
+        list: &Buffer,
+    ) -> Result<()> {
+        self.dispatch(recorder, &self.listed, (model, workspace, share), list, Groups::Indirect(list, 0))
+    }
+
+    fn dispatch(
+        &self,
+        recorder: &mut Recorder,
+        pipeline: &Pipeline,
+        (model, workspace, share): (&DeviceModel, &Workspace, Share),
+        list: &Buffer,
+        groups: Groups<'_>,
+    ) -> Result<()> {
+        let push: raster_comp::Push = model.batch(share);
+        // Both variants have the same bindings.
+        recorder.compute(
+            Self::NAME,
+            &[Dispatch {
+                pipeline,
+                bindings: &raster_comp::Bindings {
+                    cameras: &model.cameras,
+                    quads: &workspace.quads,
+                    all_bounds: &workspace.bounds,
+                    planes: &model.planes,
+                    list,
+                    all_sums: &workspace.sums,
+                }
+                .bound(),
+                push: bytemuck::bytes_of(&push),
+                groups,
+            }],
+        )
+    }
+}
