@@ -14,6 +14,30 @@ use pantin::evaluate::{Components, Evaluator, Objective};
 use pantin::features::Observation;
 use pantin::gpu::{Timing, by_name};
 
+/// Prints the time of a batch by its size: a candidate should cost the same in any.
+fn scaling(threads: usize) {
+    let Scene { body, cameras, observations, pose } = Scene::new([480, 270], 150.0).unwrap();
+    let mut cpu = Cpu::with(&body, &cameras, InstructionSet::best(), threads).unwrap();
+    let poses = swarm(&body, &pose, 1024);
+    cpu.observe(&observations).unwrap();
+    let mut sizes = [128, 256, 512, 1024].map(|count| (count, Vec::new()));
+    let mut fitness = vec![0.0; 1024];
+    for _ in 0..160 {
+        for (count, ms) in &mut sizes {
+            let start = Instant::now();
+            cpu.fitness(&poses[..*count * body.dof_count()], &Objective::default(), &mut fitness[..*count]).unwrap();
+            ms.push(start.elapsed().as_secs_f64() * 1e3);
+        }
+    }
+    println!("scaling: {} on A by candidates, {threads} threads", InstructionSet::best().name());
+    println!("{:>10} {:>9} {:>9} {:>10}", "candidates", "ms", "min", "us/image");
+    for (count, ms) in &mut sizes {
+        ms.sort_by(f64::total_cmp);
+        let median = ms[ms.len() / 2];
+        println!("{count:10} {median:9.3} {:9.3} {:10.3}", ms[0], median * 1e3 / (*count * cameras.len()) as f64);
+    }
+}
+
 /// Prints what each stage on the device takes, of the second of two evaluations.
 fn stages(compute: &mut Compute, poses: &[f32], fitness: &mut [f32]) {
     compute.time_stages(Timing::Stamps);
@@ -39,6 +63,9 @@ fn main() {
     let measuring = std::env::args().any(|argument| argument == "--bench");
     let count = if measuring { 512 } else { 32 };
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    if measuring && (filter.is_empty() || filter.iter().any(|word| "scaling".contains(word.as_str()))) {
+        scaling(threads);
+    }
     for (title, size, person) in [("A", [480, 270], 150.0), ("B", [640, 480], 280.0)] {
         let Scene { body, cameras, observations: seen, pose } = Scene::new(size, person).unwrap();
         let poses = swarm(&body, &pose, count);

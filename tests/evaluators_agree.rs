@@ -10,7 +10,7 @@ use pantin::evaluate::cpu::{Cpu, InstructionSet};
 use pantin::evaluate::{Evaluator as _, Objective, ObjectiveKind, Reference};
 use pantin::features::Observation;
 use pantin::geometry::Camera;
-use scene::{Random, cameras, evaluate, first_difference, observations, poses, reference_in_parallel};
+use scene::{Random, brown, camera, cameras, evaluate, first_difference, observations, poses, reference_in_parallel};
 
 #[test]
 fn ten_thousand_poses_give_identical_integers() {
@@ -60,6 +60,29 @@ fn a_changed_pixel_or_vertex_is_caught() {
     bent.parts[3].b.x += 15.0;
     let mut cpu = Cpu::new(&bent, &cameras).unwrap();
     assert!(first_difference(4, &expected, &evaluate(&mut cpu, &seen, &poses)).is_some(), "a moved vertex passed");
+}
+
+/// Pictures far larger than a cell, in which a limb is hundreds of pixels long: too long for single precision, and of more
+/// rows than the first bits hold.
+#[test]
+fn large_pictures_agree() {
+    let body = Body::adult(1750.0).unwrap();
+    let (size, target) = ([2051, 1211], DVec3::new(0.0, 0.0, 900.0));
+    let cameras = [(1400.0, 900.0), (5000.0, 2500.0)].map(|(distance, focal)| {
+        let lens = brown(focal, size, [-0.05, 0.01, 0.0], [1e-4, -1e-4]);
+        camera("large", size, DVec3::new(distance, 500.0, 1300.0), target, lens)
+    });
+    let mut random = Random(12);
+    let seen = observations(&cameras, &mut random);
+    let mut poses = poses(&body, 12, &mut random);
+    poses.extend(body.standing_pose().iter().map(|value| *value as f32));
+    let expected = evaluate(&mut Reference::new(&body, &cameras), &seen, &poses);
+    let standing = &expected[expected.len() - 2..];
+    assert!(standing.iter().all(|sums| sums.area_model > 100_000), "{standing:?}");
+    for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+        let found = evaluate(&mut Cpu::with(&body, &cameras, set, 2).unwrap(), &seen, &poses);
+        assert_eq!(first_difference(2, &expected, &found), None, "{}", set.name());
+    }
 }
 
 /// A limb straight along the optical axis, parts of equal depth, and a body of more parts than fit one register.

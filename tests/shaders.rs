@@ -445,8 +445,11 @@ fn spirv_val_accepts_every_stage() {
             let words = compile::compile(&root, name).unwrap().spirv;
             let binary = output.path().join("stage.spv");
             std::fs::write(&binary, words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>()).unwrap();
-            let checked =
-                std::process::Command::new("spirv-val").args(["--target-env", "vulkan1.1"]).arg(&binary).output().unwrap();
+            let checked = std::process::Command::new("spirv-val")
+                .args(["--target-env", "vulkan1.1"])
+                .arg(&binary)
+                .output()
+                .unwrap();
             assert!(checked.status.success(), "{name}: {}", String::from_utf8_lossy(&checked.stderr));
             count += 1;
         }

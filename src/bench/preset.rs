@@ -1,6 +1,6 @@
 //! What is measured, and the measuring.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 
@@ -15,6 +15,8 @@ use crate::evaluate::{Evaluator, Objective};
 const TOLERANCE: f32 = 1e-3;
 /// Candidates whose fitness is compared.
 const COMPARED: usize = 24;
+/// An evaluator that would take longer for a round is measured on those few candidates, in the quick preset.
+const PATIENCE: Duration = Duration::from_secs(1);
 /// Rounds that stages are measured in, after the others.
 const STAGE_ROUNDS: usize = 5;
 
@@ -104,7 +106,7 @@ pub fn run(preset: Preset, begin: &mut dyn FnMut(&str)) -> Result<BenchReport> {
         let Contestants { present, missing } = Contestants::new(task.model, &scene, &device)?;
         let unheard = missing.into_iter().filter(|missing| !report.unavailable.contains(missing)).collect::<Vec<_>>();
         report.unavailable.extend(unheard);
-        measure(&task, &scene, present, preset.share(), &mut report);
+        measure(preset, &task, &scene, present, &mut report);
     }
     Ok(report)
 }
@@ -134,30 +136,37 @@ fn measure(task: &Task, scene: &Scene, evaluators: Vec<Box<dyn Evaluator>>, shar
         let mut fitness = vec![0.0; task.particles];
         // A few candidates tell: the first evaluator is a slow one.
         let few = task.particles.min(COMPARED);
+        let start = Instant::now();
         let found = evaluator.fitness(&poses[..few * scene.pose.len()], &objective, &mut fitness[..few]);
+        let is_slow = start.elapsed() * (task.particles / few) as u32 > PATIENCE;
         let checked = found.and_then(|()| {
             let (name, expected) = expected.get_or_insert_with(|| (evaluator.name(), fitness[..few].to_vec()));
             agree(name, expected, &fitness[..few])
         });
         match checked {
-            Ok(()) => entries.push(Entry { evaluator, fitness }),
+            Ok(()) => {
+                if is_slow && preset == Preset::Quick {
+                    fitness.truncate(few);
+                }
+                entries.push(Entry { evaluator, fitness });
+            }
             Err(error) => report.unavailable.push(refusal(task, evaluator.as_ref(), &error)),
         }
     }
     let mut rounds: Vec<Round<'_>> = entries
         .iter_mut()
         .map(|entry| {
-            let poses = &poses;
+            let poses = &poses[..entry.fitness.len() * scene.pose.len()];
             let run = move || entry.evaluator.fitness(poses, &objective, &mut entry.fitness);
             Box::new(run) as Round<'_>
         })
         .collect();
-    let times = interleaved(&mut rounds, 200, share);
+    let times = interleaved(&mut rounds, 200, preset.share());
     drop(rounds);
     for (mut entry, times) in entries.into_iter().zip(times) {
-        let done = times.and_then(|times| Ok((times, stages(&mut entry, &poses, &objective)?)));
+        let done = times.and_then(|times| Ok((times, stages(&mut entry, &poses, scene, &objective)?)));
         match done {
-            Ok((times, stages)) => report.rows.push(row(task, scene, entry.evaluator.as_ref(), times, stages)),
+            Ok((times, stages)) => report.rows.push(row(task, scene, &entry, times, stages)),
             Err(error) => report.unavailable.push(refusal(task, entry.evaluator.as_ref(), &error)),
         }
     }
@@ -183,7 +192,8 @@ fn refusal(task: &Task, evaluator: &dyn Evaluator, error: &anyhow::Error) -> Mis
 }
 
 /// Medians of the times of an evaluator's passes by name, from rounds of their own: measuring passes takes time itself.
-fn stages(entry: &mut Entry, poses: &[f32], objective: &Objective) -> Result<Vec<(String, f64)>> {
+fn stages(entry: &mut Entry, poses: &[f32], scene: &Scene, objective: &Objective) -> Result<Vec<(String, f64)>> {
+    let poses = &poses[..entry.fitness.len() * scene.pose.len()];
     entry.evaluator.measure_passes(true)?;
     let mut rounds: Vec<Vec<(String, f64)>> = Vec::new();
     for _ in 0..STAGE_ROUNDS {
@@ -211,16 +221,17 @@ fn stages(entry: &mut Entry, poses: &[f32], objective: &Objective) -> Result<Vec
     Ok(first.iter().enumerate().map(|(place, (name, _))| (name.clone(), median(place))).collect())
 }
 
-fn row(task: &Task, scene: &Scene, evaluator: &dyn Evaluator, times: Times, stages: Vec<(String, f64)>) -> Row {
+fn row(task: &Task, scene: &Scene, entry: &Entry, times: Times, stages: Vec<(String, f64)>) -> Row {
+    let (evaluator, particles) = (entry.evaluator.as_ref(), entry.fitness.len());
     let [width, height] = task.size;
     let footprint = evaluator.footprint();
-    let poses_per_s = task.particles as f64 / times.median * 1e3;
+    let poses_per_s = particles as f64 / times.median * 1e3;
     let images_per_s = poses_per_s * scene.cameras.len() as f64;
     Row {
         backend: evaluator.name().to_string(),
         variant: evaluator.variant().to_string(),
         model: task.model.name(),
-        particles: task.particles,
+        particles,
         views: scene.cameras.len(),
         width,
         height,
@@ -276,7 +287,7 @@ mod tests {
         all.present.last_mut().unwrap().observe(&blind).unwrap();
         let expected = all.present.len() - 1;
         let mut report = empty(Preset::Quick);
-        measure(&task, &scene, all.present, Duration::ZERO, &mut report);
+        measure(Preset::Quick, &task, &scene, all.present, &mut report);
         assert_eq!((report.rows.len(), report.unavailable.len()), (expected, 1), "{:?}", report.unavailable);
         assert!(report.unavailable[0].reason.contains("from that of reference"), "{:?}", report.unavailable);
         let row = &report.rows[0];

@@ -163,7 +163,7 @@ pub(crate) fn transform(m: &Affine, p: [f32; 3]) -> [f32; 3] {
 }
 
 /// A camera in single precision.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct RigCamera {
     /// Camera from world.
     pub(crate) camera_from_world: Affine,

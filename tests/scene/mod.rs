@@ -20,7 +20,7 @@ impl Random {
     }
 }
 
-fn camera(name: &str, size: [u32; 2], eye: DVec3, target: DVec3, lens: Lens) -> Camera {
+pub fn camera(name: &str, size: [u32; 2], eye: DVec3, target: DVec3, lens: Lens) -> Camera {
     let forward = (target - eye).normalize();
     let right = forward.cross(DVec3::Z).normalize();
     let down = forward.cross(right);
@@ -29,7 +29,7 @@ fn camera(name: &str, size: [u32; 2], eye: DVec3, target: DVec3, lens: Lens) -> 
     Camera { name: name.into(), size, camera_from_world, lens }
 }
 
-fn brown(focal: f64, size: [u32; 2], radial: [f64; 3], tangential: [f64; 2]) -> Lens {
+pub fn brown(focal: f64, size: [u32; 2], radial: [f64; 3], tangential: [f64; 2]) -> Lens {
     let centre = DVec2::new(f64::from(size[0]), f64::from(size[1])) / 2.0;
     Lens::BrownConrady(BrownConrady { focal: DVec2::splat(focal), centre, radial, tangential })
 }

@@ -34,6 +34,7 @@ macro_rules! with_token {
 type Pair = [__m256i; 2];
 
 impl Simd for Avx2 {
+    const SKIPS_EDGES: bool = true;
     type Words = Pair;
     type Rows = [__m256d; 4];
     type ShortRows = [__m256; 2];
@@ -68,10 +69,6 @@ impl Simd for Avx2 {
         with_token!([_mm256_andnot_si256(b[0], a[0]), _mm256_andnot_si256(b[1], a[1])])
     }
     #[inline(always)]
-    fn sub(self, a: Pair, b: Pair) -> Pair {
-        with_token!([_mm256_sub_epi32(a[0], b[0]), _mm256_sub_epi32(a[1], b[1])])
-    }
-    #[inline(always)]
     fn min(self, a: Pair, b: Pair) -> Pair {
         with_token!([_mm256_min_epi32(a[0], b[0]), _mm256_min_epi32(a[1], b[1])])
     }
@@ -80,18 +77,74 @@ impl Simd for Avx2 {
         with_token!([_mm256_max_epi32(a[0], b[0]), _mm256_max_epi32(a[1], b[1])])
     }
     #[inline(always)]
-    fn shift_left(self, value: Pair, count: Pair) -> Pair {
-        with_token!([_mm256_sllv_epi32(value[0], count[0]), _mm256_sllv_epi32(value[1], count[1])])
+    fn sub_to_zero(self, a: Pair, b: Pair) -> Pair {
+        with_token!([_mm256_subs_epu16(a[0], b[0]), _mm256_subs_epu16(a[1], b[1])])
     }
     #[inline(always)]
-    fn below(self, a: Pair, b: Pair) -> Pair {
-        // a < b exactly where the smaller of a and b is not b.
+    fn ones_from(self, count: Pair) -> Pair {
         with_token!({
             let ones = _mm256_set1_epi32(-1);
+            [_mm256_sllv_epi32(ones, count[0]), _mm256_sllv_epi32(ones, count[1])]
+        })
+    }
+    #[inline(always)]
+    fn shift_left(self, words: Pair, count: u32) -> Pair {
+        with_token!({
+            let count = _mm_cvtsi32_si128(count as i32);
+            [_mm256_sll_epi32(words[0], count), _mm256_sll_epi32(words[1], count)]
+        })
+    }
+    #[inline(always)]
+    fn shift_right(self, words: Pair, count: u32) -> Pair {
+        with_token!({
+            let count = _mm_cvtsi32_si128(count as i32);
+            [_mm256_srl_epi32(words[0], count), _mm256_srl_epi32(words[1], count)]
+        })
+    }
+    #[inline(always)]
+    fn mask(self, bits: u64) -> Pair {
+        with_token!({
+            let bits = _mm256_set1_epi32(bits as i32);
+            let low = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+            let high = _mm256_setr_epi32(256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
             [
-                _mm256_xor_si256(_mm256_cmpeq_epi32(_mm256_min_epu32(a[0], b[0]), b[0]), ones),
-                _mm256_xor_si256(_mm256_cmpeq_epi32(_mm256_min_epu32(a[1], b[1]), b[1]), ones),
+                _mm256_cmpeq_epi32(_mm256_and_si256(bits, low), low),
+                _mm256_cmpeq_epi32(_mm256_and_si256(bits, high), high),
             ]
+        })
+    }
+    #[inline(always)]
+    fn add_where(self, mask: Pair, a: Pair, b: Pair, c: Pair) -> Pair {
+        self.or(a, self.and(mask, self.and_not(b, c)))
+    }
+    #[inline(always)]
+    fn first_rows(self) -> ([__m256d; 4], [__m256; 2]) {
+        with_token!((
+            [
+                _mm256_setr_pd(0.0, 1.0, 2.0, 3.0),
+                _mm256_setr_pd(4.0, 5.0, 6.0, 7.0),
+                _mm256_setr_pd(8.0, 9.0, 10.0, 11.0),
+                _mm256_setr_pd(12.0, 13.0, 14.0, 15.0),
+            ],
+            [
+                _mm256_setr_ps(0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0),
+                _mm256_setr_ps(8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0),
+            ],
+        ))
+    }
+    #[inline(always)]
+    fn next_rows(self, (rows, short): ([__m256d; 4], [__m256; 2])) -> ([__m256d; 4], [__m256; 2]) {
+        with_token!({
+            let (double, single) = (_mm256_set1_pd(16.0), _mm256_set1_ps(16.0));
+            (
+                [
+                    _mm256_add_pd(rows[0], double),
+                    _mm256_add_pd(rows[1], double),
+                    _mm256_add_pd(rows[2], double),
+                    _mm256_add_pd(rows[3], double),
+                ],
+                [_mm256_add_ps(short[0], single), _mm256_add_ps(short[1], single)],
+            )
         })
     }
     #[inline(always)]
@@ -109,38 +162,11 @@ impl Simd for Avx2 {
         ])
     }
     #[inline(always)]
-    fn bit(self, mask: Pair, count: Pair) -> Pair {
-        // A mask is all ones, that is -1, where it holds.
-        with_token!([
-            _mm256_sllv_epi32(_mm256_srli_epi32::<31>(mask[0]), count[0]),
-            _mm256_sllv_epi32(_mm256_srli_epi32::<31>(mask[1]), count[1]),
-        ])
-    }
-    #[inline(always)]
     fn is_zero(self, words: Pair) -> bool {
         with_token!({
             let any = _mm256_or_si256(words[0], words[1]);
             _mm256_testz_si256(any, any)
         }) != 0
-    }
-    #[inline(always)]
-    fn row_words(self, first: u32) -> Pair {
-        with_token!({
-            let low = _mm256_add_epi32(_mm256_set1_epi32(first as i32), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-            [low, _mm256_add_epi32(low, _mm256_set1_epi32(8))]
-        })
-    }
-    #[inline(always)]
-    fn rows(self, first: u32) -> [__m256d; 4] {
-        with_token!({
-            let low = _mm256_add_pd(_mm256_set1_pd(f64::from(first)), _mm256_setr_pd(0.0, 1.0, 2.0, 3.0));
-            [
-                low,
-                _mm256_add_pd(low, _mm256_set1_pd(4.0)),
-                _mm256_add_pd(low, _mm256_set1_pd(8.0)),
-                _mm256_add_pd(low, _mm256_set1_pd(12.0)),
-            ]
-        })
     }
     #[inline(always)]
     fn line(self, rows: [__m256d; 4], slope: f64, offset: f64) -> Pair {
@@ -154,11 +180,6 @@ impl Simd for Avx2 {
         })
     }
     #[inline(always)]
-    fn short_rows(self, first: u32) -> [__m256; 2] {
-        let [low, high] = self.row_words(first);
-        with_token!([_mm256_cvtepi32_ps(low), _mm256_cvtepi32_ps(high)])
-    }
-    #[inline(always)]
     fn short_line(self, rows: [__m256; 2], slope: f32, offset: f32) -> Pair {
         with_token!({
             let (slope, offset) = (_mm256_set1_ps(slope), _mm256_set1_ps(offset));
@@ -166,6 +187,26 @@ impl Simd for Avx2 {
                 _mm256_cvttps_epi32(_mm256_floor_ps(_mm256_fmadd_ps(slope, rows[0], offset))),
                 _mm256_cvttps_epi32(_mm256_floor_ps(_mm256_fmadd_ps(slope, rows[1], offset))),
             ]
+        })
+    }
+    #[inline(always)]
+    fn least(self, values: &[i32; 16]) -> i32 {
+        with_token!({
+            let first = values.as_ptr();
+            let eight = _mm256_min_epi32(_mm256_loadu_si256(first.cast()), _mm256_loadu_si256(first.add(8).cast()));
+            let four = _mm_min_epi32(_mm256_castsi256_si128(eight), _mm256_extracti128_si256::<1>(eight));
+            let two = _mm_min_epi32(four, _mm_shuffle_epi32::<0b1110>(four));
+            _mm_cvtsi128_si32(_mm_min_epi32(two, _mm_shuffle_epi32::<0b01>(two)))
+        })
+    }
+    #[inline(always)]
+    fn most(self, values: &[i32; 16]) -> i32 {
+        with_token!({
+            let first = values.as_ptr();
+            let eight = _mm256_max_epi32(_mm256_loadu_si256(first.cast()), _mm256_loadu_si256(first.add(8).cast()));
+            let four = _mm_max_epi32(_mm256_castsi256_si128(eight), _mm256_extracti128_si256::<1>(eight));
+            let two = _mm_max_epi32(four, _mm_shuffle_epi32::<0b1110>(four));
+            _mm_cvtsi128_si32(_mm_max_epi32(two, _mm_shuffle_epi32::<0b01>(two)))
         })
     }
     #[inline(always)]

@@ -37,6 +37,7 @@ macro_rules! with_token {
 }
 
 impl Simd for Avx512 {
+    const SKIPS_EDGES: bool = false;
     type Words = __m512i;
     type Rows = (__m512d, __m512d);
     type ShortRows = __m512;
@@ -68,10 +69,6 @@ impl Simd for Avx512 {
         with_token!(_mm512_andnot_si512(b, a))
     }
     #[inline(always)]
-    fn sub(self, a: __m512i, b: __m512i) -> __m512i {
-        with_token!(_mm512_sub_epi32(a, b))
-    }
-    #[inline(always)]
     fn min(self, a: __m512i, b: __m512i) -> __m512i {
         with_token!(_mm512_min_epi32(a, b))
     }
@@ -80,12 +77,46 @@ impl Simd for Avx512 {
         with_token!(_mm512_max_epi32(a, b))
     }
     #[inline(always)]
-    fn shift_left(self, value: __m512i, count: __m512i) -> __m512i {
-        with_token!(_mm512_sllv_epi32(value, count))
+    fn sub_to_zero(self, a: __m512i, b: __m512i) -> __m512i {
+        with_token!(_mm512_subs_epu16(a, b))
     }
     #[inline(always)]
-    fn below(self, a: __m512i, b: __m512i) -> __mmask16 {
-        with_token!(_mm512_cmplt_epu32_mask(a, b))
+    fn ones_from(self, count: __m512i) -> __m512i {
+        with_token!(_mm512_sllv_epi32(_mm512_set1_epi32(-1), count))
+    }
+    #[inline(always)]
+    fn shift_left(self, words: __m512i, count: u32) -> __m512i {
+        with_token!(_mm512_sll_epi32(words, _mm_cvtsi32_si128(count as i32)))
+    }
+    #[inline(always)]
+    fn shift_right(self, words: __m512i, count: u32) -> __m512i {
+        with_token!(_mm512_srl_epi32(words, _mm_cvtsi32_si128(count as i32)))
+    }
+    #[inline(always)]
+    fn mask(self, bits: u64) -> __mmask16 {
+        bits as __mmask16
+    }
+    #[inline(always)]
+    fn add_where(self, mask: __mmask16, a: __m512i, b: __m512i, c: __m512i) -> __m512i {
+        // The table of a | (b & !c), indexed by the bits of a, b and c.
+        with_token!(_mm512_mask_ternarylogic_epi32::<0b1111_0100>(a, mask, b, c))
+    }
+    #[inline(always)]
+    fn first_rows(self) -> ((__m512d, __m512d), __m512) {
+        with_token!((
+            (
+                _mm512_setr_pd(0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0),
+                _mm512_setr_pd(8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0),
+            ),
+            _mm512_setr_ps(0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0),
+        ))
+    }
+    #[inline(always)]
+    fn next_rows(self, ((low, high), short): ((__m512d, __m512d), __m512)) -> ((__m512d, __m512d), __m512) {
+        with_token!({
+            let sixteen = _mm512_set1_pd(16.0);
+            ((_mm512_add_pd(low, sixteen), _mm512_add_pd(high, sixteen)), _mm512_add_ps(short, _mm512_set1_ps(16.0)))
+        })
     }
     #[inline(always)]
     fn min_where(self, mask: __mmask16, a: __m512i, b: __m512i) -> __m512i {
@@ -96,27 +127,8 @@ impl Simd for Avx512 {
         with_token!(_mm512_mask_max_epi32(a, mask, a, b))
     }
     #[inline(always)]
-    fn bit(self, mask: __mmask16, count: __m512i) -> __m512i {
-        with_token!(_mm512_maskz_sllv_epi32(mask, _mm512_set1_epi32(1), count))
-    }
-    #[inline(always)]
     fn is_zero(self, words: __m512i) -> bool {
         with_token!(_mm512_test_epi32_mask(words, words)) == 0
-    }
-    #[inline(always)]
-    fn row_words(self, first: u32) -> __m512i {
-        with_token!(_mm512_add_epi32(
-            _mm512_set1_epi32(first as i32),
-            _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
-        ))
-    }
-    #[inline(always)]
-    fn rows(self, first: u32) -> (__m512d, __m512d) {
-        with_token!({
-            let low =
-                _mm512_add_pd(_mm512_set1_pd(f64::from(first)), _mm512_setr_pd(0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0));
-            (low, _mm512_add_pd(low, _mm512_set1_pd(8.0)))
-        })
     }
     #[inline(always)]
     fn line(self, (low, high): (__m512d, __m512d), slope: f64, offset: f64) -> __m512i {
@@ -129,10 +141,6 @@ impl Simd for Avx512 {
         })
     }
     #[inline(always)]
-    fn short_rows(self, first: u32) -> __m512 {
-        with_token!(_mm512_cvtepi32_ps(self.row_words(first)))
-    }
-    #[inline(always)]
     fn short_line(self, rows: __m512, slope: f32, offset: f32) -> __m512i {
         const DOWN: i32 = _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC;
         with_token!(_mm512_cvt_roundps_epi32::<DOWN>(_mm512_fmadd_ps(
@@ -140,6 +148,14 @@ impl Simd for Avx512 {
             rows,
             _mm512_set1_ps(offset)
         )))
+    }
+    #[inline(always)]
+    fn least(self, values: &[i32; 16]) -> i32 {
+        with_token!(_mm512_reduce_min_epi32(_mm512_loadu_si512(values.as_ptr().cast())))
+    }
+    #[inline(always)]
+    fn most(self, values: &[i32; 16]) -> i32 {
+        with_token!(_mm512_reduce_max_epi32(_mm512_loadu_si512(values.as_ptr().cast())))
     }
     #[inline(always)]
     fn no_bits(self) -> __m512i {

@@ -5,8 +5,8 @@
 #![allow(clippy::needless_range_loop, reason = "loops over lanes say so, and several rows share the index")]
 
 use crate::evaluate::rig::{
-    Rig, RigBone, RigCamera, compose, depth_squared, end_on_corners, local_matrix, side_corners, sin_cos, snap,
-    transform,
+    Rig, RigBone, RigCamera, RigLens, compose, depth_squared, end_on_corners, local_matrix, side_corners, sin_cos,
+    snap, transform,
 };
 
 /// Lanes of the front end.
@@ -23,13 +23,13 @@ pub(super) struct QuadChunk {
     pub(super) y: [[i32; LANES]; 4],
     /// Squared distance of the part.
     pub(super) depth_squared: Row,
-    /// Whether every corner has an image.
-    pub(super) drawn: [bool; LANES],
+    /// 1 where every corner has an image, else 0.
+    pub(super) drawn: [u32; LANES],
 }
 
 impl Default for QuadChunk {
     fn default() -> Self {
-        Self { x: [[0; LANES]; 4], y: [[0; LANES]; 4], depth_squared: [0.0; LANES], drawn: [false; LANES] }
+        Self { x: [[0; LANES]; 4], y: [[0; LANES]; 4], depth_squared: [0.0; LANES], drawn: [0; LANES] }
     }
 }
 
@@ -154,46 +154,63 @@ impl Front {
     /// Projects the parts of one posed candidate into a camera: one quad chunk for every sixteen parts.
     #[inline(always)]
     pub(super) fn project(&mut self, camera: &RigCamera, candidate: usize, quads: &mut [QuadChunk]) {
+        // Each kind of lens as a constant, so that the loops over lanes do not choose between them.
+        match camera.lens {
+            RigLens::Tsai { kappa, focal, centre } => {
+                let lens = RigLens::Tsai { kappa, focal, centre };
+                self.project_through(&RigCamera { lens, ..*camera }, candidate, quads);
+            }
+            RigLens::BrownConrady { focal, centre, radial, tangential, max_radius_squared } => {
+                let lens = RigLens::BrownConrady { focal, centre, radial, tangential, max_radius_squared };
+                self.project_through(&RigCamera { lens, ..*camera }, candidate, quads);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn project_through(&mut self, camera: &RigCamera, candidate: usize, quads: &mut [QuadChunk]) {
         let chunks = self.radii.len();
         for chunk in 0..chunks {
             let (ends, radii) = (&self.ends[candidate * chunks + chunk], &self.radii[chunk]);
             let quad = &mut quads[chunk];
-            let mut from_the_side = [false; LANES];
+            let mut end_on = [0_u32; LANES];
             for lane in 0..LANES {
                 let (a, b) = (point(&ends.a, lane), point(&ends.b, lane));
                 let (corners, side) = side_corners(a, b, radii.a[lane], radii.b[lane], camera.centre);
                 quad.depth_squared[lane] = depth_squared(a, b, camera.centre);
-                from_the_side[lane] = side;
+                end_on[lane] = u32::from(!side & (lane < radii.count));
                 for corner in 0..4 {
                     for axis in 0..3 {
                         self.corners[corner][axis][lane] = corners[corner][axis];
                     }
                 }
             }
-            for lane in 0..radii.count {
-                if !from_the_side[lane] {
-                    // Rare: a limb seen along its length.
-                    let (a, b) = (point(&ends.a, lane), point(&ends.b, lane));
-                    let corners = end_on_corners(a, b, radii.a[lane], radii.b[lane], camera.centre);
-                    for corner in 0..4 {
-                        for axis in 0..3 {
-                            self.corners[corner][axis][lane] = corners[corner][axis];
-                        }
-                    }
-                }
+            if end_on.iter().fold(0, |any, lane| any | lane) != 0 {
+                turn_end_on(camera.centre, ends, radii, &end_on, &mut self.corners);
             }
-            let mut drawn = [1_u32; LANES];
-            project_corners(camera, &self.corners, quad, &mut drawn);
             for lane in 0..LANES {
-                quad.drawn[lane] = drawn[lane] != 0 && lane < radii.count;
+                quad.drawn[lane] = u32::from(lane < radii.count);
             }
-            // A corner without an image may hold any number; zero cannot overflow in what follows.
-            for corner in 0..4 {
-                for lane in 0..LANES {
-                    let keep = i32::from(quad.drawn[lane]);
-                    quad.x[corner][lane] *= keep;
-                    quad.y[corner][lane] *= keep;
-                }
+            project_corners(camera, &self.corners, quad);
+        }
+    }
+}
+
+/// Replaces the corners of limbs that are seen along their length, where `end_on` is 1. Rare.
+#[cold]
+fn turn_end_on(
+    centre: [f32; 3],
+    ends: &EndChunk,
+    radii: &RadiusChunk,
+    end_on: &[u32; LANES],
+    corners: &mut [[Row; 3]; 4],
+) {
+    for lane in (0..LANES).filter(|&lane| end_on[lane] != 0) {
+        let (a, b) = (point(&ends.a, lane), point(&ends.b, lane));
+        let turned = end_on_corners(a, b, radii.a[lane], radii.b[lane], centre);
+        for corner in 0..4 {
+            for axis in 0..3 {
+                corners[corner][axis][lane] = turned[corner][axis];
             }
         }
     }
@@ -222,20 +239,42 @@ fn place_bone(
 }
 
 #[inline(always)]
-fn project_corners(camera: &RigCamera, corners: &[[Row; 3]; 4], quad: &mut QuadChunk, drawn: &mut [u32; LANES]) {
+fn project_corners(camera: &RigCamera, corners: &[[Row; 3]; 4], quad: &mut QuadChunk) {
     for corner in 0..4 {
-        let mut x = [0.0; LANES];
-        let mut y = [0.0; LANES];
-        for lane in 0..LANES {
-            let (pixel, has_image) = camera.project(point(&corners[corner], lane));
-            x[lane] = pixel[0];
-            y[lane] = pixel[1];
-            drawn[lane] &= u32::from(has_image);
-        }
-        for lane in 0..LANES {
-            quad.x[corner][lane] = snap(x[lane]);
-            quad.y[corner][lane] = snap(y[lane]);
-        }
+        project_corner(camera, &corners[corner], &mut quad.x[corner], &mut quad.y[corner], &mut quad.drawn);
+    }
+    // A corner without an image may hold any number; zero cannot overflow in what follows.
+    keep_where(&quad.drawn, &mut quad.x);
+    keep_where(&quad.drawn, &mut quad.y);
+}
+
+/// Projects one corner of every part; `drawn` stays 1 where it has an image.
+#[inline(always)]
+fn project_corner(
+    camera: &RigCamera,
+    corner: &[Row; 3],
+    x: &mut [i32; LANES],
+    y: &mut [i32; LANES],
+    drawn: &mut [u32; LANES],
+) {
+    for lane in 0..LANES {
+        let (pixel, has_image) = camera.project(point(corner, lane));
+        x[lane] = snap(pixel[0]);
+        y[lane] = snap(pixel[1]);
+        drawn[lane] &= u32::from(has_image);
+    }
+}
+
+/// Sets to zero the coordinates in lanes where `keep` is 0. Corner by corner by name: a loop over corners would be
+/// vectorised across them instead of across the lanes.
+#[inline(always)]
+fn keep_where(keep: &[u32; LANES], [a, b, c, d]: &mut [[i32; LANES]; 4]) {
+    for lane in 0..LANES {
+        let keep = (keep[lane] as i32).wrapping_neg();
+        a[lane] &= keep;
+        b[lane] &= keep;
+        c[lane] &= keep;
+        d[lane] &= keep;
     }
 }
 

@@ -22,35 +22,35 @@ struct Cell {
 /// Working memory for one picture size; nothing in it outlives an image.
 #[derive(Clone, Debug)]
 pub(super) struct Canvas {
+    /// All zero between images. A row of cells has one more than the planes, for what a narrow part's second cell spills.
     cells: Vec<Cell>,
     outlines: Vec<OutlineChunk>,
-    /// Parts in the order of the last image, as keys that sort from near to far. The next image's order is much the same.
-    order: Vec<u64>,
+    /// Lanes of all chunks in the order of the last image, from near to far. The next image's order is much the same.
+    order: Vec<usize>,
 }
 
 impl Canvas {
-    /// For `parts` parts in `chunks` chunks, and pictures of at most `cells` cells.
-    pub(super) fn new(parts: usize, chunks: usize, cells: usize) -> Self {
+    /// For parts in `chunks` chunks, and pictures of at most `cells` cells.
+    pub(super) fn new(chunks: usize, cells: usize) -> Self {
         Self {
             cells: vec![Cell::default(); cells],
             outlines: vec![OutlineChunk::default(); chunks],
-            order: (0..parts).map(|part| key(0.0, part)).collect(),
+            order: (0..chunks * LANES).collect(),
         }
     }
 
     /// Draws `quads` and compares them with an observation.
     #[inline(always)]
     pub(super) fn compare<S: Simd>(&mut self, simd: S, quads: &[QuadChunk], planes: &Planes) -> Components {
+        self.sort(quads);
         let (width, height) = (planes.width as i32, planes.height as i32);
         let (mut left, mut right, mut top, mut bottom) = (width, 0, height, 0);
         for (outline, quad) in self.outlines.iter_mut().zip(quads) {
             outline.build(quad, width, height);
-            for lane in 0..LANES {
-                left = left.min(outline.left[lane]);
-                right = right.max(outline.right[lane]);
-                top = top.min(outline.top[lane]);
-                bottom = bottom.max(outline.bottom[lane]);
-            }
+            left = left.min(simd.least(&outline.left));
+            right = right.max(simd.most(&outline.right));
+            top = top.min(simd.least(&outline.top));
+            bottom = bottom.max(simd.most(&outline.bottom));
         }
         let mut sums = Components { area_obs: planes.area, ..Components::default() };
         if left >= right || top >= bottom {
@@ -58,18 +58,13 @@ impl Canvas {
         }
         let words = (left as u32 / CELL_COLUMNS) as usize..(right as u32).div_ceil(CELL_COLUMNS) as usize;
         let blocks = (top as u32 / CELL_ROWS) as usize..(bottom as u32).div_ceil(CELL_ROWS) as usize;
-        for block in blocks.clone() {
-            self.cells[block * planes.columns..][words.clone()].fill(Cell::default());
-        }
-        self.sort(quads);
-        for place in 0..self.order.len() {
-            let part = part_of(self.order[place]);
-            let outline = &self.outlines[part / LANES];
-            let (lane, columns) = (part % LANES, planes.columns);
+        let columns = planes.columns + 1;
+        for &lane in &self.order {
+            let (outline, part) = (&self.outlines[lane / LANES], lane % LANES);
             if outline.is_near {
-                draw_part::<S, true>(simd, outline, lane, columns, &mut self.cells);
+                draw_part::<S, true>(simd, outline, part, columns, &mut self.cells);
             } else {
-                draw_part::<S, false>(simd, outline, lane, columns, &mut self.cells);
+                draw_part::<S, false>(simd, outline, part, columns, &mut self.cells);
             }
         }
         self.trim(simd, planes, &words, &blocks);
@@ -80,57 +75,52 @@ impl Canvas {
     /// Brings the parts into order, nearest first; of two at equal depth the later one in the body is nearer.
     #[inline(always)]
     fn sort(&mut self, quads: &[QuadChunk]) {
-        if let [quad] = quads {
-            // Up to sixteen parts: each one's place is the number of parts nearer than it, counted for all at once. The
-            // bits compare as the depths do, and give every part a place of its own even where a depth is no number.
-            let depths = quad.depth_squared.map(|depth| depth.to_bits() as i32);
+        if let ([quad], Ok(order)) = (quads, <&mut [usize; LANES]>::try_from(&mut self.order[..])) {
+            // Each part's place is the number of parts nearer than it, counted for all at once. The bits compare as the
+            // depths do, and give every part a place of its own even where a depth is no number.
+            let depths = quad.depth_squared.map(|depth| (depth.to_bits() as i32).min(i32::MAX - 1));
             let mut place = [0_u32; LANES];
-            for (other, &depth) in depths.iter().enumerate().take(self.order.len()) {
+            for other in 0..LANES {
                 for lane in 0..LANES {
-                    place[lane] += u32::from((depth < depths[lane]) | ((depth == depths[lane]) & (other > lane)));
+                    place[lane] += u32::from(depths[other] < depths[lane].wrapping_add(AT_TIE[other][lane]));
                 }
             }
-            for part in 0..self.order.len() {
-                self.order[place[part] as usize] = key(quad.depth_squared[part], part);
+            for lane in 0..LANES {
+                order[place[lane] as usize % LANES] = lane;
             }
             return;
         }
         for place in 0..self.order.len() {
-            let part = part_of(self.order[place]);
-            let key = key(quads[part / LANES].depth_squared[part % LANES], part);
+            let lane = self.order[place];
+            let key = key(quads, lane);
             let mut hole = place;
-            while hole > 0 && self.order[hole - 1] > key {
+            while hole > 0 && self::key(quads, self.order[hole - 1]) > key {
                 self.order[hole] = self.order[hole - 1];
                 hole -= 1;
             }
-            self.order[hole] = key;
+            self.order[hole] = lane;
         }
     }
 
-    /// Removes what was drawn in the given cells right of the picture and below it.
+    /// Removes what was drawn in the given cells right of the picture.
     #[inline(always)]
     fn trim<S: Simd>(&mut self, simd: S, planes: &Planes, words: &Range<usize>, blocks: &Range<usize>) {
-        let (spare_columns, spare_rows) = (planes.width % CELL_COLUMNS, planes.height % CELL_ROWS);
-        if words.end == planes.columns && spare_columns != 0 {
-            let inside = simd.splat((1 << spare_columns) - 1);
-            for block in blocks.clone() {
-                self.cells[(block + 1) * planes.columns - 1].keep(simd, inside);
-            }
+        if words.end < planes.columns {
+            return;
         }
-        if (blocks.end as u32) * CELL_ROWS > planes.height {
-            let mut inside = Lanes::default();
-            inside.0[..spare_rows as usize].fill(u32::MAX);
-            let inside = simd.load(&inside);
-            for cell in &mut self.cells[(blocks.end - 1) * planes.columns..][words.clone()] {
-                cell.keep(simd, inside);
-            }
+        let spare_columns = planes.width % CELL_COLUMNS;
+        let inside = simd.splat(if spare_columns == 0 { u32::MAX } else { (1 << spare_columns) - 1 });
+        for block in blocks.clone() {
+            let end = block * (planes.columns + 1) + planes.columns;
+            self.cells[end - 1].keep(simd, inside);
+            self.cells[end].keep(simd, simd.splat(0));
         }
     }
 
-    /// Counts what was drawn in the given cells.
+    /// Counts what was drawn in the given cells and clears them for the next image.
     #[inline(always)]
     fn count<S: Simd>(
-        &self,
+        &mut self,
         simd: S,
         planes: &Planes,
         words: Range<usize>,
@@ -142,10 +132,9 @@ impl Canvas {
         let mut edges = simd.no_bits();
         let mut proximity = [simd.no_bits(); 7];
         for block in blocks {
-            let row = block * planes.columns;
-            let cells = &self.cells[row..][words.clone()];
-            let observed = &planes.cells[row..][words.clone()];
-            for (cell, seen) in cells.iter().zip(observed) {
+            let cells = &mut self.cells[block * (planes.columns + 1)..][words.clone()];
+            let observed = &planes.cells[block * planes.columns..][words.clone()];
+            for (cell, seen) in cells.iter_mut().zip(observed) {
                 let edge = simd.load(&cell.edge);
                 let silhouette = simd.or(simd.load(&cell.fill), edge);
                 area = simd.count(area, silhouette);
@@ -156,6 +145,8 @@ impl Canvas {
                         *sum = simd.count(*sum, simd.and(edge, simd.load(&seen[bit])));
                     }
                 }
+                simd.store(simd.splat(0), &mut cell.fill);
+                simd.store(simd.splat(0), &mut cell.edge);
             }
         }
         sums.area_model = simd.total(area);
@@ -167,14 +158,25 @@ impl Canvas {
     }
 }
 
+/// `AT_TIE[other][part]` is 1 where part `other` is nearer than `part` at equal depth.
+const AT_TIE: [[i32; LANES]; LANES] = {
+    let mut at_tie = [[0; LANES]; LANES];
+    let mut part = 0;
+    while part < LANES {
+        let mut other = part + 1;
+        while other < LANES {
+            at_tie[other][part] = 1;
+            other += 1;
+        }
+        part += 1;
+    }
+    at_tie
+};
+
 /// Sorts nearest first, and at equal depth the part listed later first. Squared distances are not negative, so their bits
 /// sort as they do.
-fn key(depth_squared: f32, part: usize) -> u64 {
-    u64::from(depth_squared.to_bits()) << 32 | u64::from(u32::MAX - part as u32)
-}
-
-fn part_of(key: u64) -> usize {
-    (u32::MAX - key as u32) as usize
+fn key(quads: &[QuadChunk], lane: usize) -> (u32, std::cmp::Reverse<usize>) {
+    (quads[lane / LANES].depth_squared[lane % LANES].to_bits(), std::cmp::Reverse(lane))
 }
 
 /// Draws one part behind what is there: its border where no fill is yet, then its fill. Pixels outside of the picture in its
@@ -190,99 +192,136 @@ fn draw_part<S: Simd, const NEAR: bool>(
     if outline.left[part] >= outline.right[part] {
         return;
     }
-    for edge in 0..4 {
-        draw_line::<S, NEAR>(simd, outline, edge, part, columns, cells);
+    let (first_block, end_block) =
+        (outline.top[part] as u32 / CELL_ROWS, (outline.bottom[part] as u32).div_ceil(CELL_ROWS));
+    let (first_word, shift) = (outline.origin[part] as u32 / CELL_COLUMNS, outline.origin[part] as u32 % CELL_COLUMNS);
+    let end_word = (outline.right[part] as u32).div_ceil(CELL_COLUMNS);
+    let is_narrow = NEAR && outline.is_narrow[part] != 0;
+    let mut rows = simd.first_rows();
+    let (mut fill_rows, mut line_rows) = ([0; 4], [0; 4]);
+    for block in 0..end_block - first_block {
+        if block % 4 == 0 {
+            for edge in 0..4 {
+                fill_rows[edge] = outline.fill_rows[edge].bits_from(part, block * CELL_ROWS);
+                line_rows[edge] = outline.line_rows[edge].bits_from(part, block * CELL_ROWS);
+            }
+        }
+        let cells = &mut cells[(first_block + block) as usize * columns..];
+        let (from, to) = fill_span(simd, outline, part, rows.0, &fill_rows);
+        let mut lines = [(from, to); 4];
+        for edge in 0..4 {
+            if skips(simd, line_rows[edge]) {
+                continue;
+            }
+            lines[edge] = line_span::<S, NEAR>(simd, outline, edge, part, rows);
+        }
+        if is_narrow {
+            let fill = simd.and_not(simd.ones_from(from), simd.ones_from(to));
+            let mut border = simd.splat(0);
+            for edge in 0..4 {
+                if skips(simd, line_rows[edge]) {
+                    continue;
+                }
+                let (from, to) = lines[edge];
+                border = simd.add_where(simd.mask(line_rows[edge]), border, simd.ones_from(from), simd.ones_from(to));
+            }
+            let cells = &mut cells[first_word as usize..][..2];
+            cells[0].add(simd, simd.shift_left(border, shift), simd.shift_left(fill, shift));
+            let back = CELL_COLUMNS - shift;
+            cells[1].add(simd, simd.shift_right(border, back), simd.shift_right(fill, back));
+        } else {
+            let zero = simd.splat(0);
+            let from = simd.max(from, zero);
+            for (_, to) in &mut lines {
+                *to = simd.max(*to, zero);
+            }
+            let mut column = 0;
+            for cell in &mut cells[first_word as usize..end_word as usize] {
+                let origin = simd.splat(column);
+                let fill = simd.and_not(ones_right_of(simd, from, origin), ones_right_of(simd, to, origin));
+                let mut border = zero;
+                for edge in 0..4 {
+                    if skips(simd, line_rows[edge]) {
+                        continue;
+                    }
+                    let (from, to) = lines[edge];
+                    let (from, to) = (ones_right_of(simd, from, origin), ones_right_of(simd, to, origin));
+                    border = simd.add_where(simd.mask(line_rows[edge]), border, from, to);
+                }
+                cell.add(simd, border, fill);
+                column += CELL_COLUMNS;
+            }
+        }
+        rows = simd.next_rows(rows);
+        for edge in 0..4 {
+            fill_rows[edge] >>= CELL_ROWS;
+            line_rows[edge] >>= CELL_ROWS;
+        }
     }
-    draw_fill(simd, outline, part, columns, cells);
 }
 
-/// Draws one border line where no fill is yet.
+/// Whether to leave out an edge, because it has none of the sixteen rows of a block.
 #[inline(always)]
-fn draw_line<S: Simd, const NEAR: bool>(
+fn skips<S: Simd>(_: S, rows: u64) -> bool {
+    S::SKIPS_EDGES && rows as u16 == 0
+}
+
+/// The columns that a part's fill covers in each of sixteen rows.
+#[inline(always)]
+fn fill_span<S: Simd>(
+    simd: S,
+    outline: &OutlineChunk,
+    part: usize,
+    rows: S::Rows,
+    active: &[u64; 4],
+) -> (S::Words, S::Words) {
+    let mut from = simd.splat(NOWHERE);
+    let mut to = simd.splat(0);
+    for edge in 0..4 {
+        if skips(simd, active[edge]) {
+            continue;
+        }
+        let active = simd.mask(active[edge]);
+        let column = simd.line(rows, outline.fill_slope[edge][part], outline.fill_offset[edge][part]);
+        from = simd.min_where(active, from, column);
+        to = simd.max_where(active, to, column);
+    }
+    (from, to)
+}
+
+/// The columns that a border line covers in each of sixteen rows, where the line has them.
+#[inline(always)]
+fn line_span<S: Simd, const NEAR: bool>(
     simd: S,
     outline: &OutlineChunk,
     edge: usize,
     part: usize,
-    columns: usize,
-    cells: &mut [Cell],
-) {
-    let (first, count) = (outline.line_first[edge][part], outline.line_rows[edge][part]);
-    let (left, right) = (outline.line_left[edge][part], outline.line_right[edge][part]);
-    let (first_word, end_word) = ((left >> 5).max(0), ((right + 31) >> 5).min(columns as i32));
-    if count <= 0 || first_word >= end_word {
-        return;
-    }
-    let columns_of = |rows: (S::Rows, S::ShortRows), double: f64, short: f32| {
-        if NEAR {
-            simd.short_line(rows.1, outline.short_slope[edge][part], short)
-        } else {
-            simd.line(rows.0, outline.line_slope[edge][part], double)
-        }
+    rows: (S::Rows, S::ShortRows),
+) -> (S::Words, S::Words) {
+    let (from, to) = if NEAR {
+        let slope = outline.short_slope[edge][part];
+        (
+            simd.short_line(rows.1, slope, outline.short_from[edge][part]),
+            simd.short_line(rows.1, slope, outline.short_to[edge][part]),
+        )
+    } else {
+        let slope = outline.line_slope[edge][part];
+        (simd.line(rows.0, slope, outline.line_from[edge][part]), simd.line(rows.0, slope, outline.line_to[edge][part]))
     };
-    let is_steep = outline.line_is_steep[edge][part] != 0;
-    for block in first / 16..=(first + count - 1) / 16 {
-        let base = block as u32 * CELL_ROWS;
-        let rows = (simd.rows(base), simd.short_rows(base));
-        let cells = &mut cells[block as usize * columns..][first_word as usize..end_word as usize];
-        let from = columns_of(rows, outline.line_from[edge][part], outline.short_from[edge][part]);
-        let mut origin = first_word as u32 * CELL_COLUMNS;
-        if is_steep {
-            let row = simd.sub(simd.row_words(base), simd.splat(first as u32));
-            let active = simd.below(row, simd.splat(count as u32));
-            for cell in cells {
-                let dot = simd.bit(active, simd.sub(from, simd.splat(origin)));
-                cell.add_edge(simd, dot);
-                origin += CELL_COLUMNS;
-            }
-        } else {
-            // In rows the line does not meet, clamping to its ends leaves nothing.
-            let to = columns_of(rows, outline.line_to[edge][part], outline.short_to[edge][part]);
-            let from = simd.max(from, simd.splat(left as u32));
-            let to = simd.min(to, simd.splat(right as u32));
-            for cell in cells {
-                let dash = span(simd, from, to, origin);
-                cell.add_edge(simd, dash);
-                origin += CELL_COLUMNS;
-            }
-        }
-    }
+    (
+        simd.max(from, simd.splat(outline.line_left[edge][part] as u32)),
+        simd.min(to, simd.splat(outline.line_right[edge][part] as u32)),
+    )
 }
 
-/// Fills one part.
+/// The bits at and right of `column` in the word that begins at column `origin`.
 #[inline(always)]
-fn draw_fill<S: Simd>(simd: S, outline: &OutlineChunk, part: usize, columns: usize, cells: &mut [Cell]) {
-    let first_word = outline.left[part] as u32 / CELL_COLUMNS;
-    let end_word = (outline.right[part] as u32).div_ceil(CELL_COLUMNS);
-    let (top, bottom) = (outline.top[part] as u32, outline.bottom[part] as u32);
-    for block in top / CELL_ROWS..bottom.div_ceil(CELL_ROWS) {
-        let base = block * CELL_ROWS;
-        let row_words = simd.row_words(base);
-        let rows = simd.rows(base);
-        let mut from = simd.splat(FAR_RIGHT);
-        let mut to = simd.splat(0);
-        for edge in 0..4 {
-            let (first, count) = (outline.fill_first[edge][part], outline.fill_rows[edge][part]);
-            // The sides of a part are met in most of its blocks, its ends in few.
-            let is_end = edge % 2 == 1;
-            if is_end && (first >= (base + CELL_ROWS) as i32 || first + count <= base as i32) {
-                continue;
-            }
-            let active = simd.below(simd.sub(row_words, simd.splat(first as u32)), simd.splat(count as u32));
-            let column = simd.line(rows, outline.fill_slope[edge][part], outline.fill_offset[edge][part]);
-            from = simd.min_where(active, from, column);
-            to = simd.max_where(active, to, column);
-        }
-        let mut origin = first_word * CELL_COLUMNS;
-        for cell in &mut cells[block as usize * columns..][first_word as usize..end_word as usize] {
-            let fill = span(simd, from, to, origin);
-            simd.store(simd.or(simd.load(&cell.fill), fill), &mut cell.fill);
-            origin += CELL_COLUMNS;
-        }
-    }
+fn ones_right_of<S: Simd>(simd: S, column: S::Words, origin: S::Words) -> S::Words {
+    simd.ones_from(simd.sub_to_zero(column, origin))
 }
 
-/// A column right of every picture.
-const FAR_RIGHT: u32 = 1 << 20;
+/// A column right of every part's last, that [`Simd::sub_to_zero`] still takes.
+const NOWHERE: u32 = 0xffff;
 
 impl Cell {
     /// Removes the pixels outside of `inside`.
@@ -292,19 +331,11 @@ impl Cell {
         simd.store(simd.and(simd.load(&self.edge), inside), &mut self.edge);
     }
 
-    /// Adds border pixels where no fill is yet.
+    /// Adds a part's border where no fill is yet, then its fill.
     #[inline(always)]
-    fn add_edge<S: Simd>(&mut self, simd: S, line: S::Words) {
-        let visible = simd.and_not(line, simd.load(&self.fill));
-        simd.store(simd.or(simd.load(&self.edge), visible), &mut self.edge);
+    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words) {
+        let hidden = simd.load(&self.fill);
+        simd.store(simd.or(simd.load(&self.edge), simd.and_not(border, hidden)), &mut self.edge);
+        simd.store(simd.or(hidden, fill), &mut self.fill);
     }
-}
-
-/// The bits of columns `from..to` in the word that begins at column `origin`; none where `to <= from`.
-#[inline(always)]
-fn span<S: Simd>(simd: S, from: S::Words, to: S::Words, origin: u32) -> S::Words {
-    let (ones, zero, origin) = (simd.splat(u32::MAX), simd.splat(0), simd.splat(origin));
-    let at_or_right = simd.shift_left(ones, simd.max(simd.sub(from, origin), zero));
-    let past = simd.shift_left(ones, simd.max(simd.sub(to, origin), zero));
-    simd.and_not(at_or_right, past)
 }

@@ -144,7 +144,7 @@ impl Cpu {
         }
         let projector = Projector::new(body, cameras);
         let planes: Vec<Planes> = cameras.iter().map(|camera| Planes::new(camera.size[0], camera.size[1])).collect();
-        let most_cells = planes.iter().map(|planes| planes.cells.len()).max().unwrap_or(0);
+        let most_cells = planes.iter().map(Planes::canvas_cells).max().unwrap_or(0);
         let scratch = (0..workers)
             .map(|_| {
                 let front = Front::new(&projector.rig);
@@ -152,7 +152,7 @@ impl Cpu {
                 Mutex::new(Scratch {
                     front,
                     quads: vec![QuadChunk::default(); chunks],
-                    canvas: Canvas::new(projector.rig.parts.len(), chunks, most_cells),
+                    canvas: Canvas::new(chunks, most_cells),
                     components: vec![Components::default(); LANES * cameras.len()],
                 })
             })

@@ -1,29 +1,29 @@
 //! The outlines of sixteen parts as linear functions of the image row, ready for the kernel (docs/RASTER.md).
 //!
-//! Every pixel bound of the raster rule is floor of a rational with a small denominator D, linear in the row. Adding half a
-//! D-th to the numerator keeps the exact value at least 1/(2D) away from an integer. In double precision the slope and
-//! the offset are rounded once each, and the result once: with corners within 16384 pixels of the origin the error stays
-//! under 2^-14/dY, the margin is 2^-9/dY. So the floor is exact, with or without fused multiply-add.
+//! Every pixel bound of the raster rule is floor of a rational with a denominator D, linear in the row. Adding half a D-th
+//! to the numerator keeps the exact value at least 1/(2D) away from an integer; the error stays below a seventh of a D-th.
 //!
-//! Borders have whole pixels for ends, so their margin is 1/(4 dY), and single precision does as long as everything is
-//! near: pictures of at most 1024 pixels a side, ends at most 512 pixels outside of that, lines of at most 256 pixels.
-//! Flat lines then err by at most 0.094/dY + 2^-11.9, steep ones by 2^-10.6. Where anything is farther, the whole image
-//! takes double precision.
+//! Columns and rows count from the part itself, so how exact they are depends on its size, not on the picture's: corners
+//! are within 32768 pixels, and within 542 where no edge is longer than [`NEAR`] across or down. Fill, D = 256 dY: slope
+//! and offset have numerators below 2^45 and 2^47.1 and errors of 2^-52 of those, so at most 0.06/D in all; in a near
+//! outline the reciprocal is good to 2^-47, but the numerators are below 2^33 and 2^34.3: 2^-12/D. Borders, D = 2 dY, in
+//! single precision: numerators below 2^18.1 and 2^19.1 with errors of 2^-23, results below 542, at most 0.15/D.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes say so, and several rows share the index")]
 
 use super::front::{LANES, QuadChunk};
+use super::planes::{CELL_COLUMNS, CELL_ROWS};
 
-/// Linear bounds of sixteen parts: `field[edge][part]`.
+/// Linear bounds of sixteen parts: `field[edge][part]`. Columns count from the part's `origin`, rows from the first row of
+/// the first cell it lies in, so that the numbers are as small as the part.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(super) struct OutlineChunk {
     /// Fill: the first pixel at or right of the crossing is floor(slope * row + offset).
     pub(super) fill_slope: [[f64; LANES]; 4],
     pub(super) fill_offset: [[f64; LANES]; 4],
-    /// Fill: rows whose pixel centres the edge crosses, clipped to the picture: first, and how many.
-    pub(super) fill_first: [[i32; LANES]; 4],
-    pub(super) fill_rows: [[i32; LANES]; 4],
+    /// Fill: rows whose pixel centres the edge crosses.
+    pub(super) fill_rows: [RowRange; 4],
     /// Border: in a row the line covers from floor(slope * row + from) to before floor(slope * row + to).
     pub(super) line_slope: [[f64; LANES]; 4],
     pub(super) line_from: [[f64; LANES]; 4],
@@ -32,16 +32,17 @@ pub(super) struct OutlineChunk {
     pub(super) short_slope: [[f32; LANES]; 4],
     pub(super) short_from: [[f32; LANES]; 4],
     pub(super) short_to: [[f32; LANES]; 4],
-    /// Whether single precision is exact for the borders of all drawn parts.
+    /// Whether single precision is exact for the borders of all parts that show.
     pub(super) is_near: bool,
-    /// Border: steeper than 45 degrees, one pixel a row, at `line_from` alone.
-    pub(super) line_is_steep: [[u32; LANES]; 4],
-    /// Border: rows, clipped to the picture: first, and how many.
-    pub(super) line_first: [[i32; LANES]; 4],
-    pub(super) line_rows: [[i32; LANES]; 4],
-    /// Border: columns of its ends, first and past the last.
+    /// Border: rows.
+    pub(super) line_rows: [RowRange; 4],
+    /// Border: columns of its ends, first and past the last, from the origin on.
     pub(super) line_left: [[i32; LANES]; 4],
     pub(super) line_right: [[i32; LANES]; 4],
+    /// Picture column of the columns' zero: `left` where the part is narrow, else the first one of the cell of `left`.
+    pub(super) origin: [i32; LANES],
+    /// Whether the part begins inside of the picture and is at most 32 pixels wide, in an outline that is near.
+    pub(super) is_narrow: [u32; LANES],
     /// Bounding box of each part in pixels, clipped to the picture: half open; inside out when there is nothing to draw.
     pub(super) left: [i32; LANES],
     pub(super) right: [i32; LANES],
@@ -49,13 +50,50 @@ pub(super) struct OutlineChunk {
     pub(super) bottom: [i32; LANES],
 }
 
+/// Consecutive rows of sixteen parts, half open.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(align(64))]
+pub(super) struct RowRange {
+    first: [i32; LANES],
+    end: [i32; LANES],
+    /// The first 64 rows as bits.
+    bits: [u64; LANES],
+}
+
+impl RowRange {
+    #[inline(always)]
+    fn set_bits(&mut self) {
+        for lane in 0..LANES {
+            self.bits[lane] = ones_from(self.first[lane]) & !ones_from(self.end[lane]);
+        }
+    }
+
+    /// 64 rows of a part as bits, from row `row` on.
+    #[inline(always)]
+    pub(super) fn bits_from(&self, part: usize, row: u32) -> u64 {
+        if row == 0 { self.bits[part] } else { self.late_bits(part, row as i32) }
+    }
+
+    /// Few parts are that tall.
+    #[cold]
+    fn late_bits(&self, part: usize, row: i32) -> u64 {
+        ones_from(self.first[part] - row) & !ones_from(self.end[part] - row)
+    }
+}
+
+/// The bits at and above `bit`.
+#[inline(always)]
+fn ones_from(bit: i32) -> u64 {
+    let bit = bit.max(0) as u64;
+    if bit < 64 { u64::MAX << bit } else { 0 }
+}
+
 impl Default for OutlineChunk {
     fn default() -> Self {
         Self {
             fill_slope: [[0.0; LANES]; 4],
             fill_offset: [[0.0; LANES]; 4],
-            fill_first: [[0; LANES]; 4],
-            fill_rows: [[0; LANES]; 4],
+            fill_rows: [RowRange::default(); 4],
             line_slope: [[0.0; LANES]; 4],
             line_from: [[0.0; LANES]; 4],
             line_to: [[0.0; LANES]; 4],
@@ -63,11 +101,11 @@ impl Default for OutlineChunk {
             short_from: [[0.0; LANES]; 4],
             short_to: [[0.0; LANES]; 4],
             is_near: false,
-            line_is_steep: [[0; LANES]; 4],
-            line_first: [[0; LANES]; 4],
-            line_rows: [[0; LANES]; 4],
+            line_rows: [RowRange::default(); 4],
             line_left: [[0; LANES]; 4],
             line_right: [[0; LANES]; 4],
+            origin: [0; LANES],
+            is_narrow: [0; LANES],
             left: [0; LANES],
             right: [0; LANES],
             top: [0; LANES],
@@ -76,92 +114,90 @@ impl Default for OutlineChunk {
     }
 }
 
+/// The longest side, in pixels across or down, of a part whose borders single precision draws exactly.
+const NEAR: i32 = 255;
+
 impl OutlineChunk {
     /// The outlines of a chunk of quads in a picture of `width` x `height`.
     #[inline(always)]
     pub(super) fn build(&mut self, quads: &QuadChunk, width: i32, height: i32) {
-        let mut pixel_x = [[0; LANES]; 4];
-        let mut pixel_y = [[0; LANES]; 4];
-        for corner in 0..4 {
-            for lane in 0..LANES {
-                pixel_x[corner][lane] = (quads.x[corner][lane] + 128) >> 8;
-                pixel_y[corner][lane] = (quads.y[corner][lane] + 128) >> 8;
-            }
-        }
+        let (mut pixel_x, mut pixel_y) = (to_pixels(&quads.x), to_pixels(&quads.y));
+        let (x_extent, y_extent) = (Extent::of(&pixel_x), Extent::of(&pixel_y));
+        let mut longest = 0;
         for lane in 0..LANES {
-            let (x, y) = (|c: usize| pixel_x[c][lane], |c: usize| pixel_y[c][lane]);
-            let left = x(0).min(x(1)).min(x(2).min(x(3))).max(0);
-            let right = (x(0).max(x(1)).max(x(2).max(x(3))) + 1).min(width);
-            let top = y(0).min(y(1)).min(y(2).min(y(3))).max(0);
-            let bottom = (y(0).max(y(1)).max(y(2).max(y(3))) + 1).min(height);
-            let shown = quads.drawn[lane] & (left < right) & (top < bottom);
+            let (left, right) = (x_extent.least[lane].max(0), (x_extent.most[lane] + 1).min(width));
+            let (top, bottom) = (y_extent.least[lane].max(0), (y_extent.most[lane] + 1).min(height));
+            let shown = (quads.drawn[lane] != 0) & (left < right) & (top < bottom);
             self.left[lane] = if shown { left } else { width };
             self.right[lane] = if shown { right } else { 0 };
             self.top[lane] = if shown { top } else { height };
             self.bottom[lane] = if shown { bottom } else { 0 };
+            let side = x_extent.longest_side[lane].max(y_extent.longest_side[lane]);
+            longest = longest.max(if shown { side } else { 0 });
         }
-        let mut farthest = 0;
+        self.is_near = longest <= NEAR;
+        let may_be_narrow = if self.is_near { CELL_COLUMNS as i32 } else { 0 };
+        let mut base = [0; LANES];
+        let mut end = [0; LANES];
         for lane in 0..LANES {
-            let mut reach = 0;
-            for corner in 0..4 {
-                let next = (corner + 1) % 4;
-                let (x, y) = (pixel_x[corner][lane], pixel_y[corner][lane]);
-                // Each is at most 256 where the part is near.
-                reach = reach
-                    .max((x - 512).abs() / 4)
-                    .max((y - 512).abs() / 4)
-                    .max((pixel_x[next][lane] - x).abs())
-                    .max((pixel_y[next][lane] - y).abs());
-            }
-            farthest = farthest.max(reach);
+            let (least, most) = (x_extent.least[lane], x_extent.most[lane]);
+            let is_narrow = (least >= 0) & (most - least < may_be_narrow);
+            self.is_narrow[lane] = u32::from(is_narrow);
+            let left = least.max(0);
+            self.origin[lane] = if is_narrow { left } else { left & -(CELL_COLUMNS as i32) };
+            base[lane] = y_extent.least[lane].max(0) & -(CELL_ROWS as i32);
+            end[lane] = height - base[lane];
         }
-        self.is_near = farthest <= 255 && width <= 1024 && height <= 1024;
+        let (mut x, mut y) = (quads.x, quads.y);
+        shift(&mut x, &self.origin, 8);
+        shift(&mut y, &base, 8);
+        shift(&mut pixel_x, &self.origin, 0);
+        shift(&mut pixel_y, &base, 0);
         for edge in 0..4 {
             let next = (edge + 1) % 4;
-            self.build_fill(edge, [&quads.x[edge], &quads.y[edge], &quads.x[next], &quads.y[next]], height);
+            self.build_fill(edge, [&x[edge], &y[edge], &x[next], &y[next]], &end);
             let ends = [&pixel_x[edge], &pixel_y[edge], &pixel_x[next], &pixel_y[next]];
             if self.is_near {
-                self.build_line::<f32>(edge, ends, height);
+                self.build_line::<f32>(edge, ends, &end);
             } else {
-                self.build_line::<f64>(edge, ends, height);
+                self.build_line::<f64>(edge, ends, &end);
             }
         }
     }
 
     #[inline(always)]
-    fn build_fill(&mut self, edge: usize, [x0, y0, x1, y1]: [&[i32; LANES]; 4], height: i32) {
+    fn build_fill(&mut self, edge: usize, [x0, y0, x1, y1]: [&[i32; LANES]; 4], height: &[i32; LANES]) {
+        let mut rise = [0; LANES];
         for lane in 0..LANES {
-            let downwards = y0[lane] <= y1[lane];
-            let (top_x, bottom_x) = if downwards { (x0[lane], x1[lane]) } else { (x1[lane], x0[lane]) };
-            let (top_y, bottom_y) = if downwards { (y0[lane], y1[lane]) } else { (y1[lane], y0[lane]) };
+            let (top_y, bottom_y) = (y0[lane].min(y1[lane]), y0[lane].max(y1[lane]));
+            rise[lane] = (bottom_y - top_y).max(1);
             // Rows whose centre 256 row lies in [top_y, bottom_y).
-            let first = ((top_y + 255) >> 8).max(0);
-            let end = ((bottom_y + 255) >> 8).min(height);
-            self.fill_first[edge][lane] = first;
-            self.fill_rows[edge][lane] = (end - first).max(0);
+            self.fill_rows[edge].first[lane] = (top_y + 255) >> 8;
+            self.fill_rows[edge].end[lane] = ((bottom_y + 255) >> 8).min(height[lane]);
+        }
+        self.fill_rows[edge].set_bits();
+        let inverses = if self.is_near { near_inverses(&rise) } else { inverses(&rise) };
+        for lane in 0..LANES {
             // ceil(X(row) / 256) with X the crossing, over the denominator 256 dy.
-            let dx = f64::from(bottom_x - top_x);
-            let dy = f64::from((bottom_y - top_y).max(1));
-            let denominator = 256.0 * dy;
-            let inverse = 1.0 / denominator;
-            let numerator = f64::from(top_x) * dy - dx * f64::from(top_y) + (denominator - 1.0) + 0.5;
-            self.fill_slope[edge][lane] = dx * 256.0 * inverse;
-            self.fill_offset[edge][lane] = numerator * inverse;
+            let run = x1[lane] - x0[lane];
+            let (dx, dy) = (f64::from(if y0[lane] <= y1[lane] { run } else { -run }), f64::from(rise[lane]));
+            let numerator = f64::from(x0[lane]) * dy - dx * f64::from(y0[lane]) + (256.0 * dy - 1.0) + 0.5;
+            self.fill_slope[edge][lane] = dx * inverses[lane];
+            self.fill_offset[edge][lane] = numerator * (inverses[lane] * (1.0 / 256.0));
         }
     }
 
     #[inline(always)]
-    fn build_line<R: Real>(&mut self, edge: usize, [x0, y0, x1, y1]: [&[i32; LANES]; 4], height: i32) {
+    fn build_line<R: Real>(&mut self, edge: usize, [x0, y0, x1, y1]: [&[i32; LANES]; 4], height: &[i32; LANES]) {
         for lane in 0..LANES {
             let (left, right) = (x0[lane].min(x1[lane]), x0[lane].max(x1[lane]));
             let (top, bottom) = (y0[lane].min(y1[lane]), y0[lane].max(y1[lane]));
-            let first = top.max(0);
-            self.line_first[edge][lane] = first;
-            self.line_rows[edge][lane] = ((bottom + 1).min(height) - first).max(0);
-            self.line_left[edge][lane] = left;
+            self.line_rows[edge].first[lane] = top;
+            self.line_rows[edge].end[lane] = (bottom + 1).min(height[lane]);
+            self.line_left[edge][lane] = left.max(0);
             self.line_right[edge][lane] = right + 1;
-            self.line_is_steep[edge][lane] = u32::from(bottom - top > right - left);
         }
+        self.line_rows[edge].set_bits();
         let (slopes, froms, tos) = R::coefficients(self, edge);
         for lane in 0..LANES {
             let (left, right) = (x0[lane].min(x1[lane]), x0[lane].max(x1[lane]));
@@ -177,21 +213,93 @@ impl OutlineChunk {
             // 2 dy times the exact column at row 0.
             let at_row_0 = (rise * start - run * R::from_pixel(top)) * R::TWO;
             // Steep: the nearest column, a tie to the larger: floor(exact + 1/2).
-            let nearest = (at_row_0 + rise + R::HALF) * inverse;
+            let nearest = at_row_0 + rise + R::HALF;
             // Flat: the columns whose nearest row is this one. Falling to the right they begin at the ceiling of the
             // crossing with row - 1/2; rising, after the floor of the crossing with row + 1/2.
             let half_row = R::from_pixel(dx);
             let past = at_row_0 + rise * R::TWO + if rises { R::HALF } else { -R::HALF };
-            let (begin, end) = ((past - half_row) * inverse, (past + half_row) * inverse);
             let (is_steep, level) = (dy > dx, dy == 0);
+            let begin = if is_steep { nearest } else { past - half_row } * inverse;
+            let end = if is_steep { nearest + rise * R::TWO } else { past + half_row } * inverse;
             // A level line covers its one row from end to end: a slope that leaves the picture within a row either way.
             slopes[lane] = if level { R::from_pixel(1 << 17) } else { run * R::TWO * inverse };
             let level_from = R::from_pixel(-(1 << 17)) * R::from_pixel(top) - R::from_pixel(1 << 16);
-            let begin = if level { level_from } else { begin };
-            let end = if level { level_from + R::from_pixel(1 << 17) } else { end };
-            froms[lane] = if is_steep { nearest } else { begin };
-            tos[lane] = end;
+            froms[lane] = if level { level_from } else { begin };
+            tos[lane] = if level { level_from + R::from_pixel(1 << 17) } else { end };
         }
+    }
+}
+
+/// Coordinates in 1/256 pixel rounded to whole pixels, halves up.
+#[inline(always)]
+fn to_pixels([a, b, c, d]: &[[i32; LANES]; 4]) -> [[i32; LANES]; 4] {
+    // Corner by corner by name: a loop over corners would be vectorised across them instead of across the lanes.
+    let mut pixels = [[0; LANES]; 4];
+    for lane in 0..LANES {
+        pixels[0][lane] = (a[lane] + 128) >> 8;
+        pixels[1][lane] = (b[lane] + 128) >> 8;
+        pixels[2][lane] = (c[lane] + 128) >> 8;
+        pixels[3][lane] = (d[lane] + 128) >> 8;
+    }
+    pixels
+}
+
+/// Moves the origin of `coordinates` to the pixel `origin`; a pixel has 2 to the power of `bits` units.
+#[inline(always)]
+fn shift([a, b, c, d]: &mut [[i32; LANES]; 4], origin: &[i32; LANES], bits: u32) {
+    for lane in 0..LANES {
+        let origin = origin[lane] << bits;
+        a[lane] -= origin;
+        b[lane] -= origin;
+        c[lane] -= origin;
+        d[lane] -= origin;
+    }
+}
+
+/// 1 / value, of integers up to 2^24, in single precision and one step of Newton's: the error squared, 2^-47.
+#[inline(always)]
+fn near_inverses(values: &[i32; LANES]) -> [f64; LANES] {
+    let mut rough = [0.0_f32; LANES];
+    for lane in 0..LANES {
+        rough[lane] = 1.0 / values[lane] as f32;
+    }
+    let mut inverses = [0.0; LANES];
+    for lane in 0..LANES {
+        let rough = f64::from(rough[lane]);
+        inverses[lane] = rough * (2.0 - f64::from(values[lane]) * rough);
+    }
+    inverses
+}
+
+/// 1 / value, correctly rounded.
+#[inline(always)]
+fn inverses(values: &[i32; LANES]) -> [f64; LANES] {
+    let mut inverses = [0.0; LANES];
+    for lane in 0..LANES {
+        inverses[lane] = 1.0 / f64::from(values[lane]);
+    }
+    inverses
+}
+
+/// How far sixteen parts reach along one axis of the picture, pixels.
+struct Extent {
+    least: [i32; LANES],
+    most: [i32; LANES],
+    /// The longest edge's extent.
+    longest_side: [i32; LANES],
+}
+
+impl Extent {
+    #[inline(always)]
+    fn of([a, b, c, d]: &[[i32; LANES]; 4]) -> Self {
+        let mut extent = Self { least: [0; LANES], most: [0; LANES], longest_side: [0; LANES] };
+        for lane in 0..LANES {
+            let (a, b, c, d) = (a[lane], b[lane], c[lane], d[lane]);
+            extent.least[lane] = a.min(b).min(c.min(d));
+            extent.most[lane] = a.max(b).max(c.max(d));
+            extent.longest_side[lane] = (b - a).abs().max((c - b).abs()).max((d - c).abs().max((a - d).abs()));
+        }
+        extent
     }
 }
 

@@ -31,6 +31,11 @@ impl Planes {
         Self { width, height, columns, cells: vec![[Lanes::default(); 8]; columns * blocks], area: 0 }
     }
 
+    /// Cells of a canvas for pictures of this size: a row has one more than here.
+    pub(super) fn canvas_cells(&self) -> usize {
+        self.cells.len() / self.columns * (self.columns + 1)
+    }
+
     /// Takes an observation of the planes' own size.
     pub(super) fn fill(&mut self, observation: &Observation) {
         self.area = observation.area();

@@ -24,6 +24,7 @@ fn select(mask: Lanes, a: Lanes, b: Lanes) -> Lanes {
 }
 
 impl Simd for Portable {
+    const SKIPS_EDGES: bool = true;
     type Words = Lanes;
     type Rows = [f64; 16];
     type ShortRows = [f32; 16];
@@ -55,10 +56,6 @@ impl Simd for Portable {
         zip(a, b, |a, b| a & !b)
     }
     #[inline(always)]
-    fn sub(self, a: Lanes, b: Lanes) -> Lanes {
-        zip(a, b, u32::wrapping_sub)
-    }
-    #[inline(always)]
     fn min(self, a: Lanes, b: Lanes) -> Lanes {
         zip(a, b, |a, b| (a as i32).min(b as i32) as u32)
     }
@@ -67,12 +64,45 @@ impl Simd for Portable {
         zip(a, b, |a, b| (a as i32).max(b as i32) as u32)
     }
     #[inline(always)]
-    fn shift_left(self, value: Lanes, count: Lanes) -> Lanes {
-        zip(value, count, |value, count| if count < 32 { value << count } else { 0 })
+    fn sub_to_zero(self, a: Lanes, b: Lanes) -> Lanes {
+        zip(a, b, u32::saturating_sub)
     }
     #[inline(always)]
-    fn below(self, a: Lanes, b: Lanes) -> Lanes {
-        zip(a, b, |a, b| if a < b { u32::MAX } else { 0 })
+    fn ones_from(self, count: Lanes) -> Lanes {
+        zip(count, count, |count, _| if count < 32 { u32::MAX << count } else { 0 })
+    }
+    #[inline(always)]
+    fn shift_left(self, words: Lanes, count: u32) -> Lanes {
+        zip(words, words, |word, _| word.checked_shl(count).unwrap_or(0))
+    }
+    #[inline(always)]
+    fn shift_right(self, words: Lanes, count: u32) -> Lanes {
+        zip(words, words, |word, _| word.checked_shr(count).unwrap_or(0))
+    }
+    #[inline(always)]
+    fn mask(self, bits: u64) -> Lanes {
+        let mut mask = Lanes::default();
+        for lane in 0..16 {
+            mask.0[lane] = if bits as u32 & 1 << lane != 0 { u32::MAX } else { 0 };
+        }
+        mask
+    }
+    #[inline(always)]
+    fn add_where(self, mask: Lanes, a: Lanes, b: Lanes, c: Lanes) -> Lanes {
+        self.or(a, self.and(mask, self.and_not(b, c)))
+    }
+    #[inline(always)]
+    fn first_rows(self) -> ([f64; 16], [f32; 16]) {
+        (std::array::from_fn(|lane| lane as f64), std::array::from_fn(|lane| lane as f32))
+    }
+    #[inline(always)]
+    fn next_rows(self, (rows, short): ([f64; 16], [f32; 16])) -> ([f64; 16], [f32; 16]) {
+        let (mut rows, mut short) = (rows, short);
+        for lane in 0..16 {
+            rows[lane] += 16.0;
+            short[lane] += 16.0;
+        }
+        (rows, short)
     }
     #[inline(always)]
     fn min_where(self, mask: Lanes, a: Lanes, b: Lanes) -> Lanes {
@@ -83,24 +113,8 @@ impl Simd for Portable {
         select(mask, self.max(a, b), a)
     }
     #[inline(always)]
-    fn bit(self, mask: Lanes, count: Lanes) -> Lanes {
-        self.shift_left(self.and(mask, self.splat(1)), count)
-    }
-    #[inline(always)]
     fn is_zero(self, words: Lanes) -> bool {
         words.0.iter().fold(0, |all, word| all | word) == 0
-    }
-    #[inline(always)]
-    fn row_words(self, first: u32) -> Lanes {
-        let mut rows = Lanes::default();
-        for lane in 0..16 {
-            rows.0[lane] = first + lane as u32;
-        }
-        rows
-    }
-    #[inline(always)]
-    fn rows(self, first: u32) -> [f64; 16] {
-        std::array::from_fn(|lane| f64::from(first) + lane as f64)
     }
     /// The value is never near an integer, so its floor is the integer nearest to half less; adding 1.5 times 2 to the
     /// power of the mantissa's length leaves that integer in the low bits.
@@ -114,10 +128,6 @@ impl Simd for Portable {
         result
     }
     #[inline(always)]
-    fn short_rows(self, first: u32) -> [f32; 16] {
-        std::array::from_fn(|lane| first as f32 + lane as f32)
-    }
-    #[inline(always)]
     fn short_line(self, rows: [f32; 16], slope: f32, offset: f32) -> Lanes {
         let mut result = Lanes::default();
         for lane in 0..16 {
@@ -125,6 +135,14 @@ impl Simd for Portable {
             result.0[lane] = (below + 12_582_912.0).to_bits().wrapping_sub(12_582_912.0_f32.to_bits());
         }
         result
+    }
+    #[inline(always)]
+    fn least(self, values: &[i32; 16]) -> i32 {
+        values.iter().fold(i32::MAX, |least, &value| least.min(value))
+    }
+    #[inline(always)]
+    fn most(self, values: &[i32; 16]) -> i32 {
+        values.iter().fold(i32::MIN, |most, &value| most.max(value))
     }
     #[inline(always)]
     fn no_bits(self) -> u32 {

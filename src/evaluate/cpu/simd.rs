@@ -10,6 +10,8 @@ pub(super) struct Lanes(pub(super) [u32; 16]);
 
 /// An instruction set, by the operations the kernel needs. Lanes hold rows of one image, two's complement where signed.
 pub(super) trait Simd: Copy + Send + Sync + 'static {
+    /// Whether a test for an edge that has no row in a block costs less than drawing nothing.
+    const SKIPS_EDGES: bool;
     /// Sixteen 32-bit words.
     type Words: Copy;
     /// Sixteen row numbers in double precision.
@@ -28,33 +30,40 @@ pub(super) trait Simd: Copy + Send + Sync + 'static {
     fn or(self, a: Self::Words, b: Self::Words) -> Self::Words;
     /// `a & !b`
     fn and_not(self, a: Self::Words, b: Self::Words) -> Self::Words;
-    fn sub(self, a: Self::Words, b: Self::Words) -> Self::Words;
     /// Signed.
     fn min(self, a: Self::Words, b: Self::Words) -> Self::Words;
     /// Signed.
     fn max(self, a: Self::Words, b: Self::Words) -> Self::Words;
-    /// `value << count`, 0 where the unsigned count is 32 or more.
-    fn shift_left(self, value: Self::Words, count: Self::Words) -> Self::Words;
-    /// Unsigned `a < b`.
-    fn below(self, a: Self::Words, b: Self::Words) -> Self::Mask;
+    /// `a - b`, 0 where that is negative; any value where one is 65536 or more.
+    fn sub_to_zero(self, a: Self::Words, b: Self::Words) -> Self::Words;
+    /// `u32::MAX << count`, 0 where the unsigned count is 32 or more.
+    fn ones_from(self, count: Self::Words) -> Self::Words;
+    /// `words << count`, 0 where the count is 32 or more.
+    fn shift_left(self, words: Self::Words, count: u32) -> Self::Words;
+    /// `words >> count`, 0 where the count is 32 or more.
+    fn shift_right(self, words: Self::Words, count: u32) -> Self::Words;
+    /// The mask that holds in the lanes of the set bits, of the lowest sixteen.
+    fn mask(self, bits: u64) -> Self::Mask;
     /// The smaller of both where the mask holds, else `a`; signed.
     fn min_where(self, mask: Self::Mask, a: Self::Words, b: Self::Words) -> Self::Words;
     /// The larger of both where the mask holds, else `a`; signed.
     fn max_where(self, mask: Self::Mask, a: Self::Words, b: Self::Words) -> Self::Words;
-    /// `1 << count` where the mask holds and the unsigned count is under 32, else 0.
-    fn bit(self, mask: Self::Mask, count: Self::Words) -> Self::Words;
+    /// `a | (b & !c)` where the mask holds, else `a`.
+    fn add_where(self, mask: Self::Mask, a: Self::Words, b: Self::Words, c: Self::Words) -> Self::Words;
     /// Whether every bit is zero.
     fn is_zero(self, words: Self::Words) -> bool;
-    /// The row numbers `first, first + 1, …` as words.
-    fn row_words(self, first: u32) -> Self::Words;
-    /// The row numbers `first, first + 1, …` in double precision.
-    fn rows(self, first: u32) -> Self::Rows;
+    /// The rows 0 to 15.
+    fn first_rows(self) -> (Self::Rows, Self::ShortRows);
+    /// The sixteen rows below.
+    fn next_rows(self, rows: (Self::Rows, Self::ShortRows)) -> (Self::Rows, Self::ShortRows);
     /// floor(slope * row + offset) as signed words; any value where that does not fit 32 bits.
     fn line(self, rows: Self::Rows, slope: f64, offset: f64) -> Self::Words;
-    /// The row numbers `first, first + 1, …` in single precision.
-    fn short_rows(self, first: u32) -> Self::ShortRows;
     /// [`Self::line`] in single precision.
     fn short_line(self, rows: Self::ShortRows, slope: f32, offset: f32) -> Self::Words;
+    /// The smallest of sixteen values.
+    fn least(self, values: &[i32; 16]) -> i32;
+    /// The largest of sixteen values.
+    fn most(self, values: &[i32; 16]) -> i32;
     fn no_bits(self) -> Self::Sum;
     /// The sum plus the number of bits set in `words`.
     fn count(self, sum: Self::Sum, words: Self::Words) -> Self::Sum;
