@@ -295,6 +295,33 @@ fn auto_keeps_to_what_the_run_began_with() {
 }
 
 #[test]
+fn the_trace_has_the_device_beside_the_host() {
+    if !has_vulkan("the_trace_has_the_device_beside_the_host") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    tracked(&output, &["--backend", "compute", "--trace", "--frames", "0..2"]);
+    let trace: serde_json::Value = serde_json::from_slice(&fs::read(output.join("trace.json")).unwrap()).unwrap();
+    let events = trace["traceEvents"].as_array().unwrap();
+    let of = |name: &str| events.iter().filter(move |event| event["name"] == name).collect::<Vec<_>>();
+    let end = |event: &serde_json::Value| event["ts"].as_f64().unwrap() + event["dur"].as_f64().unwrap();
+    let (frames, rasters) = (of("frame"), of("raster"));
+    assert_eq!(frames.len(), 2);
+    // Every evaluation of the search, and one of the result.
+    assert_eq!(rasters.len(), of("evaluate").len() + 2);
+    for raster in rasters {
+        let frame = frames.iter().find(|frame| frame["args"]["frame"] == raster["args"]["frame"]).unwrap();
+        assert_eq!((&frame["pid"], &raster["pid"]), (&1.into(), &2.into()));
+        // A device cannot end later than the host that waits for it; when it began is its own clock's word.
+        assert!(end(raster) <= end(frame) + 1.0, "{raster} of {frame}");
+    }
+    let stages: serde_json::Value = serde_json::from_slice(&fs::read(output.join("stages.json")).unwrap()).unwrap();
+    let stages = stages["stages"].as_array().unwrap();
+    assert!(stages.iter().any(|stage| stage["name"] == "device raster" && stage["count"] == 2), "{stages:?}");
+}
+
+#[test]
 fn a_trace_of_the_device_is_missed_where_nothing_runs_on_one() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("track");
