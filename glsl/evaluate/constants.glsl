@@ -7,7 +7,7 @@
 const uint PROJECT_GROUP = 128u;
 
 // Invocations of a workgroup that draws and compares an image, a row each; a power of two.
-const uint RASTER_GROUP = 64u;
+const uint RASTER_GROUP = 32u;
 
 // Invocations of a workgroup of the objective.
 const uint OBJECTIVE_GROUP = 64u;

@@ -2,9 +2,8 @@
 // workgroup sums. A workgroup takes an image, an invocation a row. A chunk of the row is two sets of bits kept in registers, what
 // fills cover and where borders show; the observation is bit planes, so everything counted is a bit count.
 //
-// Bounds of spans are exact in 32-bit arithmetic. Every one is of the form base + k s + floor((r + k t) / d), k rows below the
-// first, 0 <= r, t < d: the floor is estimated in floating point, at most one off, and its remainder, which 32 bits hold
-// whatever the products do, says which way.
+// Bounds of spans are exact in 32-bit arithmetic, whatever the products do: a bound is estimated in floating point, off by one at
+// most, and what is left over, which always fits 32 bits although its terms do not, says which way.
 
 #include "evaluate/constants.glsl"
 #include "evaluate/model.glsl"
@@ -24,51 +23,24 @@ layout(std430, set = 0, binding = 3) readonly buffer Planes { uvec4 planes[]; };
 layout(std430, set = 0, binding = 4) readonly buffer List { uint list[]; };
 layout(std430, set = 0, binding = 5) writeonly buffer AllSums { Sums sums[]; };
 
-// Words of a row that are drawn at once.
-const uint CHUNK = 2u;
-// Parts whose edges are kept at once.
+// Words of a row that are drawn at once: fewer compute the spans of wide parts more often, more make masks of nothing.
+const uint CHUNK = 3u;
+// Parts that are kept at once.
 const uint TILE = 32u;
-const uint EDGES = 128u;
 // Chunks of the widest picture, 16384 pixels.
-const uint MOST_CHUNKS = 256u;
+const uint MOST_CHUNKS = (16384u + 32u * CHUNK - 1u) / (32u * CHUNK);
 
-// Of an edge of a part of the tile. Fill: rows, base, s, t; d, r; border: rows, columns; base, s, t and r, d. Rows and columns
-// are first and past the last, in 16 bits each; the highest bit of a border's rows says that it is steep.
-shared ivec4 fill_edge[EDGES];
-shared ivec4 both_edge[EDGES];
-shared ivec4 line_edge[EDGES];
-// Rows of a part, packed alike, and for each chunk one bit a part that reaches into it.
-shared uint part_rows[TILE];
+// Corners of the parts of the tile, 1/256 pixel.
+shared ivec4 part_x[TILE];
+shared ivec4 part_y[TILE];
+// Rows and columns that a part may touch, first and past the last in 16 bits each, and for each chunk one bit a part that
+// reaches into it.
+shared uvec4 part_rows[TILE / 4u];
 shared uint part_columns[TILE];
 shared uint chunk_parts[MOST_CHUNKS];
 
-// Floor and remainder of a / d, d > 0.
-ivec2 divide(int a, int d) {
-    int quotient = a / d;
-    int remainder = a - quotient * d;
-    if (remainder < 0) {
-        quotient--;
-        remainder += d;
-    }
-    return ivec2(quotient, remainder);
-}
-
 uint pack_range(int first, int end) {
     return first < end ? uint(first) | (uint(end) << 16) : 0u;
-}
-
-// floor((r + k t) / d) and its remainder.
-ivec2 step_to(int k, int t, int r, int d) {
-    int quotient = int((float(t) * float(k) + float(r)) / float(d));
-    int remainder = r + k * t - quotient * d;
-    if (remainder < 0) {
-        quotient--;
-        remainder += d;
-    } else if (remainder >= d) {
-        quotient++;
-        remainder -= d;
-    }
-    return ivec2(quotient, remainder);
 }
 
 // Bits of the pixels left of n, of a word that begins at 0.
@@ -80,92 +52,92 @@ uint span_bits(int low, int high) {
     return below(high) & ~below(low);
 }
 
-// The first pixel at or right of the edge's crossing with the centres of row first + k.
-void set_up_fill(uint edge, ivec2 p, ivec2 q, int height) {
-    ivec2 top = p.y <= q.y ? p : q;
-    ivec2 bottom = p.y <= q.y ? q : p;
-    int first = max((top.y + 255) >> 8, 0);
-    int end = min((bottom.y + 255) >> 8, height);
-    uint rows = pack_range(first, end);
-    ivec4 fill = ivec4(0);
-    int d = 1;
-    int r = 0;
-    if (rows != 0u) {
-        d = bottom.y - top.y;
-        ivec2 slope = divide(bottom.x - top.x, d);
-        // The crossing is at top.x + (s + t/d) m; t m / d is estimated, and the remainder tells how far off.
-        int m = 256 * first - top.y;
-        int estimate = int(float(slope.y) * float(m) / float(d));
-        ivec2 rest = divide(slope.y * m - estimate * d, d);
-        // 256 times the rounded-up crossing, less one unit of its denominator: x + rest / d.
-        int x = top.x + slope.x * m + estimate + rest.x + 255 + (rest.y > 0 ? 1 : 0);
-        uint below_unit = rest.y > 0 ? uint(rest.y - 1) : uint(d - 1);
-        r = int((uint(x & 255) * uint(d) + below_unit) >> 8);
-        fill = ivec4(int(rows), x >> 8, slope);
-    }
-    fill_edge[edge] = fill;
-    both_edge[edge].x = d;
-    both_edge[edge].y = r;
+// 1 where true.
+ivec4 count(bvec4 condition) {
+    return mix(ivec4(0), ivec4(1), condition);
 }
 
-// Where the border begins in row first + k; it ends where it begins in the next row, or a pixel on when it is steep.
-void set_up_line(uint edge, ivec2 p, ivec2 q, ivec2 size) {
-    ivec2 top = p.y <= q.y ? p : q;
-    ivec2 bottom = p.y <= q.y ? q : p;
-    int first = max(top.y, 0);
-    uint rows = pack_range(first, min(bottom.y + 1, size.y));
-    int left = min(p.x, q.x);
-    int right = max(p.x, q.x) + 1;
-    uint columns = pack_range(clamp(left, 0, size.x), clamp(right, 0, size.x));
-    ivec4 line = ivec4(left, right - left, 0, 1);
-    bool steep = false;
-    if (columns == 0u) rows = 0u;
-    int d = bottom.y - top.y;
-    if (rows != 0u && d > 0) {
-        int dx = bottom.x - top.x;
-        steep = d > abs(dx);
-        ivec2 slope = divide(dx, d);
-        // Steep: the nearest column, a tie to the larger. Flat: columns whose nearest row this is begin at the ceiling of the
-        // crossing with row - 1/2 when x grows with the row, and end after its floor when x falls.
-        ivec2 start = divide(steep ? d : 2 * d - dx - (dx > 0 ? 1 : 0), 2 * d);
-        int k = first - top.y;
-        ivec2 rest = divide(slope.y * k + (start.y >> 1), d);
-        line = ivec4(top.x + start.x + slope.x * k + rest.x, slope.x, slope.y | (rest.y << 16), d);
-    }
-    both_edge[edge].z = int(rows | (steep ? 0x80000000u : 0u));
-    both_edge[edge].w = int(columns);
-    line_edge[edge] = line;
+// Fill: in row y the part covers the pixels from x on to before y of the result, none when they are not in order. An edge is
+// crossed at X = top + dx m / dy, and its bound is the first pixel c with 256 c >= X.
+ivec2 fill_span(ivec4 x, ivec4 y, int row) {
+    ivec4 next_x = x.yzwx;
+    ivec4 next_y = y.yzwx;
+    bvec4 down = lessThanEqual(y, next_y);
+    ivec4 top = mix(next_x, x, down);
+    ivec4 dx = mix(x, next_x, down) - top;
+    ivec4 dy = abs(next_y - y);
+    ivec4 m = 256 * row - min(y, next_y);
+    // At most 3 units off, of the 2^22 that a corner may be away.
+    vec4 crossing = vec4(top) + vec4(dx) * vec4(m) / vec4(max(dy, 1));
+    ivec4 bound = ivec4(ceil(crossing * (1.0 / 256.0)));
+    // (256 c - X) dy, which is to be from 0 to 256 dy, with 8 dy added: below 2^32.
+    uvec4 rest = uvec4((256 * bound - top) * dy - dx * m + 8 * dy);
+    bound += count(lessThan(rest, uvec4(8 * dy))) - count(greaterThanEqual(rest, 264u * uvec4(dy)));
+    // No edge is crossed by a row above or below it, nor a level one.
+    bvec4 crosses = lessThan(uvec4(m), uvec4(dy));
+    ivec4 low = mix(ivec4(0x7fffffff), bound, crosses);
+    ivec4 high = mix(ivec4(-0x7fffffff), bound, crosses);
+    return ivec2(min(min(low.x, low.y), min(low.z, low.w)), max(max(high.x, high.y), max(high.z, high.w)));
+}
+
+// floor(numerator / d) for d > 0, where the numerator may have wrapped and `wide` is about what it is.
+ivec4 floor_divide(ivec4 numerator, vec4 wide, ivec4 d) {
+    ivec4 quotient = ivec4(floor(wide / vec4(d)));
+    ivec4 rest = numerator - quotient * d;
+    return quotient + count(greaterThanEqual(rest, d)) - count(lessThan(rest, ivec4(0)));
+}
+
+// Border: in row y the four lines cover the pixels from `from` on to before `to`. Corners are whole pixels here.
+void line_spans(ivec4 x, ivec4 y, int row, out ivec4 from, out ivec4 to) {
+    ivec4 next_x = x.yzwx;
+    ivec4 next_y = y.yzwx;
+    bvec4 down = lessThanEqual(y, next_y);
+    ivec4 top = mix(next_x, x, down);
+    ivec4 dx = mix(x, next_x, down) - top;
+    ivec4 dy = abs(next_y - y);
+    ivec4 k = row - min(y, next_y);
+    bvec4 steep = greaterThan(dy, abs(dx));
+    bvec4 level = equal(dy, ivec4(0));
+    ivec4 d = 2 * max(dy, 1);
+    // Steep: the nearest column, a tie to the larger. Flat: the columns whose nearest row this is begin at the ceiling of the
+    // crossing with row - 1/2 when x grows with the row, and end after its floor when x falls; then the next row goes on.
+    ivec4 start = mix(d - dx - count(greaterThan(dx, ivec4(0))), dy, steep);
+    ivec4 numerator = 2 * dx * k + start;
+    vec4 wide = 2.0 * vec4(dx) * vec4(k) + vec4(start);
+    ivec4 begin = top + floor_divide(numerator, wide, d);
+    ivec4 after = top + floor_divide(numerator + 2 * dx, wide + 2.0 * vec4(dx), d);
+    after = mix(after, begin + 1, steep);
+    ivec4 left = min(x, next_x);
+    ivec4 right = max(x, next_x) + 1;
+    from = mix(max(min(begin, after), left), left, level);
+    to = mix(min(max(begin, after), right), right, level);
+    to = mix(from, to, lessThanEqual(uvec4(k), uvec4(dy)));
 }
 
 void load_tile(uint image, uint tile, ivec2 size, uint chunks) {
     barrier();
-    for (uint edge = gl_LocalInvocationID.x; edge < EDGES; edge += RASTER_GROUP) {
-        uint part = tile * TILE + (edge >> 2);
-        uint corner = edge & 3u;
+    for (uint slot = gl_LocalInvocationID.x; slot < TILE; slot += RASTER_GROUP) {
+        uint part = tile * TILE + slot;
+        uint rows = 0u;
+        uint columns = 0u;
         if (part < batch.parts) {
             ivec4 x = quads[image * batch.parts + part].x;
             ivec4 y = quads[image * batch.parts + part].y;
-            bool drawn = quads[image * batch.parts + part].drawn != 0u;
-            uint next = (corner + 1u) & 3u;
-            ivec2 p = ivec2(x[corner], y[corner]);
-            ivec2 q = ivec2(x[next], y[next]);
-            ivec2 last = drawn ? size : ivec2(0);
-            set_up_fill(edge, p, q, last.y);
-            set_up_line(edge, (p + 128) >> 8, (q + 128) >> 8, last);
-            if (corner == 0u) {
-                ivec4 px = (x + 128) >> 8;
-                ivec4 py = (y + 128) >> 8;
-                int left = clamp(min(min(px.x, px.y), min(px.z, px.w)), 0, last.x);
-                int right = clamp(max(max(px.x, px.y), max(px.z, px.w)) + 1, 0, last.x);
-                int top = clamp(min(min(py.x, py.y), min(py.z, py.w)), 0, last.y);
-                int bottom = clamp(max(max(py.x, py.y), max(py.z, py.w)) + 1, 0, last.y);
-                part_rows[edge >> 2] = pack_range(top, bottom);
-                part_columns[edge >> 2] = pack_range(left, right);
+            part_x[slot] = x;
+            part_y[slot] = y;
+            if (quads[image * batch.parts + part].drawn != 0u) {
+                x = (x + 128) >> 8;
+                y = (y + 128) >> 8;
+                int left = clamp(min(min(x.x, x.y), min(x.z, x.w)), 0, size.x);
+                int right = clamp(max(max(x.x, x.y), max(x.z, x.w)) + 1, 0, size.x);
+                int top = clamp(min(min(y.x, y.y), min(y.z, y.w)), 0, size.y);
+                int bottom = clamp(max(max(y.x, y.y), max(y.z, y.w)) + 1, 0, size.y);
+                rows = pack_range(top, bottom);
+                columns = pack_range(left, right);
             }
-        } else if (corner == 0u) {
-            part_rows[edge >> 2] = 0u;
-            part_columns[edge >> 2] = 0u;
         }
+        part_rows[slot >> 2][slot & 3u] = rows;
+        part_columns[slot] = columns;
     }
     barrier();
     for (uint chunk = gl_LocalInvocationID.x; chunk < chunks; chunk += RASTER_GROUP) {
@@ -215,10 +187,12 @@ uvec4 rasterise(uint image) {
                 if (!row_known) {
                     row_parts = 0u;
                     uint tile_parts = min(batch.parts - tile * TILE, TILE);
-                    for (uint part = 0u; part < tile_parts; part++) {
-                        uint rows = part_rows[part];
-                        bool reaches = y >= int(rows & 0xffffu) && y < int(rows >> 16);
-                        row_parts |= reaches ? 1u << part : 0u;
+                    for (uint part = 0u; part < tile_parts; part += 4u) {
+                        uvec4 rows = part_rows[part >> 2];
+                        uvec4 bits = uvec4(1u, 2u, 4u, 8u);
+                        bits = mix(uvec4(0u), bits, greaterThanEqual(uvec4(y), rows & 0xffffu));
+                        bits = mix(uvec4(0u), bits, lessThan(uvec4(y), rows >> 16));
+                        row_parts |= (bits.x | bits.y | bits.z | bits.w) << part;
                     }
                     row_known = true;
                 }
@@ -227,46 +201,26 @@ uvec4 rasterise(uint image) {
                 while (parts_left != 0u) {
                     uint part = uint(findLSB(parts_left));
                     parts_left &= parts_left - 1u;
-                    int low = 0x7fffffff;
-                    int high = -0x7fffffff;
-                    uint lines[CHUNK];
-                    for (uint word = 0u; word < CHUNK; word++) lines[word] = 0u;
-                    for (uint corner = 0u; corner < 4u; corner++) {
-                        ivec4 fill = fill_edge[4u * part + corner];
-                        ivec4 both = both_edge[4u * part + corner];
-                        ivec4 line = line_edge[4u * part + corner];
-                        int fill_first = fill.x & 0xffff;
-                        int fill_end = int(uint(fill.x) >> 16);
-                        int k = y - fill_first;
-                        int crossing = fill.y + k * fill.z + step_to(k, fill.w, both.y, both.x).x;
-                        bool crosses = k >= 0 && y < fill_end;
-                        low = crosses ? min(low, crossing) : low;
-                        high = crosses ? max(high, crossing) : high;
-
-                        int line_first = both.z & 0xffff;
-                        int line_end = (both.z >> 16) & 0x7fff;
-                        k = y - line_first;
-                        int t = line.z & 0xffff;
-                        ivec2 at = step_to(k, t, int(uint(line.z) >> 16), line.w);
-                        int begin = line.x + k * line.y + at.x;
-                        int next = begin + (both.z < 0 ? 1 : line.y + (at.y + t >= line.w ? 1 : 0));
-                        int from = max(min(begin, next), both.w & 0xffff);
-                        int to = min(max(begin, next), int(uint(both.w) >> 16));
-                        to = k >= 0 && y < line_end ? to : from;
-                        for (uint word = 0u; word < CHUNK; word++) {
-                            int start = origin + int(32u * word);
-                            lines[word] |= span_bits(from - start, to - start);
-                        }
-                    }
+                    ivec4 x = part_x[part];
+                    ivec4 y_corners = part_y[part];
+                    ivec2 fill = fill_span(x, y_corners, y);
+                    ivec4 from;
+                    ivec4 to;
+                    line_spans((x + 128) >> 8, (y_corners + 128) >> 8, y, from, to);
                     for (uint word = 0u; word < CHUNK; word++) {
                         int start = origin + int(32u * word);
-                        edges[word] |= lines[word] & ~filled[word];
-                        filled[word] |= span_bits(max(low, origin) - start, min(high, size.x) - start);
+                        uint lines = span_bits(from.x - start, to.x - start) | span_bits(from.y - start, to.y - start) |
+                            span_bits(from.z - start, to.z - start) | span_bits(from.w - start, to.w - start);
+                        edges[word] |= lines & ~filled[word];
+                        filled[word] |= span_bits(fill.x - start, fill.y - start);
                     }
                 }
             }
             for (uint word = 0u; word < CHUNK; word++) {
-                uint drawn = filled[word] | edges[word];
+                // What lies right of the picture does not count.
+                uint inside = below(size.x - origin - int(32u * word));
+                edges[word] &= inside;
+                uint drawn = (filled[word] & inside) | edges[word];
                 if (drawn != 0u) {
                     uint group = camera.first_plane_word + uint(y) * camera.words + chunk * CHUNK + word;
                     uvec4 near = planes[2u * group];

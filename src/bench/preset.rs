@@ -127,7 +127,7 @@ struct Entry {
     fitness: Vec<f32>,
 }
 
-fn measure(task: &Task, scene: &Scene, evaluators: Vec<Box<dyn Evaluator>>, share: Duration, report: &mut BenchReport) {
+fn measure(preset: Preset, task: &Task, scene: &Scene, evaluators: Vec<Box<dyn Evaluator>>, report: &mut BenchReport) {
     let poses = swarm(&scene.body, &scene.pose, task.particles);
     let objective = Objective::default();
     let mut entries: Vec<Entry> = Vec::new();
@@ -175,8 +175,7 @@ fn measure(task: &Task, scene: &Scene, evaluators: Vec<Box<dyn Evaluator>>, shar
 /// Whether a fitness is that of the evaluator `name`, as far as backends promise it.
 fn agree(name: &str, expected: &[f32], fitness: &[f32]) -> Result<()> {
     let apart = expected.iter().zip(fitness).map(|(l, r)| (l - r).abs());
-    // A comparison with NaN is false.
-    if let Some(apart) = apart.filter(|apart| !(*apart <= TOLERANCE)).reduce(f32::max) {
+    if let Some(apart) = apart.filter(|apart| apart.is_nan() || *apart > TOLERANCE).reduce(f32::max) {
         bail!("its fitness lies up to {apart} from that of {name}: it was not measured");
     }
     Ok(())

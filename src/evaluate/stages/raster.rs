@@ -22,8 +22,8 @@ impl RasterStage {
     /// Its name in timings.
     pub(crate) const NAME: &'static str = "raster";
 
-    /// Columns and rows that a workgroup works on at once: two words of bits a row, a row an invocation.
-    pub(crate) const TILE: [u32; 2] = [64, RASTER_GROUP];
+    /// Columns and rows that a workgroup works on at once: three words of bits a row, a row an invocation.
+    pub(crate) const TILE: [u32; 2] = [96, RASTER_GROUP];
 
     /// Compiles it, with sums over subgroups where the device has them.
     pub(crate) fn new(device: &Device) -> Result<Self> {
