@@ -2,6 +2,7 @@
 #   make demo    makes a synthetic four-camera sequence, tracks it and writes out/demo/report.html
 #   make test    formatting, lints, all tests
 #   make bench   the speed tables of docs/PERFORMANCE.md
+#   make portability   the GPU tests on lavapipe (three subgroup sizes), SwiftShader and Mesa 25
 #   make fuzz    a minute of fuzzing for every reader of a user's file (SECONDS_EACH=60)
 
 CARGO ?= cargo
@@ -16,7 +17,7 @@ SHADERC_PACKAGES := libshaderc-dev glslang-dev spirv-tools
 SHADERC_PARTS := shaderc_combined glslang SPIRV MachineIndependent GenericCodeGen OSDependent OGLCompiler HLSL SPIRV-Tools-opt \
 	SPIRV-Tools glslang-default-resource-limits
 
-.PHONY: demo test bench fuzz build ffmpeg shaderc toolchain help
+.PHONY: demo test bench portability fuzz build ffmpeg vulkan shaderc toolchain help
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -29,10 +30,17 @@ demo: toolchain shaderc
 build: toolchain shaderc
 	$(CARGO) build --release --locked
 
-test: toolchain shaderc ffmpeg
+# Whether a Vulkan driver and the validation layer are installed, as shell commands.
+HAS_DRIVER = { [ -n "$$VK_ICD_FILENAMES$$VK_DRIVER_FILES" ] || ls /usr/share/vulkan/icd.d /etc/vulkan/icd.d 2>/dev/null | grep -q json; }
+HAS_LAYER = { [ -n "$$VK_LAYER_PATH" ] || ls /usr/share/vulkan/explicit_layer.d /etc/vulkan/explicit_layer.d 2>/dev/null | \
+	grep -q VkLayer_khronos_validation; }
+# With both, a test that finds no device fails instead of being skipped.
+NEEDS_VULKAN = $$(if $(HAS_DRIVER) && $(HAS_LAYER); then echo PANTIN_NEEDS_VULKAN=1; fi)
+
+test: toolchain shaderc ffmpeg vulkan
 	$(CARGO) fmt --check
 	$(CARGO) clippy --locked --all-targets -- -D warnings
-	$(CARGO) test --locked
+	env $(NEEDS_VULKAN) $(CARGO) test --locked
 	$(CARGO) test --locked --features reload --lib gpu::shaders
 	@echo "one round of every benchmark, so that none rots"
 	$(CARGO) test --locked --bench evaluate --bench features --bench search
@@ -40,6 +48,9 @@ test: toolchain shaderc ffmpeg
 
 bench: toolchain shaderc
 	$(CARGO) bench --locked
+
+portability: toolchain shaderc vulkan
+	tests/portability.sh
 
 fuzz: toolchain shaderc
 	tests/fuzz/run.sh all $(SECONDS_EACH)
@@ -52,6 +63,17 @@ ffmpeg:
 		$(SUDO) apt-get update -qq && $(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends ffmpeg >/dev/null; \
 	else \
 		echo "ffmpeg is not installed and there is no apt-get: please install ffmpeg by hand"; exit 1; \
+	fi
+
+# The GPU tests run on Mesa's software driver, under the validation layer. Building, the demo and tracking need no Vulkan.
+vulkan:
+	@if $(HAS_DRIVER) && $(HAS_LAYER); then :; \
+	elif command -v apt-get >/dev/null; then \
+		echo "installing a software Vulkan driver and the validation layer (Debian packages) for the GPU tests"; \
+		$(SUDO) apt-get update -qq && $(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq \
+			--no-install-recommends libvulkan1 mesa-vulkan-drivers vulkan-validationlayers >/dev/null; \
+	else \
+		echo "SKIPPED: the GPU tests; there is no Vulkan driver or validation layer, and no apt-get to install them"; \
 	fi
 
 # The packages are unpacked here and merged, not installed: nothing outside target/ changes.

@@ -1,5 +1,5 @@
 //! The build's shader compiler, reflector and generator, on small shaders written for each question.
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 #[path = "../src/gpu/shaders/compile.rs"]
 mod compile;
@@ -424,4 +424,35 @@ fn the_repository_s_stages_compile() {
     }
     let double = generate::generate(&root, "gpu").unwrap();
     assert_eq!(fields(&double, "DoublePush"), ["count: u32", "factor: f32"]);
+}
+
+/// A second opinion beside naga's, where spirv-val (Debian package spirv-tools) is installed.
+#[test]
+fn spirv_val_accepts_every_stage() {
+    if std::process::Command::new("spirv-val").arg("--version").output().is_err() {
+        println!("SKIPPED spirv_val_accepts_every_stage: spirv-val is not installed");
+        return;
+    }
+    let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/glsl"));
+    let output = tempfile::tempdir().unwrap();
+    let mut count = 0;
+    for room in std::fs::read_dir(&root).unwrap().map(|entry| entry.unwrap().path()) {
+        for file in std::fs::read_dir(&room).unwrap().map(|entry| entry.unwrap().path()) {
+            let name = file.strip_prefix(&root).unwrap().to_str().unwrap();
+            if compile::Stage::of(name).is_none() {
+                continue;
+            }
+            let words = compile::compile(&root, name).unwrap().spirv;
+            let binary = output.path().join("stage.spv");
+            std::fs::write(&binary, words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>()).unwrap();
+            let checked = std::process::Command::new("spirv-val")
+                .args(["--target-env", "vulkan1.1"])
+                .arg(&binary)
+                .output()
+                .unwrap();
+            assert!(checked.status.success(), "{name}: {}", String::from_utf8_lossy(&checked.stderr));
+            count += 1;
+        }
+    }
+    assert!(count > 5, "only {count} stages were found");
 }

@@ -77,12 +77,18 @@ pub fn run(args: &EvaluateArgs) -> Result<()> {
     let poses = PoseTable::read(&args.poses, &frame.body)?;
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     let output = args.output.as_deref().map(|path| OutputFolder::create(path, overwrite)).transpose()?;
-    let fitness = score_poses(&frame, &poses, args.backend, args.model, &objective, output.as_ref(), args.images)?;
+    let scores = score_poses(&frame, &poses, args.backend, args.model, &objective, output.as_ref(), args.images)?;
+    eprintln!("{}", scores.backend);
     match &args.output {
         Some(path) => {
-            println!("{} poses scored in {} views, results in {}", fitness.len(), frame.cameras.len(), path.display())
+            println!(
+                "{} poses scored in {} views, results in {}",
+                scores.fitness.len(),
+                frame.cameras.len(),
+                path.display()
+            )
         }
-        None => write_fitness(&mut std::io::stdout().lock(), &fitness)?,
+        None => write_fitness(&mut std::io::stdout().lock(), &scores.fitness)?,
     }
     Ok(())
 }

@@ -2,8 +2,10 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "this room is the one that talks to the user")]
 
+mod bench;
 mod convert;
 mod demo;
+mod devices;
 mod evaluate;
 mod features;
 mod fit;
@@ -28,9 +30,13 @@ struct Arguments {
 
 #[derive(Subcommand, Debug)]
 enum Command {
+    /// Measure how fast every backend is here, side by side and stage by stage.
+    Bench(bench::BenchArgs),
     /// Convert a recording between C3D, TRC, BVH and CSV.
     Convert(convert::ConvertArgs),
     Demo(demo::DemoArgs),
+    /// List the Vulkan devices, what each can do, and what --backend auto would take.
+    Devices(devices::DevicesArgs),
     /// Score given poses against one frame: components and fitness.
     Evaluate(evaluate::EvaluateArgs),
     /// Measure the person: adapt body proportions to silhouettes, find first poses.
@@ -63,8 +69,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 fn dispatch(command: Command) -> Result<()> {
     match command {
+        Command::Bench(args) => bench::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Demo(args) => demo::run(&args),
+        Command::Devices(args) => devices::run(&args),
         Command::Evaluate(args) => evaluate::run(&args),
         Command::Fit(args) => fit::run(&args),
         Command::Score(args) => score::run(&args),

@@ -58,6 +58,9 @@ pub struct TrackArgs {
     /// Draw the model over the pictures every N frames; 0 for never.
     #[arg(long, value_name = "N", default_value_t = TrackSettings::default().overlay_every)]
     overlay_every: usize,
+    /// Measure every pass on the Vulkan device too, for trace.json and stages.json; it costs some time of its own.
+    #[arg(long)]
+    trace: bool,
     /// Go on with the run that the folder holds.
     #[arg(long, conflicts_with = "force")]
     resume: bool,
@@ -90,6 +93,7 @@ impl TrackArgs {
             frames: self.frames,
             start: self.start.clone(),
             overlay_every: self.overlay_every,
+            trace: self.trace,
             resume: self.resume,
         }
     }

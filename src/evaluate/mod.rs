@@ -24,6 +24,7 @@ pub use reference::{CandidateImage, Reference, compare, draw_quads};
 use vulkan::DeviceEvaluator;
 
 use crate::features::Observation;
+use crate::gpu::DevicePass;
 
 /// Scores candidate poses against the observations of one frame.
 ///
@@ -64,4 +65,31 @@ pub trait Evaluator: Send {
     fn on_device(&mut self) -> Option<&mut dyn DeviceEvaluator> {
         None
     }
+
+    /// From now on measures, or no longer, the passes it runs on a device, which takes time of its own.
+    ///
+    /// # Errors
+    /// When the device fails.
+    fn measure_passes(&mut self, _measured: bool) -> Result<()> {
+        Ok(())
+    }
+
+    /// The passes that ran on a device since the last call, in order; none where nothing is measured or nothing ran there.
+    fn device_passes(&mut self) -> Vec<DevicePass> {
+        Vec::new()
+    }
+
+    /// How a candidate's picture is kept in memory; none where that is not told.
+    fn footprint(&self) -> Option<Footprint> {
+        None
+    }
+}
+
+/// How the picture of a candidate in a view is kept in memory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Footprint {
+    /// Width and height of the piece that is worked on at once, pixels.
+    pub tile: [u32; 2],
+    /// Memory written for a pixel of it, bytes.
+    pub bytes_per_pixel: f64,
 }

@@ -94,8 +94,12 @@ impl Instance {
             info = info.push_next(&mut features);
         }
         // SAFETY: everything `info` points to lives until the call returns; the log outlives the instance (InstanceShared).
-        let raw = unsafe { entry.create_instance(&info, None) }
-            .map_err(|result| anyhow!("Vulkan makes no instance on this machine ({result})"))?;
+        let raw = unsafe { entry.create_instance(&info, None) }.map_err(|result| match result {
+            vk::Result::ERROR_INCOMPATIBLE_DRIVER => {
+                anyhow!("Vulkan finds no driver on this machine: install one (Debian: mesa-vulkan-drivers)")
+            }
+            _ => anyhow!("Vulkan makes no instance on this machine ({result})"),
+        })?;
         let messenger = if validation != Validation::Off && has_debug_utils {
             let functions = ext::debug_utils::Instance::new(&entry, &raw);
             // SAFETY: the extension is enabled; the log lives in the same struct and is dropped after the messenger.

@@ -33,7 +33,7 @@ pub use pipeline::{Blend, Drawing, Pipeline, Stage, Topology};
 pub use recorder::{Clear, Dispatch, Draw, Feedback, Groups, Recorder, Target, Viewport};
 pub use recording::Recording;
 pub use shader::{Access, Binding, BindingKind, BindingLayout, Bound, Shader, ShaderKind, SpecConstant};
-pub use timing::{PassStatistics, PassTiming, Timing, by_name};
+pub use timing::{DevicePass, PassStatistics, PassTiming, Timing, by_name};
 pub use validation::{Validation, ValidationLog};
 
 #[cfg(test)]

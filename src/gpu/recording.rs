@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
+use std::time::Instant;
 
 use anyhow::Result;
 use ash::vk;
@@ -10,7 +11,7 @@ use super::buffer::Buffer;
 use super::device::{Device, DeviceShared};
 use super::image::Image;
 use super::pipeline::Pipeline;
-use super::timing::{PassStatistics, PassTiming};
+use super::timing::{DevicePass, PassStatistics, PassTiming, on_host_clock};
 
 /// Passes ready to run. Each submission runs all of them in order; it keeps everything it uses alive until the device is done.
 pub struct Recording {
@@ -136,6 +137,18 @@ impl Recording {
                 }),
             })
             .collect())
+    }
+}
+
+impl Recording {
+    /// The passes of the last run on the host's time axis; `end` is when the host had waited for it. Where the device has
+    /// calibrated timestamps they say when, else the last pass is taken to end at `end`.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn passes_run(&self, end: Instant) -> Result<Vec<DevicePass>> {
+        let timings = self.timings()?;
+        Ok(if timings.is_empty() { Vec::new() } else { on_host_clock(&timings, self.device.clock(), end) })
     }
 }
 

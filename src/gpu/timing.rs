@@ -1,4 +1,8 @@
-//! How long passes took, by name.
+//! How long passes took, by name, and when, on the host's clock.
+
+use std::time::{Duration, Instant};
+
+use super::ClockPair;
 
 /// What a recording measures of its passes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -58,4 +62,69 @@ pub fn by_name(timings: &[PassTiming]) -> Vec<(String, f64, usize)> {
         }
     }
     sums
+}
+
+/// A pass on the host's time axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DevicePass {
+    /// The name it was recorded under.
+    pub name: String,
+    /// When it began.
+    pub start: Instant,
+    /// How long it took.
+    pub duration: Duration,
+    /// What it ran.
+    pub statistics: Option<PassStatistics>,
+}
+
+/// Brings the passes of a submission to the host's clock, by a pair of moments on both clocks where there is one. Without, and
+/// where that would have the device end later than `end`, when the host had waited for it, the last pass ends at `end`.
+pub(super) fn on_host_clock(timings: &[PassTiming], clock: Option<ClockPair>, end: Instant) -> Vec<DevicePass> {
+    let last_ns = timings.iter().map(|timing| timing.end_ns).fold(f64::NEG_INFINITY, f64::max);
+    let before_end = |ns: f64| end.checked_sub(Duration::from_nanos(ns.max(0.0) as u64)).unwrap_or(end);
+    // How long before `end` the last pass ended, by the clocks.
+    let slack_ns = clock.map_or(0.0, |clock| {
+        let end_ns = if end >= clock.host {
+            clock.device_ns + end.duration_since(clock.host).as_nanos() as f64
+        } else {
+            clock.device_ns - clock.host.duration_since(end).as_nanos() as f64
+        };
+        (end_ns - last_ns).max(0.0)
+    });
+    timings
+        .iter()
+        .map(|timing| DevicePass {
+            name: timing.name.clone(),
+            start: before_end(last_ns - timing.start_ns + slack_ns),
+            duration: Duration::from_nanos((timing.end_ns - timing.start_ns).max(0.0) as u64),
+            statistics: timing.statistics,
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn timing(start_ns: f64, end_ns: f64) -> PassTiming {
+        PassTiming { name: "pass".into(), start_ns, end_ns, statistics: None }
+    }
+
+    #[test]
+    fn passes_come_to_the_host_clock() {
+        let origin = Instant::now() + Duration::from_secs(10);
+        let at = |us: u64| origin + Duration::from_micros(us);
+        let timings = [timing(5_000_000.0, 5_010_000.0), timing(5_010_000.0, 5_040_000.0)];
+        let starts = |clock, end| on_host_clock(&timings, clock, end).iter().map(|pass| pass.start).collect::<Vec<_>>();
+        assert_eq!(starts(None, at(100)), [at(60), at(70)], "the last pass ends at the end");
+        // Device time 5_000_000 ns is the host's 20 us, whichever moment the pair was taken at.
+        let pair = |us: u64, device_ns| Some(ClockPair { device_ns, host: at(us) });
+        assert_eq!(starts(pair(20, 5_000_000.0), at(100)), [at(20), at(30)]);
+        assert_eq!(starts(pair(520, 5_500_000.0), at(100)), [at(20), at(30)]);
+        // A clock by which the device would end after the host has seen it end is wrong.
+        assert_eq!(starts(pair(90, 5_000_000.0), at(100)), [at(60), at(70)]);
+        let passes = on_host_clock(&[timing(7.0, 5.0)], None, at(1));
+        assert_eq!((passes[0].duration, passes[0].start <= at(1)), (Duration::ZERO, true));
+        assert!(on_host_clock(&[], None, at(1)).is_empty());
+    }
 }

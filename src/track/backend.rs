@@ -2,6 +2,7 @@
 
 use anyhow::{Result, anyhow, bail};
 
+use super::auto::{fastest, is_device_worth_measuring};
 use crate::body::{Body, Mesh};
 use crate::evaluate::cpu::Cpu;
 use crate::evaluate::vulkan::Compute;
@@ -56,12 +57,12 @@ impl Backend {
     }
 
     /// Makes the evaluator of a body for its cameras at working size: of its flat model, or of a mesh bound to it
-    /// ([`super::Model::mesh`]). Every backend gives the same integers for the same model, so which one it is changes the time
+    /// ([`super::Model::mesh`]). `around` is a pose to measure by, should `auto` have to choose. Every backend gives the same integers for the same model, so which one it is changes the time
     /// alone.
     ///
     /// # Errors
     /// When there is no camera, no degree of freedom, the backend does not draw the model, or the evaluator cannot be made.
-    pub fn build(self, mesh: Option<&Mesh>, body: &Body, cameras: &[Camera]) -> Result<BuiltBackend> {
+    pub fn build(self, mesh: Option<&Mesh>, body: &Body, cameras: &[Camera], around: &[f32]) -> Result<BuiltBackend> {
         if cameras.is_empty() {
             bail!("there are no cameras, expected at least one to compare poses with");
         }
@@ -69,12 +70,12 @@ impl Backend {
             bail!("the body `{}` has no degree of freedom, expected at least one to move", body.name);
         }
         match mesh {
-            None => self.build_flat(body, cameras),
+            None => self.build_flat(body, cameras, around),
             Some(mesh) => self.build_mesh(body, mesh, cameras),
         }
     }
 
-    fn build_flat(self, body: &Body, cameras: &[Camera]) -> Result<BuiltBackend> {
+    fn build_flat(self, body: &Body, cameras: &[Camera], around: &[f32]) -> Result<BuiltBackend> {
         Ok(match self {
             Self::Reference => BuiltBackend {
                 evaluator: Box::new(Reference::new(body, cameras)),
@@ -93,11 +94,23 @@ impl Backend {
             }
             Self::Auto => {
                 let cpu = Cpu::new(body, cameras)?;
-                let reason = format!(
-                    "auto chose cpu: the fastest evaluator of this build, with {} instructions, the best this processor has",
-                    cpu.variant()
-                );
-                BuiltBackend { evaluator: Box::new(cpu), reason }
+                let with = cpu.variant();
+                if let Err(why) = is_device_worth_measuring() {
+                    let reason = format!("auto chose cpu, with {with} instructions: {why}");
+                    return Ok(BuiltBackend { evaluator: Box::new(cpu), reason });
+                }
+                let mut rivals: Vec<Box<dyn Evaluator>> = vec![Box::new(cpu)];
+                // Graphics is no rival: it need not give the same integers.
+                match Compute::new(body, cameras) {
+                    Ok(compute) => rivals.push(Box::new(compute)),
+                    Err(error) => {
+                        let reason = format!("auto chose cpu, with {with} instructions: compute failed ({error:#})");
+                        return Ok(BuiltBackend { evaluator: rivals.swap_remove(0), reason });
+                    }
+                }
+                let (evaluator, reason) = fastest(rivals, body, cameras, around)?;
+                let reason = format!("auto chose {}, {reason}", evaluator.name());
+                BuiltBackend { evaluator, reason }
             }
         })
     }
@@ -144,7 +157,7 @@ mod tests {
     #[test]
     fn auto_says_what_it_chose() {
         let body = Body::adult(1750.0).unwrap();
-        let error = Backend::Auto.build(None, &body, &[]).err().unwrap().to_string();
+        let error = Backend::Auto.build(None, &body, &[], &[]).err().unwrap().to_string();
         assert!(error.contains("no cameras"), "{error}");
     }
 
@@ -154,10 +167,10 @@ mod tests {
         let cameras = crate::synth::rig::four_cameras(glam::DVec2::splat(2000.0), [64, 48]);
         assert!(Model::Flat.mesh(&body).unwrap().is_none());
         let mesh = Model::Mesh.mesh(&body).unwrap();
-        let error = Backend::Cpu.build(mesh.as_ref(), &body, &cameras).err().unwrap().to_string();
+        let error = Backend::Cpu.build(mesh.as_ref(), &body, &cameras, &[]).err().unwrap().to_string();
         assert_eq!(error, "the backend cpu draws the flat model alone, the mesh model needs graphics or reference");
         for backend in [Backend::Auto, Backend::Reference] {
-            let built = backend.build(mesh.as_ref(), &body, &cameras).unwrap();
+            let built = backend.build(mesh.as_ref(), &body, &cameras, &[]).unwrap();
             assert_eq!(built.evaluator.name(), "reference");
         }
         let error = Model::from_name("solid").unwrap_err().to_string();

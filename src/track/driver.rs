@@ -15,7 +15,7 @@ use super::run_record::RunRecord;
 use super::searcher::{Searched, Start};
 use super::stages::{Span, Stages, Thread};
 use super::truth::Truth;
-use super::{StageSummary, TrackSettings, results};
+use super::{Backend, StageSummary, TrackSettings, results, run_record};
 use crate::files::OutputFolder;
 use crate::gpu::DeviceLost;
 use crate::motion::TrajectoryError;
@@ -125,7 +125,15 @@ pub fn track(
     output: &OutputFolder,
     progress: &mut dyn Progress,
 ) -> Result<TrackSummary> {
-    let plan = Plan::new(sequence, settings)?;
+    // What auto once chose is kept to: another machine, or a moment of noise, must not change a run midway.
+    let recorded = match settings.backend {
+        Backend::Auto if settings.resume => run_record::recorded_backend(output)?,
+        _ => None,
+    };
+    let mut plan = Plan::new(sequence, settings, recorded.unwrap_or(settings.backend))?;
+    if let Some(backend) = recorded {
+        plan.backend.reason = format!("{}, which this run began with", backend.name());
+    }
     let mut warnings = Vec::new();
     let truth = match &sequence.truth {
         Some(path) => Truth::read(path, &plan.body, sequence.fps)?.map_err(|why| warnings.push(why)).ok(),
@@ -158,6 +166,7 @@ pub fn track(
         backend: plan.backend.reason.clone(),
         warnings: warnings.clone(),
     });
+    plan.backend.evaluator.measure_passes(settings.trace)?;
     let confidence = Confidence::new(&plan.body);
     let mut run = Run { sequence, settings, output, plan, truth, journal, frames: Vec::new(), stages, confidence };
     run.take_over(done)?;
@@ -260,7 +269,7 @@ impl Run<'_> {
         let counter =
             u32::try_from(frame).map_err(|_| anyhow!("frame {frame} is beyond the counters of the search"))?;
         let start = Start { frame: counter, centre: previous, spread: &spread };
-        let Searched { estimate, components, evaluations } = search
+        let Searched { estimate, components, evaluations, passes } = search
             .search(evaluator, objective, &prepared.observations, start)
             .with_context(|| format!("frame {frame}"))?;
         let views = components.iter().map(|view| objective.view_terms(view)).collect();
@@ -272,6 +281,7 @@ impl Run<'_> {
         }
         let evaluating: Duration = evaluations.iter().map(|evaluation| evaluation.time).sum();
         self.stages.count("evaluate", evaluating);
+        self.stages.record_passes(frame, &passes)?;
         self.stages.count("search", whole.time.saturating_sub(evaluating));
         Ok(FrameResult { frame, pose: estimate.pose, fitness: estimate.fitness, spread: estimate.spread, views })
     }
@@ -297,7 +307,12 @@ impl Run<'_> {
             stopped_before,
             frames: self.frames,
         };
+        let has_passes = self.stages.has_device_passes();
         summary.stages = self.stages.finish()?;
+        if self.settings.trace && summary.stages.iter().any(|stage| stage.name == "search") && !has_passes {
+            let [name, variant] = summary.backend;
+            summary.warnings.push(format!("the trace holds no device passes: {name} ({variant}) told of none"));
+        }
         // Per frame: waiting for the features, searching, writing; the rest runs beside it.
         let busy: f64 = ["wait", "evaluate", "search", "output"]
             .iter()

@@ -3,6 +3,7 @@
 //!
 //! [`track`] is the offline driver. [`score_poses`] scores given poses of one frame.
 
+mod auto;
 mod backend;
 mod confidence;
 mod driver;
@@ -32,7 +33,7 @@ pub use frame_range::FrameRange;
 pub use journal::FrameResult;
 pub use model::Model;
 pub use objective_choice::ObjectiveChoice;
-pub use scoring::{ScoredFrame, score_poses, write_fitness};
+pub use scoring::{ScoredFrame, Scores, score_poses, write_fitness};
 pub use settings::TrackSettings;
 pub use stages::StageSummary;
 

@@ -7,10 +7,11 @@ use anyhow::{Context, Result, bail};
 
 use super::feed::learns_background;
 use super::searcher::Searcher;
-use super::{BuiltBackend, TrackSettings};
+use super::{Backend, BuiltBackend, TrackSettings};
 use crate::body::{Body, Mesh, PoseTable};
 use crate::evaluate::Objective;
 use crate::features::FeatureSettings;
+use crate::gpu::Timing;
 use crate::search::SearchSpace;
 use crate::sequence::Sequence;
 
@@ -36,7 +37,8 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    pub(super) fn new(sequence: &Sequence, settings: &TrackSettings) -> Result<Self> {
+    /// With `backend` in place of the settings'.
+    pub(super) fn new(sequence: &Sequence, settings: &TrackSettings, backend: Backend) -> Result<Self> {
         settings.check()?;
         let name = sequence.path.display().to_string();
         let range = settings.frames.within(sequence.frame_count, &name)?;
@@ -56,8 +58,9 @@ impl Plan {
         space.clamp(&mut start);
         settings.search.check()?;
         let mesh = settings.model.mesh(&body)?;
-        let mut backend = settings.backend.build(mesh.as_ref(), &body, &sequence.cameras)?;
-        let search = Searcher::new(backend.evaluator.as_mut(), &objective, &settings.search, &space)?;
+        let mut backend = backend.build(mesh.as_ref(), &body, &sequence.cameras, &start)?;
+        let timing = if settings.trace { Timing::Statistics } else { Timing::Off };
+        let search = Searcher::new(backend.evaluator.as_mut(), &objective, &settings.search, &space, timing)?;
         Ok(Self {
             range,
             start,

@@ -7,7 +7,7 @@ use toml::{Table, Value};
 
 use super::journal::checksum;
 use super::plan::Plan;
-use super::{Model, TrackSettings};
+use super::{Backend, Model, TrackSettings};
 use crate::body::MeshSource;
 use crate::evaluate::Objective;
 use crate::files::{OutputFolder, read_toml};
@@ -77,6 +77,20 @@ impl RunRecord {
         let tables = self.table.values().filter_map(Value::as_table);
         tables.flatten().map(|(key, value)| (key.clone(), plain(value))).collect()
     }
+}
+
+/// The backend that the run in a folder was begun with; none where the folder holds no record, or one without it.
+///
+/// # Errors
+/// When the record cannot be read or names an unknown backend.
+pub(super) fn recorded_backend(output: &OutputFolder) -> Result<Option<Backend>> {
+    let path = output.path().join(NAME);
+    if !path.exists() {
+        return Ok(None);
+    }
+    let table: Table = read_toml(&path)?;
+    let name = table.get("settings").and_then(|settings| settings.get("backend")).and_then(Value::as_str);
+    name.map(|name| Backend::from_name(name).with_context(|| path.display().to_string())).transpose()
 }
 
 fn plain(value: &Value) -> String {

@@ -79,6 +79,15 @@ impl ScoredFrame {
     }
 }
 
+/// How poses were scored.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scores {
+    /// One a pose, in [0, 1].
+    pub fitness: Vec<f32>,
+    /// Which evaluator, and why.
+    pub backend: String,
+}
+
 /// Scores poses against a frame; one fitness a pose. With `output` it writes components.csv and fitness.csv there, and with
 /// `images` besides every candidate as `images/pose_%06d_<camera>.png` (8-bit grey: bits 0-6 the label, bit 7 the edge).
 /// Poses are counted from 0 in the order of the table, whatever their frames.
@@ -93,22 +102,25 @@ pub fn score_poses(
     objective: &Objective,
     output: Option<&OutputFolder>,
     images: bool,
-) -> Result<Vec<f32>> {
+) -> Result<Scores> {
     let mesh = model.mesh(&frame.body)?;
-    let mut built = backend.build(mesh.as_ref(), &frame.body, &frame.cameras)?;
-    let evaluator = built.evaluator.as_mut();
-    evaluator.observe(&frame.observations)?;
     let rows = single_precision(&frame.body, poses);
     let (views, dofs) = (frame.cameras.len(), frame.body.dof_count());
+    let standing: Vec<f32> = frame.body.standing_pose().iter().map(|value| *value as f32).collect();
+    let around = rows.get(..dofs).unwrap_or(&standing);
+    let mut built = backend.build(mesh.as_ref(), &frame.body, &frame.cameras, around)?;
+    let evaluator = built.evaluator.as_mut();
+    evaluator.observe(&frame.observations)?;
     let mut all = Vec::with_capacity(poses.poses.len());
     for batch in rows.chunks(BATCH * dofs) {
         let first = all.len();
         all.resize(first + batch.len() / dofs, 0.0);
         evaluator.fitness(batch, objective, &mut all[first..])?;
     }
-    let Some(output) = output else { return Ok(all) };
+    let scores = Scores { fitness: all, backend: built.reason };
+    let Some(output) = output else { return Ok(scores) };
     output.write("components.csv", |writer| write_components(writer, frame, evaluator, &rows))?;
-    output.write("fitness.csv", |writer| write_fitness(writer, &all))?;
+    output.write("fitness.csv", |writer| write_fitness(writer, &scores.fitness))?;
     if images {
         let drawing = match mesh {
             None => Reference::new(&frame.body, &frame.cameras),
@@ -124,7 +136,7 @@ pub fn score_poses(
             }
         }
     }
-    Ok(all)
+    Ok(scores)
 }
 
 /// `pose,fitness`.

@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use super::stages::Span;
 use crate::evaluate::{Components, Evaluator, Objective};
 use crate::features::Observation;
-use crate::gpu::Timing;
+use crate::gpu::{DevicePass, Timing};
 use crate::search::{DeviceSearch, Estimate, Search, SearchSettings, SearchSpace};
 
 /// The search of a run.
@@ -36,10 +36,12 @@ pub(super) struct Searched {
     pub(super) components: Vec<Components>,
     /// When the evaluator worked. On a device that is the whole submission, the search's own stages included.
     pub(super) evaluations: Vec<Span>,
+    /// The passes that ran on the device, where they are measured.
+    pub(super) passes: Vec<DevicePass>,
 }
 
 impl Searcher {
-    /// The search of these settings, on the evaluator's device if it has one.
+    /// The search of these settings, on the evaluator's device if it has one; there `timing` is what is measured of its passes.
     ///
     /// # Errors
     /// As [`SearchSettings::build`] and [`DeviceSearch::new`].
@@ -48,12 +50,13 @@ impl Searcher {
         objective: &Objective,
         settings: &SearchSettings,
         space: &SearchSpace,
+        timing: Timing,
     ) -> Result<Self> {
         let name = evaluator.name();
         Ok(match evaluator.on_device() {
             None => Self::Host(settings.build(space)?),
             Some(evaluator) => {
-                let search = DeviceSearch::new(evaluator, objective, settings, space, Timing::Off)
+                let search = DeviceSearch::new(evaluator, objective, settings, space, timing)
                     .with_context(|| format!("the backend {name} cannot search; --backend cpu works without"))?;
                 Self::Device(Box::new(search))
             }
@@ -76,20 +79,24 @@ impl Searcher {
         match self {
             Self::Host(search) => {
                 let mut evaluations = Vec::with_capacity(search.iterations() + 1);
+                let mut passes = Vec::new();
                 let estimate = search.search_frame(frame, centre, spread, &mut |poses, fitness| {
                     let begin = Instant::now();
                     evaluator.fitness(poses, objective, fitness)?;
                     evaluations.push(Span::since(begin));
+                    passes.extend(evaluator.device_passes());
                     Ok(())
                 })?;
                 let mut components = vec![Components::default(); evaluator.view_count()];
                 evaluator.components(&estimate.pose, &mut components)?;
-                Ok(Searched { estimate, components, evaluations })
+                passes.extend(evaluator.device_passes());
+                Ok(Searched { estimate, components, evaluations, passes })
             }
             Self::Device(search) => {
                 let begin = Instant::now();
                 let found = search.search_frame(frame, centre, spread)?;
                 let evaluations = vec![Span::since(begin)];
+                let passes = search.passes_run(Instant::now())?;
                 let components = observations
                     .iter()
                     .zip(found.sums)
@@ -101,7 +108,7 @@ impl Searcher {
                         proximity,
                     })
                     .collect();
-                Ok(Searched { estimate: found.estimate, components, evaluations })
+                Ok(Searched { estimate: found.estimate, components, evaluations, passes })
             }
         }
     }

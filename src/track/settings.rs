@@ -27,6 +27,8 @@ pub struct TrackSettings {
     pub start: Option<PathBuf>,
     /// Every how many frames the model is drawn over the pictures; 0 for never.
     pub overlay_every: usize,
+    /// Measure every pass on the device, for the trace and the stage times; it costs time of its own.
+    pub trace: bool,
     /// Go on with the run that the output folder holds.
     pub resume: bool,
 }
@@ -42,6 +44,7 @@ impl Default for TrackSettings {
             frames: FrameRange::default(),
             start: None,
             overlay_every: 10,
+            trace: false,
             resume: false,
         }
     }

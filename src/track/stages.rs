@@ -1,5 +1,6 @@
 //! Where the time goes: one figure a stage, and a time-line for trace viewers. Memory does not grow with the track.
 
+use std::borrow::Cow;
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -7,6 +8,9 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 use serde::Serialize;
+use serde_json::{Value, json};
+
+use crate::gpu::DevicePass;
 
 /// Ratio of the borders of a histogram's bucket: the median is known to half a per cent.
 const BUCKET: f64 = 1.01;
@@ -48,7 +52,7 @@ pub struct StageSummary {
 
 #[derive(Debug)]
 struct Stage {
-    name: &'static str,
+    name: Cow<'static, str>,
     count: u64,
     total: Duration,
     min: Duration,
@@ -84,9 +88,14 @@ pub(super) struct Stages {
     trace: BufWriter<File>,
     trace_path: PathBuf,
     is_first_event: bool,
+    has_device: bool,
 }
 
-/// Threads in the trace.
+/// Processes in the trace: trace viewers give each a group of rows.
+const HOST: u32 = 1;
+const DEVICE: u32 = 2;
+
+/// Threads of the host in the trace.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Thread {
     /// Searching.
@@ -105,11 +114,19 @@ impl Stages {
         trace
             .write_all(b"{\"displayTimeUnit\":\"ms\",\"traceEvents\":[")
             .with_context(|| format!("cannot write {}", temporary.display()))?;
-        Ok(Self { stages: Vec::new(), zero: Instant::now(), trace, trace_path, is_first_event: true })
+        Ok(Self {
+            stages: Vec::new(),
+            zero: Instant::now(),
+            trace,
+            trace_path,
+            is_first_event: true,
+            has_device: false,
+        })
     }
 
     /// Counts a time for a stage.
-    pub(super) fn count(&mut self, name: &'static str, time: Duration) {
+    pub(super) fn count(&mut self, name: impl Into<Cow<'static, str>>, time: Duration) {
+        let name = name.into();
         let index = match self.stages.iter().position(|stage| stage.name == name) {
             Some(index) => index,
             None => {
@@ -135,23 +152,67 @@ impl Stages {
 
     /// Puts an event on the time-line.
     pub(super) fn trace(&mut self, name: &str, thread: Thread, frame: usize, span: Span) -> Result<()> {
+        self.event(name, HOST, thread as u32, span, &json!({ "frame": frame }))
+    }
+
+    /// Counts the passes that a device ran for a frame, and puts them on its own row of the time-line.
+    pub(super) fn record_passes(&mut self, frame: usize, passes: &[DevicePass]) -> Result<()> {
+        let mut sums: Vec<(&str, Duration)> = Vec::new();
+        for pass in passes {
+            match sums.iter_mut().find(|(name, _)| *name == pass.name) {
+                Some((_, sum)) => *sum += pass.duration,
+                None => sums.push((&pass.name, pass.duration)),
+            }
+            let mut arguments = json!({ "frame": frame });
+            if let (Some(counts), Value::Object(arguments)) = (pass.statistics, &mut arguments) {
+                for (name, count) in [
+                    ("vertices", counts.vertices),
+                    ("primitives", counts.primitives),
+                    ("fragments", counts.fragments),
+                    ("compute_invocations", counts.compute),
+                ] {
+                    arguments.insert(name.to_string(), count.into());
+                }
+            }
+            self.event(&pass.name, DEVICE, 1, Span { start: pass.start, time: pass.duration }, &arguments)?;
+        }
+        for (name, time) in sums {
+            self.count(format!("device {name}"), time);
+        }
+        self.has_device |= !passes.is_empty();
+        Ok(())
+    }
+
+    fn event(&mut self, name: &str, process: u32, thread: u32, span: Span, arguments: &Value) -> Result<()> {
         let start = span.start.saturating_duration_since(self.zero).as_secs_f64() * 1e6;
         let time = span.time.as_secs_f64() * 1e6;
-        let comma = if self.is_first_event { "" } else { "," };
-        self.is_first_event = false;
+        self.comma()?;
         write!(
             self.trace,
-            "{comma}\n{{\"name\":\"{name}\",\"ph\":\"X\",\"pid\":1,\"tid\":{},\"ts\":{start:.3},\"dur\":{time:.3},\
-             \"args\":{{\"frame\":{frame}}}}}",
-            thread as u32
+            "{{\"name\":{},\"ph\":\"X\",\"pid\":{process},\"tid\":{thread},\"ts\":{start:.3},\"dur\":{time:.3},\
+             \"args\":{arguments}}}",
+            Value::from(name)
         )
         .with_context(|| format!("cannot write {}", temporary(&self.trace_path).display()))
+    }
+
+    /// What stands before an event.
+    fn comma(&mut self) -> Result<()> {
+        let comma = if self.is_first_event { "\n" } else { ",\n" };
+        self.is_first_event = false;
+        let written = self.trace.write_all(comma.as_bytes());
+        written.with_context(|| format!("cannot write {}", temporary(&self.trace_path).display()))
     }
 
     /// Counts a time and puts it on the time-line.
     pub(super) fn record(&mut self, name: &'static str, thread: Thread, frame: usize, span: Span) -> Result<()> {
         self.count(name, span.time);
         self.trace(name, thread, frame, span)
+    }
+
+    /// Whether a device told of passes.
+    pub(super) fn has_device_passes(&self) -> bool {
+        self.has_device
     }
 
     /// What was counted so far, in the order stages first ran.
@@ -166,14 +227,18 @@ impl Stages {
             fs::remove_file(&unused).with_context(|| format!("cannot remove {}", unused.display()))?;
             return Ok(Vec::new());
         }
-        for (thread, name) in [(Thread::Search, "search"), (Thread::Features, "reading and features")] {
-            let comma = if self.is_first_event { "" } else { "," };
-            self.is_first_event = false;
-            write!(
-                self.trace,
-                "{comma}\n{{\"name\":\"thread_name\",\"ph\":\"M\",\"pid\":1,\"tid\":{},\"args\":{{\"name\":\"{name}\"}}}}",
-                thread as u32
-            )?;
+        let mut names = vec![
+            ("process_name", HOST, 0, "CPU"),
+            ("thread_name", HOST, Thread::Search as u32, "search"),
+            ("thread_name", HOST, Thread::Features as u32, "reading and features"),
+        ];
+        if self.has_device {
+            names.extend([("process_name", DEVICE, 0, "GPU"), ("thread_name", DEVICE, 1, "queue")]);
+        }
+        for (kind, process, thread, name) in names {
+            self.comma()?;
+            let event = json!({ "name": kind, "ph": "M", "pid": process, "tid": thread, "args": { "name": name } });
+            write!(self.trace, "{event}")?;
         }
         let path = &self.trace_path;
         (|| -> Result<()> {
@@ -211,9 +276,41 @@ mod tests {
         assert_eq!((search.count, search.min, search.max), (5, 1.0, 100.0));
         assert!((search.total - 111.0).abs() < 1e-9 && (search.median - 3.0).abs() < 0.03, "{search:?}");
         assert_eq!(summaries[1].median, 0.0);
-        let trace: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+        let trace: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
         let events = trace["traceEvents"].as_array().unwrap();
-        assert_eq!(events.len(), 7);
+        assert_eq!(events.len(), 8);
         assert_eq!((events[3]["dur"].as_f64(), events[3]["args"]["frame"].as_u64()), (Some(100_000.0), Some(7)));
+    }
+    #[test]
+    fn device_passes_have_rows_of_their_own_on_the_same_axis() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("trace.json");
+        let mut stages = Stages::new(&path).unwrap();
+        let start = stages.zero + Duration::from_millis(2);
+        stages.trace("evaluate", Thread::Search, 3, Span { start, time: Duration::from_millis(5) }).unwrap();
+        let statistics = crate::gpu::PassStatistics { vertices: 8, primitives: 4, fragments: 99, compute: 64 };
+        let pass = |name: &str, ms, statistics| DevicePass {
+            name: name.to_string(),
+            start: start + Duration::from_millis(ms),
+            duration: Duration::from_millis(1),
+            statistics,
+        };
+        let passes = [pass("a \"pose\"", 1, None), pass("draw", 2, Some(statistics)), pass("draw", 3, None)];
+        stages.record_passes(3, &passes).unwrap();
+        let summaries = stages.finish().unwrap();
+        let found: Vec<(&str, u64, f64)> = summaries.iter().map(|s| (s.name.as_str(), s.count, s.total)).collect();
+        assert_eq!(found, [("device a \"pose\"", 1, 1.0), ("device draw", 1, 2.0)]);
+        let trace: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+        let events = trace["traceEvents"].as_array().unwrap();
+        assert_eq!((&events[0]["pid"], &events[0]["ts"]), (&json!(1), &json!(2000.0)));
+        assert_eq!(
+            (&events[1]["pid"], &events[1]["ts"], &events[1]["name"]),
+            (&json!(2), &json!(3000.0), &json!("a \"pose\""))
+        );
+        let counts = json!({ "frame": 3, "vertices": 8, "primitives": 4, "fragments": 99, "compute_invocations": 64 });
+        assert_eq!(events[2]["args"], counts);
+        let processes: Vec<&Value> =
+            events.iter().filter(|event| event["name"] == "process_name").map(|event| &event["args"]["name"]).collect();
+        assert_eq!(processes, ["CPU", "GPU"]);
     }
 }

@@ -309,6 +309,59 @@ fn killed_or_interrupted_it_goes_on() {
 }
 
 #[test]
+fn auto_keeps_to_what_the_run_began_with() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    tracked(&output, &["--backend", "reference"]);
+    let files = result_files(&output);
+    let again = track_with(sequence(), &output, &["--resume"]);
+    assert!(again.status.success(), "{}", stderr(&again));
+    assert!(stderr(&again).contains("reference, which this run began with"), "{}", stderr(&again));
+    same(&result_files(&output), &files);
+    let parts = ["another backend: \"reference\" there, \"cpu\" now"];
+    refused(&track_with(sequence(), &output, &["--resume", "--backend", "cpu"]), &parts);
+    let record = fs::read_to_string(output.join("run.toml")).unwrap();
+    fs::write(output.join("run.toml"), record.replace("backend = \"reference\"", "backend = \"cuda\"")).unwrap();
+    refused(&track_with(sequence(), &output, &["--resume"]), &["run.toml", "no backend `cuda`"]);
+}
+
+#[test]
+fn the_trace_has_the_device_beside_the_host() {
+    if !has_vulkan("the_trace_has_the_device_beside_the_host") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    tracked(&output, &["--backend", "compute", "--trace", "--frames", "0..2"]);
+    let trace: serde_json::Value = serde_json::from_slice(&fs::read(output.join("trace.json")).unwrap()).unwrap();
+    let events = trace["traceEvents"].as_array().unwrap();
+    let of = |name: &str| events.iter().filter(move |event| event["name"] == name).collect::<Vec<_>>();
+    let end = |event: &serde_json::Value| event["ts"].as_f64().unwrap() + event["dur"].as_f64().unwrap();
+    let (frames, rasters) = (of("frame"), of("raster"));
+    assert_eq!(frames.len(), 2);
+    // Every evaluation of the search, and one of the result.
+    assert_eq!(rasters.len(), of("evaluate").len() + 2);
+    for raster in rasters {
+        let frame = frames.iter().find(|frame| frame["args"]["frame"] == raster["args"]["frame"]).unwrap();
+        assert_eq!((&frame["pid"], &raster["pid"]), (&1.into(), &2.into()));
+        // A device cannot end later than the host that waits for it; when it began is its own clock's word.
+        assert!(end(raster) <= end(frame) + 1.0, "{raster} of {frame}");
+    }
+    let stages: serde_json::Value = serde_json::from_slice(&fs::read(output.join("stages.json")).unwrap()).unwrap();
+    let stages = stages["stages"].as_array().unwrap();
+    assert!(stages.iter().any(|stage| stage["name"] == "device raster" && stage["count"] == 2), "{stages:?}");
+}
+
+#[test]
+fn a_trace_of_the_device_is_missed_where_nothing_runs_on_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    let done = track_with(sequence(), &output, &["--backend", "cpu", "--trace"]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    assert!(stderr(&done).contains("the trace holds no device passes: cpu ("), "{}", stderr(&done));
+}
+
+#[test]
 fn the_particle_filter_resumes_too() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("track");

@@ -26,7 +26,7 @@ use crate::geometry::Camera;
 
 use super::batch::{check_batch, check_observations};
 use super::rig::Rig;
-use super::{Components, Evaluator, Objective, Projector};
+use super::{Components, Evaluator, Footprint, Objective, Projector};
 
 use front::{Front, LANES, QuadChunk};
 use kernel::Canvas;
@@ -312,5 +312,10 @@ impl Evaluator for Cpu {
                 *value = objective.fitness(row);
             }
         })
+    }
+
+    fn footprint(&self) -> Option<Footprint> {
+        // A bit for what is covered and one for what is an edge.
+        Some(Footprint { tile: [planes::CELL_COLUMNS, planes::CELL_ROWS], bytes_per_pixel: 0.25 })
     }
 }

@@ -6,7 +6,7 @@ use crate::evaluate::vulkan::{DeviceModel, Workspace};
 use crate::gpu::{Buffer, Device, Dispatch, Groups, Pipeline, Recorder, Stage};
 
 use super::Share;
-use super::generated::{raster_comp, raster_shared_comp};
+use super::generated::{RASTER_GROUP, raster_comp, raster_shared_comp};
 
 /// The stage.
 #[derive(Debug)]
@@ -21,6 +21,9 @@ pub(crate) struct RasterStage {
 impl RasterStage {
     /// Its name in timings.
     pub(crate) const NAME: &'static str = "raster";
+
+    /// Columns and rows that a workgroup works on at once: three words of bits a row, a row an invocation.
+    pub(crate) const TILE: [u32; 2] = [96, RASTER_GROUP];
 
     /// Compiles it, with sums over subgroups where the device has them.
     pub(crate) fn new(device: &Device) -> Result<Self> {

@@ -1,16 +1,20 @@
 //! The backend that draws in compute: every candidate compared row by row in registers, in the reference's integers, with no
 //! framebuffer.
 
+use std::time::Instant;
+
 use anyhow::{Result, bail, ensure};
 
 use crate::body::Body;
 use crate::evaluate::batch::check_batch;
 use crate::evaluate::rig::Rig;
 use crate::evaluate::stages::{ObjectiveStage, PoseStage, ProjectStage, RasterStage, Share, layout};
-use crate::evaluate::{Components, Evaluator, Objective, Projector};
+use crate::evaluate::{Components, Evaluator, Footprint, Objective, Projector};
 use crate::features::Observation;
 use crate::geometry::Camera;
-use crate::gpu::{Buffer, Device, DeviceFacts, Memory, OutOfMemory, PassTiming, Recorder, Recording, Timing};
+use crate::gpu::{
+    Buffer, Device, DeviceFacts, DevicePass, Memory, OutOfMemory, PassTiming, Recorder, Recording, Timing,
+};
 
 use super::{DeviceEvaluator, DeviceModel, Workspace, open_device};
 
@@ -32,6 +36,8 @@ pub struct Compute {
     /// What was recorded for a number of candidates, and for an objective or for the components; the latest last.
     recordings: Vec<((u32, Option<Objective>), Recording)>,
     timing: Timing,
+    /// What ran since it was last asked for, once it is to be measured.
+    passes: Option<Vec<DevicePass>>,
 }
 
 /// Buffers for a number of candidates.
@@ -102,6 +108,7 @@ impl Compute {
             is_uploaded: false,
             recordings: Vec::new(),
             timing: Timing::Off,
+            passes: None,
             model,
         })
     }
@@ -203,6 +210,9 @@ impl Compute {
         }
         if let Some((_, recording)) = self.recordings.last_mut() {
             recording.run()?;
+            if let Some(passes) = &mut self.passes {
+                passes.extend(recording.passes_run(Instant::now())?);
+            }
         }
         if let Some(message) = self.model.device.validation_log().messages().first() {
             bail!("the Vulkan validation layer finds a fault: {message}");
@@ -261,6 +271,23 @@ impl Evaluator for Compute {
 
     fn on_device(&mut self) -> Option<&mut dyn DeviceEvaluator> {
         Some(self)
+    }
+
+    fn measure_passes(&mut self, measured: bool) -> Result<()> {
+        if measured != self.passes.is_some() {
+            self.passes = measured.then(Vec::new);
+            self.time_stages(if measured { Timing::Statistics } else { Timing::Off });
+        }
+        Ok(())
+    }
+
+    fn device_passes(&mut self) -> Vec<DevicePass> {
+        self.passes.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    fn footprint(&self) -> Option<Footprint> {
+        // Bits in registers: no pixel of a candidate is written to memory.
+        Some(Footprint { tile: RasterStage::TILE, bytes_per_pixel: 0.0 })
     }
 }
 

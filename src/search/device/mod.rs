@@ -9,13 +9,15 @@ mod swarm;
 #[cfg(test)]
 mod tests;
 
+use std::time::Instant;
+
 use anyhow::{Context, Result, bail, ensure};
 
 use super::stages::{Extent, layout};
 use super::{Estimate, SearchKind, SearchSettings, SearchSpace, check_start};
 use crate::evaluate::Objective;
 use crate::evaluate::vulkan::DeviceEvaluator;
-use crate::gpu::{Buffer, Device, Memory, PassTiming, Recorder, Recording, Timing};
+use crate::gpu::{Buffer, Device, DevicePass, Memory, PassTiming, Recorder, Recording, Timing};
 
 /// What a search on a device found in a frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -162,6 +164,14 @@ impl DeviceSearch {
     /// When the device fails.
     pub fn timings(&self) -> Result<Vec<PassTiming>> {
         self.recording.timings()
+    }
+
+    /// The last frame's passes on the host's clock, `end` being when the frame was done; none where nothing is measured.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn passes_run(&self, end: Instant) -> Result<Vec<DevicePass>> {
+        self.recording.passes_run(end)
     }
 }
 

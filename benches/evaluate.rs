@@ -5,86 +5,21 @@
 //! row and checks that all give the same integers.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
-mod yardstick;
-
 use std::time::Instant;
 
-use glam::{DAffine3, DMat3, DVec2, DVec3};
-use pantin::body::Body;
+use pantin::bench::{Scene, Yardstick, YardstickKind, swarm};
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
 use pantin::evaluate::vulkan::Compute;
-use pantin::evaluate::{Components, Evaluator as _, Objective, Reference};
+use pantin::evaluate::{Components, Evaluator, Objective};
 use pantin::features::Observation;
-use pantin::geometry::{BrownConrady, Camera, Lens};
 use pantin::gpu::{Timing, by_name};
-use yardstick::Yardstick;
-
-/// Four cameras around a person who is `person` pixels tall in pictures of `size`.
-fn cameras(size: [u32; 2], person: f64) -> Vec<Camera> {
-    let distance = 4000.0;
-    let focal = person * distance / 1750.0;
-    (0..4)
-        .map(|index| {
-            let angle = f64::from(index) * std::f64::consts::FRAC_PI_2 + 0.6;
-            let eye = DVec3::new(distance * angle.cos(), distance * angle.sin(), 1200.0);
-            let forward = (DVec3::new(0.0, 0.0, 900.0) - eye).normalize();
-            let right = forward.cross(DVec3::Z).normalize();
-            let rotation = DMat3::from_cols(right, forward.cross(right), forward).transpose();
-            Camera {
-                name: format!("cam{index}"),
-                size,
-                camera_from_world: DAffine3::from_mat3_translation(rotation, -(rotation * eye)),
-                lens: Lens::BrownConrady(BrownConrady {
-                    focal: DVec2::splat(focal),
-                    centre: DVec2::new(f64::from(size[0]), f64::from(size[1])) / 2.0,
-                    radial: [-0.05, 0.01, 0.0],
-                    tangential: [1e-4, -1e-4],
-                }),
-            }
-        })
-        .collect()
-}
-
-/// A swarm as it stands around a pose in mid-frame: the pose and `count - 1` others within one step of it.
-fn swarm(body: &Body, count: usize) -> Vec<f32> {
-    let mut state = 1_u64;
-    let mut uniform = move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 40) as f64 / (1_u64 << 24) as f64
-    };
-    let standing = body.standing_pose();
-    let mut poses = Vec::new();
-    for candidate in 0..count {
-        for ((_, dof), start) in body.dofs().zip(&standing) {
-            let spread = if candidate == 0 { 0.0 } else { 2.0 * uniform() - 1.0 };
-            poses.push((start + dof.step * spread) as f32);
-        }
-    }
-    poses
-}
-
-/// What the cameras would see of the first pose: its drawn silhouette, its edges with a falling proximity.
-fn observations(body: &Body, cameras: &[Camera], pose: &[f32]) -> Vec<Observation> {
-    let reference = Reference::new(body, cameras);
-    (0..cameras.len())
-        .map(|view| {
-            let image = reference.draw(pose, view);
-            let bytes = image.bytes.iter().enumerate().map(|(index, &drawn)| {
-                let silhouette = if drawn != 0 { Observation::SILHOUETTE } else { 0 };
-                silhouette | (index as u32).wrapping_mul(2_654_435_761).to_be_bytes()[0] & Observation::PROXIMITY
-            });
-            Observation { width: image.width, height: image.height, bytes: bytes.collect() }
-        })
-        .collect()
-}
 
 /// Prints the time of a batch by its size: a candidate should cost the same in any.
-fn scaling(body: &Body, threads: usize) {
-    let cameras = cameras([480, 270], 150.0);
-    let mut cpu = Cpu::with(body, &cameras, InstructionSet::best(), threads).unwrap();
-    let poses = swarm(body, 1024);
-    let seen = observations(body, &cameras, &poses[..body.dof_count()]);
-    cpu.observe(&seen).unwrap();
+fn scaling(threads: usize) {
+    let Scene { body, cameras, observations, pose } = Scene::new([480, 270], 150.0).unwrap();
+    let mut cpu = Cpu::with(&body, &cameras, InstructionSet::best(), threads).unwrap();
+    let poses = swarm(&body, &pose, 1024);
+    cpu.observe(&observations).unwrap();
     let mut sizes = [128, 256, 512, 1024].map(|count| (count, Vec::new()));
     let mut fitness = vec![0.0; 1024];
     for _ in 0..160 {
@@ -128,14 +63,12 @@ fn main() {
     let measuring = std::env::args().any(|argument| argument == "--bench");
     let count = if measuring { 512 } else { 32 };
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let body = Body::adult(1750.0).unwrap();
     if measuring && (filter.is_empty() || filter.iter().any(|word| "scaling".contains(word.as_str()))) {
-        scaling(&body, threads);
+        scaling(threads);
     }
     for (title, size, person) in [("A", [480, 270], 150.0), ("B", [640, 480], 280.0)] {
-        let cameras = cameras(size, person);
-        let poses = swarm(&body, count);
-        let seen = observations(&body, &cameras, &poses[..body.dof_count()]);
+        let Scene { body, cameras, observations: seen, pose } = Scene::new(size, person).unwrap();
+        let poses = swarm(&body, &pose, count);
         let pixels: u32 = seen.iter().map(Observation::area).sum::<u32>() / 4;
         println!(
             "\n{title}: {count} candidates x 4 cameras, {}x{}, person {person} px ({pixels} px silhouette), {threads} threads",
@@ -143,15 +76,16 @@ fn main() {
         );
 
         let mut rows: Vec<Row> = Vec::new();
-        for kind in [Yardstick::ZBuffer, Yardstick::RowSpan] {
-            let (evaluator, seen, poses) =
-                (yardstick::Evaluator::new(&body, &cameras, kind), seen.clone(), poses.clone());
+        for kind in YardstickKind::ALL {
+            let mut yardstick = Yardstick::new(&body, &cameras, kind, threads);
+            yardstick.observe(&seen).unwrap();
+            let poses = poses.clone();
             rows.push(Row {
-                name: if kind == Yardstick::ZBuffer { "zbuffer" } else { "rowspan" }.into(),
+                name: kind.name().into(),
                 rounds_each: 1,
                 run: Box::new(move || {
                     let mut out = vec![Components::default(); count * 4];
-                    evaluator.components(&poses, &seen, &mut out, threads);
+                    yardstick.components(&poses, &mut out).unwrap();
                     out
                 }),
                 ms: Vec::new(),

@@ -2,57 +2,128 @@
 //! picture, and byte row spans inside the bounding box with a comparison the compiler vectorises. Both give the
 //! reference's integers.
 
-use pantin::body::Body;
-use pantin::evaluate::{Components, PartQuad, Projector};
-use pantin::features::Observation;
-use pantin::geometry::Camera;
+use anyhow::{Result, ensure};
+
+use crate::body::Body;
+use crate::evaluate::{Components, Evaluator, Footprint, Objective, PartQuad, Projector};
+use crate::features::Observation;
+use crate::geometry::Camera;
 
 /// Which of the two.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Yardstick {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum YardstickKind {
     /// Byte depth buffer over the whole picture.
     ZBuffer,
     /// Byte row spans inside the bounding box.
     RowSpan,
 }
 
-pub struct Evaluator {
-    projector: Projector,
-    sizes: Vec<[usize; 2]>,
-    kind: Yardstick,
+impl YardstickKind {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::ZBuffer, Self::RowSpan];
+
+    /// The name as the benchmark's `variant` column has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ZBuffer => "zbuffer",
+            Self::RowSpan => "rowspan",
+        }
+    }
 }
 
-impl Evaluator {
-    pub fn new(body: &Body, cameras: &[Camera], kind: Yardstick) -> Self {
-        let sizes = cameras.iter().map(|c| c.size.map(|side| side as usize)).collect();
-        Self { projector: Projector::new(body, cameras), sizes, kind }
+/// One of the two, on threads that it starts anew each time.
+#[derive(Debug)]
+pub struct Yardstick {
+    projector: Projector,
+    sizes: Vec<[usize; 2]>,
+    kind: YardstickKind,
+    threads: usize,
+    observations: Vec<Observation>,
+}
+
+impl Yardstick {
+    /// For a body and its cameras at working size.
+    pub fn new(body: &Body, cameras: &[Camera], kind: YardstickKind, threads: usize) -> Self {
+        let sizes = cameras.iter().map(|camera| camera.size.map(|side| side as usize)).collect();
+        let projector = Projector::new(body, cameras);
+        Self { projector, sizes, kind, threads: threads.max(1), observations: Vec::new() }
+    }
+}
+
+impl Evaluator for Yardstick {
+    fn name(&self) -> &'static str {
+        "cpu"
     }
 
-    /// All candidates in all views on `threads` threads.
-    pub fn components(&self, poses: &[f32], observations: &[Observation], out: &mut [Components], threads: usize) {
-        let (dofs, views) = (self.projector.dof_count(), self.sizes.len());
-        let share = (poses.len() / dofs).div_ceil(threads);
+    fn variant(&self) -> &'static str {
+        self.kind.name()
+    }
+
+    fn view_count(&self) -> usize {
+        self.sizes.len()
+    }
+
+    fn dof_count(&self) -> usize {
+        self.projector.dof_count()
+    }
+
+    fn observe(&mut self, observations: &[Observation]) -> Result<()> {
+        let sizes = observations.iter().map(|seen| [seen.width as usize, seen.height as usize]);
+        ensure!(sizes.eq(self.sizes.iter().copied()), "the observations are not of the cameras' sizes");
+        self.observations = observations.to_vec();
+        Ok(())
+    }
+
+    fn components(&mut self, poses: &[f32], components: &mut [Components]) -> Result<()> {
+        let (dofs, views) = (self.dof_count(), self.view_count());
+        ensure!(
+            poses.len().is_multiple_of(dofs) && poses.len() / dofs * views == components.len(),
+            "{} components were asked for {} values of poses",
+            components.len(),
+            poses.len()
+        );
+        ensure!(self.observations.len() == views, "nothing was observed yet");
+        let share = (poses.len() / dofs).div_ceil(self.threads).max(1);
+        let this = &*self;
         std::thread::scope(|scope| {
-            for (poses, out) in poses.chunks(share * dofs).zip(out.chunks_mut(share * views)) {
-                scope.spawn(move || {
-                    let most = self.sizes.iter().map(|[w, h]| w * h).max().unwrap_or(0);
-                    let mut picture = vec![0_u8; most];
-                    for (pose, out) in poses.chunks_exact(dofs).zip(out.chunks_exact_mut(views)) {
-                        for (view, sums) in out.iter_mut().enumerate() {
-                            let quads = self.projector.quads(pose, view);
-                            *sums = match self.kind {
-                                Yardstick::ZBuffer => {
-                                    zbuffer(&quads, self.sizes[view], &observations[view], &mut picture)
-                                }
-                                Yardstick::RowSpan => {
-                                    row_span(&quads, self.sizes[view], &observations[view], &mut picture)
-                                }
-                            };
-                        }
-                    }
-                });
+            for (poses, out) in poses.chunks(share * dofs).zip(components.chunks_mut(share * views)) {
+                scope.spawn(move || this.run(poses, out));
             }
         });
+        Ok(())
+    }
+
+    fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
+        let views = self.view_count();
+        let mut components = vec![Components::default(); fitness.len() * views];
+        self.components(poses, &mut components)?;
+        for (value, row) in fitness.iter_mut().zip(components.chunks_exact(views)) {
+            *value = objective.fitness(row);
+        }
+        Ok(())
+    }
+
+    fn footprint(&self) -> Option<Footprint> {
+        let [width, height] = self.sizes.first()?.map(|side| side as u32);
+        Some(Footprint { tile: [width, height], bytes_per_pixel: 1.0 })
+    }
+}
+
+impl Yardstick {
+    /// A thread's share of the candidates.
+    fn run(&self, poses: &[f32], out: &mut [Components]) {
+        let most = self.sizes.iter().map(|[w, h]| w * h).max().unwrap_or(0);
+        let mut picture = vec![0_u8; most];
+        for (pose, out) in poses.chunks_exact(self.dof_count()).zip(out.chunks_exact_mut(self.sizes.len())) {
+            for (view, sums) in out.iter_mut().enumerate() {
+                let quads = self.projector.quads(pose, view);
+                let draw = match self.kind {
+                    YardstickKind::ZBuffer => zbuffer,
+                    YardstickKind::RowSpan => row_span,
+                };
+                *sums = draw(&quads, self.sizes[view], &self.observations[view], &mut picture);
+            }
+        }
     }
 }
 

@@ -1,0 +1,126 @@
+//! Who is measured: every backend and variant that this machine runs, and why it does not run the others.
+
+use std::collections::BTreeMap;
+
+use anyhow::{Result, anyhow, bail};
+use serde::Serialize;
+
+use super::Scene;
+use super::yardstick::{Yardstick, YardstickKind};
+use crate::body::{FrustumBase, Mesh};
+use crate::evaluate::cpu::{Cpu, InstructionSet};
+use crate::evaluate::vulkan::{Compute, device_settings, open_instance};
+use crate::evaluate::{Evaluator, Reference};
+use crate::gpu::{Capabilities, Device, DeviceSettings};
+
+/// A backend or variant that this machine cannot run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Missing {
+    /// The backend.
+    pub backend: String,
+    /// The variant.
+    pub variant: String,
+    /// The model.
+    pub model: String,
+    /// Why not, in a sentence.
+    pub reason: String,
+}
+
+/// What the body is drawn as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Model {
+    /// Flat parts.
+    Flat,
+    /// Frusta.
+    Frusta(FrustumBase),
+}
+
+impl Model {
+    /// The name that rows carry.
+    pub(super) fn name(self) -> String {
+        match self {
+            Self::Flat => "flat".to_string(),
+            Self::Frusta(base) => format!("{} {}", base.name(), base.vertices()),
+        }
+    }
+
+    /// The flat model, the square frusta and every rung of the elliptic ones.
+    pub(super) fn ladder() -> Vec<Self> {
+        let elliptic = FrustumBase::LADDER.map(|vertices| Self::Frusta(FrustumBase::Elliptic { vertices }));
+        [Self::Flat, Self::Frusta(FrustumBase::Square)].into_iter().chain(elliptic).collect()
+    }
+}
+
+/// Who is measured on a scene, and who is not.
+#[derive(Default)]
+pub(super) struct Contestants {
+    pub(super) present: Vec<Box<dyn Evaluator>>,
+    pub(super) missing: Vec<Missing>,
+}
+
+/// Variants of the compute backend, and what is taken from a device for it to take the variant.
+const COMPUTE: [(&str, Option<Lower>); 2] =
+    [("subgroup", None), ("shared", Some(|capabilities| capabilities.subgroup_arithmetic = false))];
+
+type Lower = fn(&mut Capabilities);
+
+/// The device, opened once more where it is to be capable of less.
+fn variant_on(device: &Result<Device, String>, lower: Option<Lower>) -> Result<Device> {
+    let device = device.as_ref().map_err(|why| anyhow!("{why}"))?;
+    match lower {
+        None => Ok(device.clone()),
+        Some(_) => Device::open(&open_instance()?, DeviceSettings { lower, ..device_settings()? }),
+    }
+}
+
+impl Contestants {
+    /// Everybody who draws the model; the first is the one whose fitness the others are held to.
+    ///
+    /// `device` is the Vulkan device, or why there is none.
+    pub(super) fn new(model: Model, scene: &Scene, device: &Result<Device, String>) -> Result<Self> {
+        let Scene { body, cameras, .. } = scene;
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let mut all = Self::default();
+        match model {
+            Model::Flat => {
+                all.add(model, "reference", "", Ok(Box::new(Reference::new(body, cameras))));
+                for kind in YardstickKind::ALL {
+                    all.add(model, "cpu", kind.name(), Ok(Box::new(Yardstick::new(body, cameras, kind, threads))));
+                }
+                for set in InstructionSet::ALL {
+                    let cpu = Cpu::with(body, cameras, set, threads).map(|cpu| Box::new(cpu) as Box<dyn Evaluator>);
+                    all.add(model, "cpu", set.name(), cpu);
+                }
+                for (variant, lower) in COMPUTE {
+                    let compute = variant_on(device, lower).and_then(|device| Compute::on(&device, body, cameras));
+                    let is_it = |compute: &Compute| compute.variant() == variant;
+                    let compute = compute.and_then(|compute| match is_it(&compute) {
+                        true => Ok(Box::new(compute) as Box<dyn Evaluator>),
+                        false => bail!("the device lacks what it needs: pantin devices says what"),
+                    });
+                    all.add(model, "compute", variant, compute);
+                }
+            }
+            Model::Frusta(base) => {
+                let mesh = Mesh::frusta(body, base, &BTreeMap::new())?;
+                all.add(model, "reference", "", Ok(Box::new(Reference::of_mesh(body, mesh, cameras)?)));
+            }
+        }
+        for evaluator in &mut all.present {
+            evaluator.observe(&scene.observations)?;
+        }
+        Ok(all)
+    }
+
+    fn add(&mut self, model: Model, backend: &str, variant: &str, evaluator: Result<Box<dyn Evaluator>>) {
+        match evaluator {
+            Ok(evaluator) => self.present.push(evaluator),
+            Err(error) => self.missing.push(Missing {
+                backend: backend.to_string(),
+                variant: variant.to_string(),
+                model: model.name(),
+                reason: format!("{error:#}"),
+            }),
+        }
+    }
+}

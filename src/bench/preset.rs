@@ -1,0 +1,297 @@
+//! What is measured, and the measuring.
+
+use std::time::{Duration, Instant};
+
+use anyhow::{Result, bail};
+
+use super::contestants::{Contestants, Missing, Model};
+use super::report::{BenchReport, Row, machine};
+use super::rounds::{Round, Times, interleaved};
+use super::scene::{Scene, swarm};
+use crate::evaluate::vulkan::open_device;
+use crate::evaluate::{Evaluator, Objective};
+
+/// How far a fitness may lie from the first evaluator's.
+const TOLERANCE: f32 = 1e-3;
+/// Candidates whose fitness is compared.
+const COMPARED: usize = 24;
+/// An evaluator that would take longer for a round is measured on those few candidates, in the quick preset.
+const PATIENCE: Duration = Duration::from_secs(1);
+/// Rounds that stages are measured in, after the others.
+const STAGE_ROUNDS: usize = 5;
+
+/// A set of tasks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Preset {
+    /// 512 particles on both picture sizes, a few seconds.
+    #[default]
+    Quick,
+    /// The tasks of SPEC A10: 96, 304 and 512 particles on both picture sizes, and the model ladder.
+    Thesis,
+}
+
+/// One task: a model, a number of candidates, and pictures in which the person is so tall.
+#[derive(Clone, Copy, Debug)]
+struct Task {
+    model: Model,
+    particles: usize,
+    size: [u32; 2],
+    person: f64,
+}
+
+const LARGE: ([u32; 2], f64) = ([640, 480], 280.0);
+const SMALL: ([u32; 2], f64) = ([480, 270], 150.0);
+
+impl Preset {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Quick, Self::Thesis];
+
+    /// The name as `--preset` takes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Quick => "quick",
+            Self::Thesis => "thesis",
+        }
+    }
+
+    /// The preset of that name.
+    ///
+    /// # Errors
+    /// When there is none; the sentence names those there are.
+    pub fn from_name(name: &str) -> Result<Self> {
+        match Self::ALL.into_iter().find(|preset| preset.name() == name) {
+            Some(preset) => Ok(preset),
+            None => bail!("there is no preset `{name}`, expected one of {}", Self::ALL.map(Self::name).join(", ")),
+        }
+    }
+
+    fn tasks(self) -> Vec<Task> {
+        let counts: &[usize] = match self {
+            Self::Quick => &[512],
+            Self::Thesis => &[96, 304, 512],
+        };
+        let flat = [LARGE, SMALL].into_iter().flat_map(|(size, person)| {
+            counts.iter().map(move |&particles| Task { model: Model::Flat, particles, size, person })
+        });
+        let rungs = match self {
+            Self::Quick => vec![Model::ladder()[1]],
+            Self::Thesis => Model::ladder()[1..].to_vec(),
+        };
+        let (size, person) = LARGE;
+        let ladder = rungs.into_iter().map(|model| Task { model, particles: 304, size, person });
+        flat.chain(ladder).collect()
+    }
+
+    /// Time for the rounds of one evaluator on one task.
+    fn share(self) -> Duration {
+        match self {
+            Self::Quick => Duration::from_millis(150),
+            Self::Thesis => Duration::from_millis(600),
+        }
+    }
+}
+
+/// Measures every task of a preset; `begin` hears what is measured next.
+///
+/// # Errors
+/// When the scene cannot be made; an evaluator that fails is listed with its error instead.
+pub fn run(preset: Preset, begin: &mut dyn FnMut(&str)) -> Result<BenchReport> {
+    let mut report = empty(preset);
+    let device = open_device().map_err(|error| format!("{error:#}"));
+    report.device = device.as_ref().ok().map(|device| format!("{}, {}", device.facts().name, device.facts().driver));
+    for task in preset.tasks() {
+        let [width, height] = task.size;
+        begin(&format!("{}, {} particles, {width}x{height}", task.model.name(), task.particles));
+        let scene = Scene::new(task.size, task.person)?;
+        let Contestants { present, missing } = Contestants::new(task.model, &scene, &device)?;
+        let unheard = missing.into_iter().filter(|missing| !report.unavailable.contains(missing)).collect::<Vec<_>>();
+        report.unavailable.extend(unheard);
+        measure(preset, &task, &scene, present, &mut report);
+    }
+    Ok(report)
+}
+
+fn empty(preset: Preset) -> BenchReport {
+    BenchReport {
+        preset: preset.name().to_string(),
+        machine: machine(),
+        device: None,
+        rows: Vec::new(),
+        unavailable: Vec::new(),
+    }
+}
+
+/// An evaluator at work on a task.
+struct Entry {
+    evaluator: Box<dyn Evaluator>,
+    fitness: Vec<f32>,
+}
+
+fn measure(preset: Preset, task: &Task, scene: &Scene, evaluators: Vec<Box<dyn Evaluator>>, report: &mut BenchReport) {
+    let poses = swarm(&scene.body, &scene.pose, task.particles);
+    let objective = Objective::default();
+    let mut entries: Vec<Entry> = Vec::new();
+    let mut expected: Option<(&'static str, Vec<f32>)> = None;
+    for mut evaluator in evaluators {
+        let mut fitness = vec![0.0; task.particles];
+        // A few candidates tell: the first evaluator is a slow one.
+        let few = task.particles.min(COMPARED);
+        let start = Instant::now();
+        let found = evaluator.fitness(&poses[..few * scene.pose.len()], &objective, &mut fitness[..few]);
+        let is_slow = start.elapsed() * (task.particles / few) as u32 > PATIENCE;
+        let checked = found.and_then(|()| {
+            let (name, expected) = expected.get_or_insert_with(|| (evaluator.name(), fitness[..few].to_vec()));
+            agree(name, expected, &fitness[..few])
+        });
+        match checked {
+            Ok(()) => {
+                if is_slow && preset == Preset::Quick {
+                    fitness.truncate(few);
+                }
+                entries.push(Entry { evaluator, fitness });
+            }
+            Err(error) => report.unavailable.push(refusal(task, evaluator.as_ref(), &error)),
+        }
+    }
+    let mut rounds: Vec<Round<'_>> = entries
+        .iter_mut()
+        .map(|entry| {
+            let poses = &poses[..entry.fitness.len() * scene.pose.len()];
+            let run = move || entry.evaluator.fitness(poses, &objective, &mut entry.fitness);
+            Box::new(run) as Round<'_>
+        })
+        .collect();
+    let times = interleaved(&mut rounds, 200, preset.share());
+    drop(rounds);
+    for (mut entry, times) in entries.into_iter().zip(times) {
+        let done = times.and_then(|times| Ok((times, stages(&mut entry, &poses, scene, &objective)?)));
+        match done {
+            Ok((times, stages)) => report.rows.push(row(task, scene, &entry, times, stages)),
+            Err(error) => report.unavailable.push(refusal(task, entry.evaluator.as_ref(), &error)),
+        }
+    }
+}
+
+/// Whether a fitness is that of the evaluator `name`, as far as backends promise it.
+fn agree(name: &str, expected: &[f32], fitness: &[f32]) -> Result<()> {
+    let apart = expected.iter().zip(fitness).map(|(l, r)| (l - r).abs());
+    if let Some(apart) = apart.filter(|apart| apart.is_nan() || *apart > TOLERANCE).reduce(f32::max) {
+        bail!("its fitness lies up to {apart} from that of {name}: it was not measured");
+    }
+    Ok(())
+}
+
+fn refusal(task: &Task, evaluator: &dyn Evaluator, error: &anyhow::Error) -> Missing {
+    Missing {
+        backend: evaluator.name().to_string(),
+        variant: evaluator.variant().to_string(),
+        model: task.model.name(),
+        reason: format!("{error:#}"),
+    }
+}
+
+/// Medians of the times of an evaluator's passes by name, from rounds of their own: measuring passes takes time itself.
+fn stages(entry: &mut Entry, poses: &[f32], scene: &Scene, objective: &Objective) -> Result<Vec<(String, f64)>> {
+    let poses = &poses[..entry.fitness.len() * scene.pose.len()];
+    entry.evaluator.measure_passes(true)?;
+    let mut rounds: Vec<Vec<(String, f64)>> = Vec::new();
+    for _ in 0..STAGE_ROUNDS {
+        entry.evaluator.fitness(poses, objective, &mut entry.fitness)?;
+        let mut sums: Vec<(String, f64)> = Vec::new();
+        for pass in entry.evaluator.device_passes() {
+            let ms = pass.duration.as_secs_f64() * 1e3;
+            match sums.iter_mut().find(|(name, _)| *name == pass.name) {
+                Some((_, sum)) => *sum += ms,
+                None => sums.push((pass.name, ms)),
+            }
+        }
+        if sums.is_empty() {
+            break;
+        }
+        rounds.push(sums);
+    }
+    entry.evaluator.measure_passes(false)?;
+    let Some(first) = rounds.first() else { return Ok(Vec::new()) };
+    let median = |place: usize| {
+        let mut ms: Vec<f64> = rounds.iter().filter_map(|sums| Some(sums.get(place)?.1)).collect();
+        ms.sort_by(f64::total_cmp);
+        ms[ms.len() / 2]
+    };
+    Ok(first.iter().enumerate().map(|(place, (name, _))| (name.clone(), median(place))).collect())
+}
+
+fn row(task: &Task, scene: &Scene, entry: &Entry, times: Times, stages: Vec<(String, f64)>) -> Row {
+    let (evaluator, particles) = (entry.evaluator.as_ref(), entry.fitness.len());
+    let [width, height] = task.size;
+    let footprint = evaluator.footprint();
+    let poses_per_s = particles as f64 / times.median * 1e3;
+    let images_per_s = poses_per_s * scene.cameras.len() as f64;
+    Row {
+        backend: evaluator.name().to_string(),
+        variant: evaluator.variant().to_string(),
+        model: task.model.name(),
+        particles,
+        views: scene.cameras.len(),
+        width,
+        height,
+        tile: footprint.map_or(task.size, |footprint| footprint.tile),
+        bytes_per_pixel: footprint.map(|footprint| footprint.bytes_per_pixel),
+        ms: times.median,
+        ms_min: times.min,
+        ms_max: times.max,
+        stages,
+        poses_per_s,
+        images_per_s,
+        pixels_per_s: images_per_s * f64::from(width) * f64::from(height),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn presets_hold_what_the_thesis_measured() {
+        let tasks = Preset::Thesis.tasks();
+        for particles in [96, 304, 512] {
+            for size in [[640, 480], [480, 270]] {
+                let is_it =
+                    |task: &&Task| task.model == Model::Flat && task.particles == particles && task.size == size;
+                assert_eq!(tasks.iter().filter(is_it).count(), 1);
+            }
+        }
+        let rungs: Vec<String> = tasks[6..].iter().map(|task| task.model.name()).collect();
+        let elliptic = [18, 34, 66, 130, 258, 514].map(|vertices| format!("elliptic {vertices}"));
+        assert_eq!(rungs, [vec!["square 8".to_string()], elliptic.to_vec()].concat());
+        let error = Preset::from_name("slow").unwrap_err().to_string();
+        assert_eq!(error, "there is no preset `slow`, expected one of quick, thesis");
+    }
+
+    #[test]
+    fn no_number_agrees_with_nothing() {
+        agree("reference", &[0.5, 0.25], &[0.5004, 0.25]).unwrap();
+        let error = agree("reference", &[0.5, 0.25], &[0.5, 0.5]).unwrap_err().to_string();
+        assert_eq!(error, "its fitness lies up to 0.25 from that of reference: it was not measured");
+        assert!(agree("reference", &[0.5], &[f32::NAN]).is_err());
+    }
+
+    #[test]
+    fn an_evaluator_that_scores_otherwise_is_not_measured() {
+        let task = Task { model: Model::Flat, particles: 6, size: [96, 72], person: 50.0 };
+        let scene = Scene::new(task.size, task.person).unwrap();
+        let mut all = Contestants::new(Model::Flat, &scene, &Err("no device".to_string())).unwrap();
+        // The last of them is made to look at something else.
+        let mut blind = scene.observations.clone();
+        blind.iter_mut().for_each(|seen| seen.bytes.fill(0));
+        all.present.last_mut().unwrap().observe(&blind).unwrap();
+        let expected = all.present.len() - 1;
+        let mut report = empty(Preset::Quick);
+        measure(Preset::Quick, &task, &scene, all.present, &mut report);
+        assert_eq!((report.rows.len(), report.unavailable.len()), (expected, 1), "{:?}", report.unavailable);
+        assert!(report.unavailable[0].reason.contains("from that of reference"), "{:?}", report.unavailable);
+        let row = &report.rows[0];
+        assert_eq!((row.particles, row.views, row.tile), (6, 4, [96, 72]));
+        assert!((row.images_per_s - 24.0 / row.ms * 1e3).abs() < 1e-6 * row.images_per_s);
+        assert!((row.pixels_per_s - row.images_per_s * 96.0 * 72.0).abs() < 1e-6 * row.pixels_per_s);
+    }
+}

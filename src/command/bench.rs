@@ -1,0 +1,32 @@
+//! `pantin bench`.
+
+use anyhow::Result;
+
+use crate::bench::{self, Preset};
+
+/// Measures every backend and variant on the same built-in scene, a person among four cameras: an iteration is poses in,
+/// fitness out. Rounds are interleaved and the median is told. Every evaluator's fitness is compared with the reference's
+/// first. A backend that cannot run here is listed with the reason.
+#[derive(clap::Args, Debug)]
+pub struct BenchArgs {
+    /// quick (512 particles, seconds) or thesis (96, 304 and 512 particles and the model ladder, beside published figures).
+    #[arg(long, value_name = "NAME", default_value = "quick", value_parser = Preset::from_name)]
+    preset: Preset,
+    /// Print JSON instead of tables.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// When the scene cannot be made.
+pub fn run(args: &BenchArgs) -> Result<()> {
+    let report = bench::run(args.preset, &mut |task| eprintln!("measuring {task}"))?;
+    if args.json {
+        println!("{}", serde_json::to_string_pretty(&report)?);
+    } else {
+        print!("{report}");
+    }
+    Ok(())
+}

@@ -1,0 +1,162 @@
+//! `pantin devices` and `pantin bench` from outside: what other programs read, and machines without Vulkan.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test says what went wrong by panicking")]
+
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn pantin(arguments: &[&str], variables: &[(&str, &str)]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_pantin")).args(arguments).envs(variables.iter().copied()).output().unwrap()
+}
+
+fn object(output: &Output) -> Value {
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    let mut keys: Vec<&str> = value.as_object().unwrap().keys().map(String::as_str).collect();
+    keys.sort_unstable();
+    keys
+}
+
+/// Variables under which the loader finds no driver, by its old and its new name for them.
+const NO_DRIVER: [(&str, &str); 2] = [("VK_ICD_FILENAMES", "/nonexistent"), ("VK_DRIVER_FILES", "/nonexistent")];
+
+#[test]
+fn devices_are_listed_as_the_contract_says() {
+    let found = object(&pantin(&["devices", "--json"], &[]));
+    assert_eq!(keys(&found), ["auto", "devices"]);
+    assert_eq!(keys(&found["auto"]), ["backend", "reason"]);
+    let list = found["devices"].as_array().unwrap();
+    if list.is_empty() {
+        assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{found}");
+        println!("SKIPPED devices_are_listed_as_the_contract_says: there is no Vulkan device");
+        return;
+    }
+    for (index, device) in list.iter().enumerate() {
+        let expected = [
+            "driver",
+            "index",
+            "max_image",
+            "memory_mb",
+            "name",
+            "reasons",
+            "subgroup_size",
+            "type",
+            "usable",
+            "vulkan",
+        ];
+        assert_eq!(keys(device), expected);
+        assert_eq!(device["index"], index);
+        assert!(["discrete", "integrated", "virtual", "cpu", "other"].contains(&device["type"].as_str().unwrap()));
+        assert!(device["reasons"].as_array().unwrap().iter().all(Value::is_string) && device["usable"].is_boolean());
+        assert_eq!(device["vulkan"].as_str().unwrap().split('.').count(), 3);
+        for key in ["subgroup_size", "max_image", "memory_mb"] {
+            assert!(device[key].as_u64().unwrap() > 0, "{key} of {device}");
+        }
+    }
+    // Whoever has no other device than the processor is told so, without a measurement.
+    let reason = found["auto"]["reason"].as_str().unwrap();
+    if list.iter().all(|device| device["type"] == "cpu") {
+        assert_eq!(found["auto"]["backend"], "cpu");
+        assert!(
+            reason.starts_with("auto chose cpu, with ") && reason.contains("computed by the processor"),
+            "{reason}"
+        );
+    } else {
+        assert!(reason.contains("measured on"), "{reason}");
+    }
+    let table = String::from_utf8(pantin(&["devices"], &[]).stdout).unwrap();
+    assert!(table.contains(list[0]["name"].as_str().unwrap()) && table.contains("with --backend auto: "), "{table}");
+}
+
+#[test]
+fn a_machine_without_a_driver_is_told_so() {
+    let found = object(&pantin(&["devices", "--json"], &NO_DRIVER));
+    assert_eq!(found["devices"], Value::Array(Vec::new()));
+    assert_eq!(found["auto"]["backend"], "cpu");
+    let table = pantin(&["devices"], &NO_DRIVER);
+    assert!(table.status.success());
+    let text = String::from_utf8(table.stdout).unwrap();
+    let first = text.lines().next().unwrap();
+    // Either is right: without a loader, too, there is no driver.
+    let is_either = first.starts_with("Vulkan finds no driver on this machine: install one");
+    assert!(is_either || first.starts_with("there is no Vulkan on this machine"), "{text}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_machine_without_a_loader_is_told_so() {
+    // A file of that name that is no library stands in the loader's way.
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("libvulkan.so.1"), "").unwrap();
+    std::fs::write(folder.path().join("libvulkan.so"), "").unwrap();
+    let hidden = [("LD_LIBRARY_PATH", folder.path().to_str().unwrap())];
+    let found = object(&pantin(&["devices", "--json"], &hidden));
+    assert_eq!(found["devices"], Value::Array(Vec::new()));
+    assert_eq!(found["auto"]["backend"], "cpu");
+    assert!(found["auto"]["reason"].as_str().unwrap().contains("there is no Vulkan on this machine"), "{found}");
+    let text = String::from_utf8(pantin(&["devices"], &hidden).stdout).unwrap();
+    assert!(text.starts_with("there is no Vulkan on this machine ("), "{text}");
+    assert!(text.contains("install a driver with its loader"), "{text}");
+}
+
+#[test]
+fn the_benchmark_prints_the_rows_of_the_contract() {
+    let found = object(&pantin(&["bench", "--preset", "quick", "--json"], &NO_DRIVER));
+    assert_eq!(keys(&found), ["device", "machine", "preset", "rows", "unavailable"]);
+    assert!(found["device"].is_null() && found["machine"].as_str().unwrap().contains("threads"), "{found}");
+    let rows = found["rows"].as_array().unwrap();
+    let expected = [
+        "backend",
+        "bytes_per_pixel",
+        "height",
+        "images_per_s",
+        "model",
+        "ms",
+        "ms_max",
+        "ms_min",
+        "particles",
+        "pixels_per_s",
+        "poses_per_s",
+        "stages",
+        "tile",
+        "variant",
+        "views",
+        "width",
+    ];
+    for row in rows {
+        assert_eq!(keys(row), expected);
+        let number = |key: &str| row[key].as_f64().unwrap();
+        assert!(
+            number("ms_min") <= number("ms") && number("ms") <= number("ms_max") && number("ms_min") > 0.0,
+            "{row}"
+        );
+        assert!(row["stages"].as_object().unwrap().values().all(Value::is_number), "{row}");
+        assert_eq!(row["tile"].as_array().unwrap().len(), 2);
+        let images = number("particles") * number("views") / number("ms") * 1e3;
+        assert!((number("images_per_s") / images - 1.0).abs() < 1e-9, "{row}");
+        let pixels = images * number("width") * number("height");
+        assert!((number("pixels_per_s") / pixels - 1.0).abs() < 1e-9, "{row}");
+    }
+    let has = |backend: &str, variant: &str| {
+        rows.iter().any(|row| row["backend"] == backend && row["variant"] == variant && row["model"] == "flat")
+    };
+    assert!(has("reference", "exact") && has("cpu", "portable") && has("cpu", "zbuffer") && has("cpu", "rowspan"));
+    let unavailable = found["unavailable"].as_array().unwrap();
+    assert!(unavailable.iter().any(|missing| missing["backend"] == "compute" && missing["variant"] == "subgroup"));
+    for missing in unavailable {
+        assert_eq!(keys(missing), ["backend", "model", "reason", "variant"]);
+        assert!(missing["reason"].as_str().unwrap().len() > 10, "{missing}");
+    }
+}
+
+#[test]
+fn an_unknown_preset_is_named() {
+    let failed = pantin(&["bench", "--preset", "slow"], &[]);
+    assert_eq!(failed.status.code(), Some(2));
+    let text = String::from_utf8(failed.stderr).unwrap();
+    assert!(text.contains("there is no preset `slow`, expected one of quick, thesis"), "{text}");
+}
