@@ -43,7 +43,7 @@ test: toolchain shaderc ffmpeg vulkan
 	env $(NEEDS_VULKAN) $(CARGO) test --locked
 	$(CARGO) test --locked --features reload --lib gpu::shaders
 	@echo "one round of every benchmark, so that none rots"
-	$(CARGO) test --locked --bench evaluate --bench features --bench search
+	$(CARGO) test --locked --bench evaluate --bench features --bench search --bench mesh
 	@[ -d ../shared/data ] || echo "SKIPPED: the tests on real recordings; ../shared/data is absent"
 
 bench: toolchain shaderc

@@ -8,11 +8,16 @@
 use std::time::Instant;
 
 use pantin::bench::{Scene, Yardstick, YardstickKind, swarm};
+use pantin::body::Body;
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
-use pantin::evaluate::vulkan::Compute;
+use pantin::evaluate::vulkan::{
+    Comparison, Compute, Coverage, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
+    open_device,
+};
 use pantin::evaluate::{Components, Evaluator, Objective};
 use pantin::features::Observation;
-use pantin::gpu::{Timing, by_name};
+use pantin::geometry::Camera;
+use pantin::gpu::{PassTiming, Timing, by_name};
 
 /// Prints the time of a batch by its size: a candidate should cost the same in any.
 fn scaling(threads: usize) {
@@ -44,15 +49,22 @@ fn stages(compute: &mut Compute, poses: &[f32], fitness: &mut [f32]) {
     for _ in 0..2 {
         compute.fitness(poses, &Objective::default(), fitness).unwrap();
     }
-    let stages = by_name(&compute.timings().unwrap());
-    let text: Vec<String> = stages.iter().map(|(name, ms, _)| format!("{name} {ms:.3}")).collect();
-    println!("compute stages, ms: {}", text.join(", "));
+    print_stages("compute", &compute.timings().unwrap());
     compute.time_stages(Timing::Off);
+}
+
+fn print_stages(name: &str, timings: &[PassTiming]) {
+    let text: Vec<String> = by_name(timings).iter().map(|(name, ms, _)| format!("{name} {ms:.3}")).collect();
+    println!("{name} stages, ms: {}", text.join(", "));
 }
 
 struct Row {
     name: String,
     rounds_each: usize,
+    /// Of how many rounds it takes part in one.
+    every: usize,
+    /// Whether it gives the reference's integers.
+    is_exact: bool,
     run: Box<dyn FnMut() -> Vec<Components>>,
     ms: Vec<f64>,
 }
@@ -83,6 +95,8 @@ fn main() {
             rows.push(Row {
                 name: kind.name().into(),
                 rounds_each: 1,
+                every: 1,
+                is_exact: true,
                 run: Box::new(move || {
                     let mut out = vec![Components::default(); count * 4];
                     yardstick.components(&poses, &mut out).unwrap();
@@ -100,6 +114,8 @@ fn main() {
             rows.push(Row {
                 name: set.name().into(),
                 rounds_each: 4,
+                every: 1,
+                is_exact: true,
                 run: Box::new(move || {
                     cpu.fitness(&poses, &objective, &mut fitness).unwrap();
                     if out.is_empty() {
@@ -122,6 +138,8 @@ fn main() {
                 rows.push(Row {
                     name,
                     rounds_each: 2,
+                    every: 1,
+                    is_exact: true,
                     run: Box::new(move || {
                         compute.fitness(&poses, &objective, &mut fitness).unwrap();
                         if out.is_empty() {
@@ -137,17 +155,21 @@ fn main() {
             }
             Err(error) => println!("SKIPPED compute: {error:#}"),
         }
+        rows.extend(graphics_rows(&body, &cameras, &seen, &poses));
         if !filter.is_empty() {
             rows.retain(|row| filter.iter().any(|word| row.name.contains(word)));
         }
         // The first call warms up and shows that all compute the same.
-        let Some(first) = rows.first_mut() else { continue };
-        let expected = (first.run)();
-        for row in &mut rows[1..] {
-            assert!((row.run)() == expected, "{} gives other integers than the first row", row.name);
+        let mut expected = None;
+        for row in &mut rows {
+            let found = (row.run)();
+            if row.is_exact {
+                let expected = expected.get_or_insert_with(|| found.clone());
+                assert!(found == *expected, "{} gives other integers than the rows before", row.name);
+            }
         }
-        for _ in 0..if measuring { 40 } else { 1 } {
-            for row in &mut rows {
+        for round in 0..if measuring { 40 } else { 1 } {
+            for row in rows.iter_mut().filter(|row| round % row.every == 0) {
                 let start = Instant::now();
                 for _ in 0..row.rounds_each {
                     std::hint::black_box((row.run)());
@@ -159,7 +181,7 @@ fn main() {
             continue;
         }
         println!(
-            "{:16} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10}",
+            "{:30} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10}",
             "variant", "ms", "min", "max", "us/image", "x rowspan", "x zbuffer"
         );
         let medians: Vec<f64> = rows
@@ -174,7 +196,7 @@ fn main() {
         };
         for (row, &ms) in rows.iter().zip(&medians) {
             println!(
-                "{:16} {:9.3} {:9.3} {:9.3} {:10.3} {:10.1} {:10.1}",
+                "{:30} {:9.3} {:9.3} {:9.3} {:10.3} {:10.1} {:10.1}",
                 row.name,
                 ms,
                 row.ms[0],
@@ -185,4 +207,73 @@ fn main() {
             );
         }
     }
+}
+
+/// The graphics backend in all its variants, the first of them what one writes first: whole pictures, a depth buffer, a write mask a
+/// channel. Nothing where there is no Vulkan.
+fn graphics_rows(body: &Body, cameras: &[Camera], seen: &[Observation], poses: &[f32]) -> Vec<Row> {
+    let device = match open_device() {
+        Ok(device) => device,
+        Err(error) => {
+            println!("SKIPPED graphics: {error:#}");
+            return Vec::new();
+        }
+    };
+    let usual = GraphicsSettings::default();
+    let compare = |comparison| GraphicsSettings { comparison, ..usual };
+    let whole = GraphicsSettings {
+        packing: Packing::Depth,
+        coverage: Coverage::Hardware,
+        comparison: Comparison::Device(Gathering::Subgroup),
+        tiling: Tiling::Pictures,
+        ..usual
+    };
+    let variants = [
+        ("graphics-whole-pictures", whole),
+        ("graphics-max-texels", usual),
+        ("graphics-max-subgroup", compare(Comparison::Device(Gathering::Subgroup))),
+        ("graphics-max-shared", compare(Comparison::Device(Gathering::Shared))),
+        ("graphics-max-readback", compare(Comparison::Host(HostComparison::Scalar))),
+        ("graphics-max-readback-simd", compare(Comparison::Host(HostComparison::Simd))),
+        ("graphics-max-feedback", GraphicsSettings { projection: Projection::Feedback, ..usual }),
+        ("graphics-max-hardware", GraphicsSettings { coverage: Coverage::Hardware, ..usual }),
+        ("graphics-depth-texels", GraphicsSettings { packing: Packing::Depth, ..usual }),
+        (
+            "graphics-depth-hardware",
+            GraphicsSettings { packing: Packing::Depth, coverage: Coverage::Hardware, ..usual },
+        ),
+    ];
+    let count = poses.len() / body.dof_count();
+    variants
+        .into_iter()
+        .map(|(name, settings)| {
+            let mut graphics = Graphics::on(&device, body, cameras, settings).unwrap();
+            graphics.observe(seen).unwrap();
+            let poses = poses.to_vec();
+            let (mut fitness, mut out) = (vec![0.0; count], Vec::new());
+            let objective = Objective::default();
+            Row {
+                name: name.into(),
+                rounds_each: 1,
+                every: 4,
+                is_exact: settings.coverage == Coverage::Exact,
+                run: Box::new(move || {
+                    graphics.fitness(&poses, &objective, &mut fitness).unwrap();
+                    if out.is_empty() {
+                        out = vec![Components::default(); count * 4];
+                        graphics.components(&poses, &mut out).unwrap();
+                        graphics.time_stages(Timing::Stamps);
+                        for _ in 0..2 {
+                            graphics.fitness(&poses, &objective, &mut fitness).unwrap();
+                        }
+                        print_stages(name, &graphics.timings().unwrap());
+                        graphics.time_stages(Timing::Off);
+                        return out.clone();
+                    }
+                    Vec::new()
+                }),
+                ms: Vec::new(),
+            }
+        })
+        .collect()
 }

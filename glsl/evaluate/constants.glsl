@@ -5,6 +5,13 @@
 
 // Invocations of a workgroup of the projection; also the most parts that a body may have there.
 const uint PROJECT_GROUP = 128u;
+// Invocations of a workgroup that places images in the framebuffer.
+const uint PLACE_GROUP = 64u;
+// Invocations of a workgroup of the comparison.
+const uint COMPARE_GROUP = 128u;
+// How a candidate's pixel is a byte: the largest of 2 rank + edge, or the nearest label with bit 7 on edges.
+const uint PACK_MAX = 0u;
+const uint PACK_DEPTH = 1u;
 
 // Invocations of a workgroup that draws and compares an image, a row each; a power of two.
 const uint RASTER_GROUP = 32u;
@@ -17,5 +24,15 @@ const uint OBJECTIVE_SP = 1u;
 const uint OBJECTIVE_AOWS = 2u;
 const uint OBJECTIVE_AOSP = 3u;
 const uint OBJECTIVE_POSP = 4u;
+
+// Invocations of a workgroup of the mesh's stages.
+const uint MESH_GROUP = 64u;
+// The depth of a point of the mesh at camera-space z mm is 1 - MESH_NEAR / z; silhouette edges are brought nearer by the bias,
+// and what is nearer than MESH_NEAREST has no image.
+const float MESH_NEAR = 100.0;
+const float MESH_EDGE_BIAS = 30.0;
+const float MESH_NEAREST = 200.0;
+// Vertices that a silhouette edge is drawn with: two triangles.
+const uint OUTLINE_VERTICES = 6u;
 
 #endif

@@ -9,7 +9,10 @@ use super::Scene;
 use super::yardstick::{Yardstick, YardstickKind};
 use crate::body::{FrustumBase, Mesh};
 use crate::evaluate::cpu::{Cpu, InstructionSet};
-use crate::evaluate::vulkan::{Compute, device_settings, open_instance};
+use crate::evaluate::vulkan::{
+    Comparison, Compute, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Tiling, device_settings,
+    open_instance,
+};
 use crate::evaluate::{Evaluator, Reference};
 use crate::gpu::{Capabilities, Device, DeviceSettings};
 
@@ -62,6 +65,28 @@ pub(super) struct Contestants {
 const COMPUTE: [(&str, Option<Lower>); 2] =
     [("subgroup", None), ("shared", Some(|capabilities| capabilities.subgroup_arithmetic = false))];
 
+/// Variants of the graphics backend: packings by comparisons, as the thesis measured them, and with whole pictures for tiles what
+/// one writes first.
+fn graphics_variants() -> Vec<(String, GraphicsSettings)> {
+    let comparisons = [
+        Comparison::Device(Gathering::Texels),
+        Comparison::Device(Gathering::Subgroup),
+        Comparison::Device(Gathering::Shared),
+        Comparison::Host(HostComparison::Scalar),
+        Comparison::Host(HostComparison::Simd),
+    ];
+    let mut variants = Vec::new();
+    for packing in [Packing::Max, Packing::Depth] {
+        for comparison in comparisons {
+            let settings = GraphicsSettings { packing, comparison, ..GraphicsSettings::default() };
+            variants.push((settings.name().to_string(), settings));
+        }
+    }
+    let whole = GraphicsSettings { packing: Packing::Depth, tiling: Tiling::Pictures, ..GraphicsSettings::default() };
+    variants.push((whole.name().to_string(), whole));
+    variants
+}
+
 type Lower = fn(&mut Capabilities);
 
 /// The device, opened once more where it is to be capable of less.
@@ -100,10 +125,22 @@ impl Contestants {
                     });
                     all.add(model, "compute", variant, compute);
                 }
+                for (variant, settings) in graphics_variants() {
+                    let graphics = variant_on(device, None)
+                        .and_then(|device| Graphics::on(&device, body, cameras, settings))
+                        .map(|graphics| Box::new(graphics) as Box<dyn Evaluator>);
+                    all.add(model, "graphics", &variant, graphics);
+                }
             }
             Model::Frusta(base) => {
                 let mesh = Mesh::frusta(body, base, &BTreeMap::new())?;
-                all.add(model, "reference", "", Ok(Box::new(Reference::of_mesh(body, mesh, cameras)?)));
+                all.add(model, "reference", "", Ok(Box::new(Reference::of_mesh(body, mesh.clone(), cameras)?)));
+                let settings = GraphicsSettings::default();
+                let graphics = variant_on(device, None)
+                    .and_then(|device| Graphics::of_mesh(&device, body, mesh, cameras, settings))
+                    .map(|graphics| Box::new(graphics) as Box<dyn Evaluator>);
+                let variant = graphics.as_ref().map_or("depth-texels", |graphics| graphics.variant());
+                all.add(model, "graphics", variant, graphics);
             }
         }
         for evaluator in &mut all.present {

@@ -63,6 +63,8 @@ pub enum ImageUse {
 #[derive(Clone)]
 pub struct Image {
     pub(super) shared: Arc<ImageShared>,
+    /// Whether stages read it as words.
+    as_words: bool,
 }
 
 pub(super) struct ImageShared {
@@ -70,6 +72,8 @@ pub(super) struct ImageShared {
     pub(super) name: String,
     pub(super) handle: vk::Image,
     pub(super) view: vk::ImageView,
+    /// Its texels as 32-bit words, of RGBA8 targets.
+    words: Option<vk::ImageView>,
     pub(super) format: Format,
     pub(super) size: [u32; 2],
     allocation: Option<Allocation>,
@@ -107,6 +111,8 @@ impl Device {
                 (ImageUse::Sampled, _) => vk::ImageUsageFlags::SAMPLED,
                 (ImageUse::Storage, _) => vk::ImageUsageFlags::STORAGE | vk::ImageUsageFlags::SAMPLED,
             };
+        let has_words = (purpose, format) == (ImageUse::Target, Format::Rgba8);
+        let flags = if has_words { vk::ImageCreateFlags::MUTABLE_FORMAT } else { vk::ImageCreateFlags::empty() };
         let vulkan = &self.shared.instance.shared.raw;
         // SAFETY: the handle belongs to the instance.
         let supported = unsafe {
@@ -116,11 +122,15 @@ impl Device {
                 vk::ImageType::TYPE_2D,
                 vk::ImageTiling::OPTIMAL,
                 usage,
-                vk::ImageCreateFlags::empty(),
+                flags,
             )
         };
         ensure!(supported.is_ok(), "this device has no images of format {format:?} to use as {purpose:?} ({name})");
-        let info = vk::ImageCreateInfo::default()
+        // Naming the views' formats lets drivers keep their compression.
+        let formats = [format.vulkan(), Format::R32Uint.vulkan()];
+        let mut list = vk::ImageFormatListCreateInfo::default().view_formats(&formats);
+        let mut info = vk::ImageCreateInfo::default()
+            .flags(flags)
             .image_type(vk::ImageType::TYPE_2D)
             .format(format.vulkan())
             .extent(vk::Extent3D { width, height, depth: 1 })
@@ -129,6 +139,9 @@ impl Device {
             .samples(vk::SampleCountFlags::TYPE_1)
             .tiling(vk::ImageTiling::OPTIMAL)
             .usage(usage);
+        if has_words {
+            info = info.push_next(&mut list);
+        }
         let raw = &self.shared.raw;
         // SAFETY: the device is open and has such images.
         let handle = unsafe { raw.create_image(&info, None) }
@@ -136,26 +149,35 @@ impl Device {
         // SAFETY: the handle was just made.
         let requirements = unsafe { raw.get_image_memory_requirements(handle) };
         let made = self.allocate(name, requirements, Memory::Device, false).and_then(|allocation| {
-            let view_info = vk::ImageViewCreateInfo::default()
-                .image(handle)
-                .view_type(vk::ImageViewType::TYPE_2D)
-                .format(format.vulkan())
-                .subresource_range(whole(format));
-            // SAFETY: the memory fits the image's requirements and nothing else is bound to its range; the view is of the
-            // image's own format.
-            let view = unsafe {
-                raw.bind_image_memory(handle, allocation.memory(), allocation.offset())
-                    .and_then(|()| raw.create_image_view(&view_info, None))
+            let view = |format: Format| {
+                let info = vk::ImageViewCreateInfo::default()
+                    .image(handle)
+                    .view_type(vk::ImageViewType::TYPE_2D)
+                    .format(format.vulkan())
+                    .subresource_range(whole(format));
+                // SAFETY: memory is bound before this is called; the format is the image's own or listed for it.
+                unsafe { raw.create_image_view(&info, None) }
             };
-            match view {
-                Ok(view) => Ok((view, allocation)),
+            // SAFETY: the memory fits the image's requirements and nothing else is bound to its range.
+            let bound = unsafe { raw.bind_image_memory(handle, allocation.memory(), allocation.offset()) };
+            let views = bound.and_then(|()| view(format)).and_then(|own| {
+                if !has_words {
+                    return Ok((own, None));
+                }
+                view(Format::R32Uint).map(|words| (own, Some(words))).inspect_err(|_| {
+                    // SAFETY: nothing uses it.
+                    unsafe { raw.destroy_image_view(own, None) };
+                })
+            });
+            match views {
+                Ok(views) => Ok((views, allocation)),
                 Err(result) => {
                     self.shared.free(allocation);
                     Err(self.shared.failure(result, &format!("bind memory to the image {name}"), || None))
                 }
             }
         });
-        let (view, allocation) = match made {
+        let ((view, words), allocation) = match made {
             Ok(made) => made,
             Err(error) => {
                 // SAFETY: nothing uses it.
@@ -170,10 +192,12 @@ impl Device {
                 name: name.to_string(),
                 handle,
                 view,
+                words,
                 format,
                 size,
                 allocation: Some(allocation),
             }),
+            as_words: false,
         };
         self.settle(&image)?;
         Ok(image)
@@ -191,6 +215,17 @@ impl Image {
         &self.shared.name
     }
 
+    /// The same image, an RGBA8 target, for stages that read its texels as 32-bit words, red in the low byte; any other image as
+    /// it is.
+    pub fn words(&self) -> Self {
+        Self { shared: self.shared.clone(), as_words: true }
+    }
+
+    /// The view that stages read it through.
+    pub(super) fn read_view(&self) -> vk::ImageView {
+        self.shared.words.filter(|_| self.as_words).unwrap_or(self.shared.view)
+    }
+
     /// Width and height, pixels.
     pub fn size(&self) -> [u32; 2] {
         self.shared.size
@@ -206,7 +241,9 @@ impl Drop for ImageShared {
     fn drop(&mut self) {
         // SAFETY: recordings hold what they use until the device is done, so nothing uses the image any more.
         unsafe {
-            self.device.raw.destroy_image_view(self.view, None);
+            for view in std::iter::once(self.view).chain(self.words) {
+                self.device.raw.destroy_image_view(view, None);
+            }
             self.device.raw.destroy_image(self.handle, None);
         }
         if let Some(allocation) = self.allocation.take() {

@@ -77,6 +77,8 @@ pub struct Drawing {
     pub depth_write: bool,
     /// Depth bias for draws that lie on others' surfaces: constant and slope factors.
     pub depth_bias: Option<[f32; 2]>,
+    /// Whether triangles whose corners run clockwise in the picture are left out.
+    pub cull_clockwise: bool,
     /// How colours meet.
     pub blend: Blend,
     /// Which channels are written: bit 0 red to bit 3 alpha.
@@ -122,7 +124,8 @@ impl Device {
             let raster = vk::PipelineRasterizationStateCreateInfo::default()
                 .rasterizer_discard_enable(drawing.colour.is_none())
                 .polygon_mode(vk::PolygonMode::FILL)
-                .cull_mode(vk::CullModeFlags::NONE)
+                .cull_mode(if drawing.cull_clockwise { vk::CullModeFlags::BACK } else { vk::CullModeFlags::NONE })
+                .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
                 .depth_bias_enable(drawing.depth_bias.is_some())
                 .depth_bias_constant_factor(bias)
                 .depth_bias_slope_factor(slope)

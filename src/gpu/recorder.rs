@@ -73,6 +73,9 @@ pub struct Draw<'a> {
     pub instances: Range<u32>,
     /// A buffer of 32-bit vertex numbers.
     pub indices: Option<&'a Buffer>,
+    /// Four words of a buffer, from this byte on, that an earlier pass wrote, instead of `vertices` and `instances`: how many
+    /// vertices, how many instances, the first vertex, and 0. Not together with `indices`.
+    pub indirect: Option<(&'a Buffer, u64)>,
 }
 
 /// What becomes of a target's contents before it is drawn into.
@@ -639,6 +642,10 @@ impl Recorder {
                 all.push(Use { resource: buffer_id(indices), writes: false });
                 self.keep_buffer(indices);
             }
+            if let Some((counts, _)) = draw.indirect {
+                all.push(Use { resource: buffer_id(counts), writes: false });
+                self.keep_buffer(counts);
+            }
         }
         all
     }
@@ -649,6 +656,15 @@ impl Recorder {
             .iter()
             .map(|draw| {
                 check_push(name, draw.pipeline, draw.push)?;
+                if let Some((counts, offset)) = draw.indirect {
+                    ensure!(
+                        offset % 4 == 0 && offset + 16 <= counts.size() && draw.indices.is_none(),
+                        "the pass {name} reads its vertex count at byte {offset} of {}, which has {}, expected four words and no \
+                         indices",
+                        counts.name(),
+                        counts.size()
+                    );
+                }
                 self.keep_pipeline(draw.pipeline);
                 self.descriptor_sets(name, draw.pipeline, draw.bindings)
             })
@@ -679,9 +695,11 @@ impl Recorder {
     fn record_vertices(&self, draw: &Draw<'_>) {
         let (raw, commands) = (&self.device.shared.raw, self.parts.commands);
         let (vertices, instances) = (draw.vertices.len() as u32, draw.instances.len() as u32);
-        // SAFETY: recording, with everything bound.
+        // SAFETY: recording, with everything bound; the four words of an indirect draw lie inside of their buffer.
         unsafe {
-            if draw.indices.is_some() {
+            if let Some((counts, offset)) = draw.indirect {
+                raw.cmd_draw_indirect(commands, counts.shared.handle, offset, 1, 0);
+            } else if draw.indices.is_some() {
                 raw.cmd_draw_indexed(commands, vertices, instances, draw.vertices.start, 0, draw.instances.start);
             } else {
                 raw.cmd_draw(commands, vertices, instances, draw.vertices.start, draw.instances.start);
@@ -759,7 +777,7 @@ impl Recorder {
                 };
                 let image = match bound {
                     Bound::Image(image) => [vk::DescriptorImageInfo {
-                        image_view: image.shared.view,
+                        image_view: image.read_view(),
                         image_layout: vk::ImageLayout::GENERAL,
                         ..Default::default()
                     }],

@@ -84,6 +84,7 @@ fn a_triangle_is_drawn_and_read_back() {
         depth_test: false,
         depth_write: false,
         depth_bias: None,
+        cull_clockwise: false,
         blend: Blend::Max,
         channels: 0b0110,
     };
@@ -108,6 +109,7 @@ fn a_triangle_is_drawn_and_read_back() {
                 vertices: 0..3,
                 instances: 0..1,
                 indices: None,
+                indirect: None,
             }],
         )
         .unwrap();
@@ -124,6 +126,63 @@ fn a_triangle_is_drawn_and_read_back() {
         }
     }
     drop((recording, image, pixels, corners, pipeline, device));
+    assert_silent(&log);
+}
+
+#[test]
+fn clockwise_triangles_are_left_out_and_counts_can_come_from_a_buffer() {
+    let name = "clockwise_triangles_are_left_out_and_counts_can_come_from_a_buffer";
+    let Some((device, log)) = device(name, DeviceSettings::default()) else { return };
+    let stages =
+        [Stage { shader: &fill_vert::SHADER, constants: &[] }, Stage { shader: &fill_frag::SHADER, constants: &[] }];
+    let drawing = Drawing {
+        topology: Topology::Triangles,
+        colour: Some(Format::Rgba8),
+        depth_test: false,
+        depth_write: false,
+        depth_bias: None,
+        cull_clockwise: true,
+        blend: Blend::Replace,
+        channels: 15,
+    };
+    let pipeline = device.graphics_pipeline("fill", &stages, &drawing).unwrap();
+    let corners = device.buffer::<layout::Corner>("corners", 6, Memory::Upload).unwrap();
+    let at = |x: f32, y: f32, colour| layout::Corner { position: [x, y], colour, _pad0: [0] };
+    // y points down: over the left half counter-clockwise to the eye, over the right half clockwise.
+    let left = [at(-1.0, -1.0, 1), at(-1.0, 1.0, 1), at(0.0, 0.0, 1)];
+    let right = [at(1.0, -1.0, 2), at(1.0, 1.0, 2), at(0.0, 0.0, 2)];
+    corners.write(0, &[left, right].concat()).unwrap();
+    let counts = device.buffer::<u32>("counts", 5, Memory::Upload).unwrap();
+    let image = device.image("target", Format::Rgba8, [16, 8], ImageUse::Target).unwrap();
+    let pixels = device.buffer::<u32>("pixels", 16 * 8, Memory::Readback).unwrap();
+    let mut recorder = device.recorder(Timing::Off).unwrap();
+    let target = Target { colour: (&image, Clear::Value([0.0; 4])), depth: None, area: [0, 0, 16, 8] };
+    let bindings = fill_vert::Bindings { corners: &corners }.bound();
+    let draw = |indirect| Draw {
+        pipeline: &pipeline,
+        bindings: &bindings,
+        push: &[],
+        viewport: Viewport { area: [0.0, 0.0, 16.0, 8.0], depth: [0.0, 1.0] },
+        scissor: [0, 0, 16, 8],
+        vertices: 0..0,
+        instances: 0..0,
+        indices: None,
+        indirect,
+    };
+    recorder.draw("draw", &target, &[draw(Some((&counts, 4)))]).unwrap();
+    recorder.read_image("read", &image, [0, 0, 16, 8], (&pixels, 0)).unwrap();
+    let mut recording = recorder.finish().unwrap();
+    for (words, expected) in [([9_u32, 6, 1, 0, 0], [1, 0]), ([9, 3, 1, 3, 0], [0, 0]), ([9, 0, 1, 0, 0], [0, 0])] {
+        counts.write(0, &words).unwrap();
+        recording.run().unwrap();
+        let mut found = vec![0_u32; 16 * 8];
+        pixels.read(0, &mut found).unwrap();
+        assert_eq!([found[4 * 16 + 1], found[4 * 16 + 14]], expected, "{words:?}");
+    }
+    let mut recorder = device.recorder(Timing::Off).unwrap();
+    let error = recorder.draw("draw", &target, &[draw(Some((&counts, 8)))]).unwrap_err().to_string();
+    assert!(error.contains("reads its vertex count at byte 8 of counts, which has 20"), "{error}");
+    drop((recorder, recording, image, pixels, corners, counts, pipeline, device));
     assert_silent(&log);
 }
 

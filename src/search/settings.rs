@@ -88,7 +88,10 @@ impl SearchSettings {
     }
 
     /// Whether the search's buffers are of a sensible size.
-    pub(super) fn check_room(&self, space: &SearchSpace) -> Result<()> {
+    ///
+    /// # Errors
+    /// When they are not: the sentence names the numbers.
+    pub fn check_room(&self, space: &SearchSpace) -> Result<()> {
         let samples = match self.kind {
             SearchKind::Pso => self.particles,
             SearchKind::ParticleFilter => self.particles * self.iterations,

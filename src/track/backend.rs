@@ -5,7 +5,7 @@ use anyhow::{Result, anyhow, bail};
 use super::auto::{fastest, is_device_worth_measuring};
 use crate::body::{Body, Mesh};
 use crate::evaluate::cpu::Cpu;
-use crate::evaluate::vulkan::Compute;
+use crate::evaluate::vulkan::{Compute, Graphics, GraphicsSettings, open_device};
 use crate::evaluate::{Evaluator, Reference};
 use crate::geometry::Camera;
 
@@ -21,6 +21,9 @@ pub enum Backend {
     Cpu,
     /// Drawing in compute on a Vulkan device, in the reference's integers.
     Compute,
+    /// Drawing with the graphics pipeline of a Vulkan device, four candidates a framebuffer texel: the flat model in the reference's
+    /// integers, the mesh model with the device's own triangles.
+    Graphics,
 }
 
 /// An evaluator and why it was taken.
@@ -33,7 +36,7 @@ pub struct BuiltBackend {
 
 impl Backend {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Auto, Self::Reference, Self::Cpu, Self::Compute];
+    pub const ALL: [Self; 5] = [Self::Auto, Self::Reference, Self::Cpu, Self::Compute, Self::Graphics];
 
     /// The name as `--backend` takes it.
     pub fn name(self) -> &'static str {
@@ -42,6 +45,7 @@ impl Backend {
             Self::Reference => "reference",
             Self::Cpu => "cpu",
             Self::Compute => "compute",
+            Self::Graphics => "graphics",
         }
     }
 
@@ -57,8 +61,8 @@ impl Backend {
     }
 
     /// Makes the evaluator of a body for its cameras at working size: of its flat model, or of a mesh bound to it
-    /// ([`super::Model::mesh`]). `around` is a pose to measure by, should `auto` have to choose. Every backend gives the same integers for the same model, so which one it is changes the time
-    /// alone.
+    /// ([`super::Model::mesh`]). `around` is a pose to measure by, should `auto` have to choose. Every backend gives the same
+    /// integers for the same model, but for few pixels of a mesh drawn by graphics, so which one it is changes the time alone.
     ///
     /// # Errors
     /// When there is no camera, no degree of freedom, the backend does not draw the model, or the evaluator cannot be made.
@@ -92,6 +96,12 @@ impl Backend {
                 let reason = format!("compute on the Vulkan device {device} ({} sums), as asked", compute.variant());
                 BuiltBackend { evaluator: Box::new(compute), reason }
             }
+            Self::Graphics => {
+                let graphics = Graphics::new(body, cameras).map_err(|error| without_vulkan(self, &error))?;
+                let device = &graphics.facts().name;
+                let reason = format!("graphics on the Vulkan device {device} ({}), as asked", graphics.variant());
+                BuiltBackend { evaluator: Box::new(graphics), reason }
+            }
             Self::Auto => {
                 let cpu = Cpu::new(body, cameras)?;
                 let with = cpu.variant();
@@ -100,13 +110,22 @@ impl Backend {
                     return Ok(BuiltBackend { evaluator: Box::new(cpu), reason });
                 }
                 let mut rivals: Vec<Box<dyn Evaluator>> = vec![Box::new(cpu)];
-                // Graphics is no rival: it need not give the same integers.
-                match Compute::new(body, cameras) {
-                    Ok(compute) => rivals.push(Box::new(compute)),
-                    Err(error) => {
-                        let reason = format!("auto chose cpu, with {with} instructions: compute failed ({error:#})");
-                        return Ok(BuiltBackend { evaluator: rivals.swap_remove(0), reason });
+                // All of them give the same integers for the flat model.
+                let others = [
+                    ("compute", Compute::new(body, cameras).map(|it| Box::new(it) as Box<dyn Evaluator>)),
+                    ("graphics", Graphics::new(body, cameras).map(|it| Box::new(it) as Box<dyn Evaluator>)),
+                ];
+                let mut failures = Vec::new();
+                for (name, other) in others {
+                    match other {
+                        Ok(evaluator) => rivals.push(evaluator),
+                        Err(error) => failures.push(format!("{name} failed ({error:#})")),
                     }
+                }
+                if rivals.len() == 1 {
+                    let why = failures.join("; ");
+                    let reason = format!("auto chose cpu, with {with} instructions: {why}");
+                    return Ok(BuiltBackend { evaluator: rivals.swap_remove(0), reason });
                 }
                 let (evaluator, reason) = fastest(rivals, body, cameras, around)?;
                 let reason = format!("auto chose {}, {reason}", evaluator.name());
@@ -118,7 +137,19 @@ impl Backend {
     fn build_mesh(self, body: &Body, mesh: &Mesh, cameras: &[Camera]) -> Result<BuiltBackend> {
         let reason = match self {
             Self::Reference => "the reference evaluator of the mesh model, as asked",
-            Self::Auto => "auto chose reference: the only evaluator of this build that draws the mesh model",
+            Self::Auto => {
+                "auto chose reference, which draws the mesh model on every machine; with Vulkan --backend graphics is faster"
+            }
+            Self::Graphics => {
+                let graphics = open_device()
+                    .and_then(|device| {
+                        Graphics::of_mesh(&device, body, mesh.clone(), cameras, GraphicsSettings::default())
+                    })
+                    .map_err(|error| without_vulkan(self, &error))?;
+                let device = &graphics.facts().name;
+                let reason = format!("graphics of the mesh model on the Vulkan device {device}, as asked");
+                return Ok(BuiltBackend { evaluator: Box::new(graphics), reason });
+            }
             Self::Cpu | Self::Compute => {
                 bail!(
                     "the backend {} draws the flat model alone, the mesh model needs graphics or reference",
@@ -148,7 +179,7 @@ mod tests {
     #[test]
     fn an_unknown_backend_names_the_known_ones() {
         let error = Backend::from_name("cuda").unwrap_err().to_string();
-        assert_eq!(error, "there is no backend `cuda`, expected one of auto, reference, cpu, compute");
+        assert_eq!(error, "there is no backend `cuda`, expected one of auto, reference, cpu, compute, graphics");
         for backend in Backend::ALL {
             assert_eq!(Backend::from_name(backend.name()).unwrap(), backend);
         }
@@ -172,6 +203,13 @@ mod tests {
         for backend in [Backend::Auto, Backend::Reference] {
             let built = backend.build(mesh.as_ref(), &body, &cameras, &[]).unwrap();
             assert_eq!(built.evaluator.name(), "reference");
+        }
+        match Backend::Graphics.build(mesh.as_ref(), &body, &cameras, &[]) {
+            Ok(built) => assert_eq!(built.evaluator.name(), "graphics"),
+            Err(error) => {
+                assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
+                assert!(format!("{error:#}").starts_with("the backend graphics cannot be used: "), "{error:#}");
+            }
         }
         let error = Model::from_name("solid").unwrap_err().to_string();
         assert_eq!(error, "there is no model `solid`, expected one of flat, mesh");

@@ -2,20 +2,46 @@
 
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 
 use super::stages::Span;
 use crate::evaluate::{Components, Evaluator, Objective};
 use crate::features::Observation;
 use crate::gpu::{DevicePass, Timing};
-use crate::search::{DeviceSearch, Estimate, Search, SearchSettings, SearchSpace};
+use crate::search::{DeviceSearch, Estimate, Search, SearchKind, SearchSettings, SearchSpace};
 
 /// The search of a run.
 pub(super) enum Searcher {
     /// The host proposes poses and the evaluator scores a batch at a time.
     Host(Box<dyn Search>),
     /// A frame is one submission to a device.
-    Device(Box<DeviceSearch>),
+    Device(Box<OnDevice>),
+}
+
+/// A search on the evaluator's device. It is recorded when the first observations are there, which say how much room pictures
+/// need, and again when they have outgrown that.
+pub(super) struct OnDevice {
+    settings: SearchSettings,
+    space: SearchSpace,
+    objective: Objective,
+    timing: Timing,
+    recorded: Option<DeviceSearch>,
+}
+
+impl OnDevice {
+    /// The search, recorded for the newest observations.
+    fn search(&mut self, evaluator: &mut dyn Evaluator) -> Result<&mut DeviceSearch> {
+        let name = evaluator.name();
+        let Some(evaluator) = evaluator.on_device() else { bail!("the backend {name} has left its device") };
+        // A filter's samples live in its recording: it stays with the old one, which is slower and no less right.
+        let is_outgrown = self.settings.kind == SearchKind::Pso && evaluator.has_outgrown_its_recording();
+        if let Some(recorded) = self.recorded.take_if(|_| !is_outgrown) {
+            return Ok(self.recorded.insert(recorded));
+        }
+        let recorded = DeviceSearch::new(evaluator, &self.objective, &self.settings, &self.space, self.timing)
+            .with_context(|| format!("the backend {name} cannot search; --backend cpu works without"))?;
+        Ok(self.recorded.insert(recorded))
+    }
 }
 
 /// Where a frame's search starts.
@@ -44,7 +70,7 @@ impl Searcher {
     /// The search of these settings, on the evaluator's device if it has one; there `timing` is what is measured of its passes.
     ///
     /// # Errors
-    /// As [`SearchSettings::build`] and [`DeviceSearch::new`].
+    /// As [`SearchSettings::build`].
     pub(super) fn new(
         evaluator: &mut dyn Evaluator,
         objective: &Objective,
@@ -52,13 +78,17 @@ impl Searcher {
         space: &SearchSpace,
         timing: Timing,
     ) -> Result<Self> {
-        let name = evaluator.name();
         Ok(match evaluator.on_device() {
             None => Self::Host(settings.build(space)?),
-            Some(evaluator) => {
-                let search = DeviceSearch::new(evaluator, objective, settings, space, timing)
-                    .with_context(|| format!("the backend {name} cannot search; --backend cpu works without"))?;
-                Self::Device(Box::new(search))
+            Some(_) => {
+                settings.check_room(space)?;
+                Self::Device(Box::new(OnDevice {
+                    settings: settings.clone(),
+                    space: space.clone(),
+                    objective: *objective,
+                    timing,
+                    recorded: None,
+                }))
             }
         })
     }
@@ -94,6 +124,7 @@ impl Searcher {
             }
             Self::Device(search) => {
                 let begin = Instant::now();
+                let search = search.search(evaluator)?;
                 let found = search.search_frame(frame, centre, spread)?;
                 let evaluations = vec![Span::since(begin)];
                 let passes = search.passes_run(Instant::now())?;

@@ -23,6 +23,11 @@ pub trait DeviceEvaluator: Send {
     /// A6, without the observed area).
     fn sums(&self) -> &Buffer;
 
+    /// Whether what was recorded, right as it stays, is better recorded anew for the newest observations.
+    fn has_outgrown_its_recording(&self) -> bool {
+        false
+    }
+
     /// Makes room for so many candidates; the buffers may be others afterwards, and what was recorded before goes on working
     /// with the old ones.
     ///

@@ -20,16 +20,21 @@ pub(crate) struct Counts {
 
 /// A buffer of the device and the host's copy of what goes there.
 #[derive(Debug)]
-struct Uploaded {
+pub(super) struct Uploaded {
     staging: Buffer,
-    target: Buffer,
+    pub(super) target: Buffer,
 }
 
 impl Uploaded {
-    fn new<T: bytemuck::Pod>(device: &Device, name: &str, values: &[T]) -> Result<Self> {
+    pub(super) fn new<T: bytemuck::Pod>(device: &Device, name: &str, values: &[T]) -> Result<Self> {
         let staging = device.buffer::<T>(&format!("{name} staging"), values.len(), Memory::Upload)?;
         staging.write(0, values)?;
         Ok(Self { staging, target: device.buffer::<T>(name, values.len(), Memory::Device)? })
+    }
+
+    /// Records the copy.
+    pub(super) fn record(&self, recorder: &mut Recorder) -> Result<()> {
+        recorder.copy("upload", (&self.staging, 0), (&self.target, 0), self.target.size())
     }
 }
 
@@ -167,10 +172,7 @@ impl DeviceModel {
 
     /// Records the copies of everything to the device's own memory.
     pub(crate) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
-        for upload in &self.uploads {
-            recorder.copy("upload", (&upload.staging, 0), (&upload.target, 0), upload.target.size())?;
-        }
-        Ok(())
+        self.uploads.iter().try_for_each(|upload| upload.record(recorder))
     }
 
     /// The push constants of a share of the candidates.

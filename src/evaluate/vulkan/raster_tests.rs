@@ -12,10 +12,10 @@ use crate::geometry::Camera;
 use crate::gpu::{Device, DeviceSettings, Memory, Timing};
 
 /// A small generator for test data.
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
-    fn below(&mut self, end: i32) -> i32 {
+    pub(super) fn below(&mut self, end: i32) -> i32 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (((self.0 >> 33) * end as u64) >> 31) as i32
     }
@@ -26,7 +26,7 @@ impl Random {
 }
 
 /// Pictures of odd sizes: a column, narrower than a word, wider than two chunks, and just past a word.
-fn odd_cameras() -> Vec<Camera> {
+pub(super) fn odd_cameras() -> Vec<Camera> {
     let mut cameras = cameras();
     for size in [[1, 300], [300, 1], [31, 64], [257, 70], [33, 33]] {
         cameras.push(Camera { size, ..cameras[0].clone() });
@@ -71,7 +71,7 @@ fn quad(random: &mut Random, size: [u32; 2]) -> [[i32; 2]; 4] {
 }
 
 /// Quads of one image, in the body's order, with depths that repeat.
-fn image(random: &mut Random, parts: usize, size: [u32; 2]) -> Vec<PartQuad> {
+pub(super) fn image(random: &mut Random, parts: usize, size: [u32; 2]) -> Vec<PartQuad> {
     (0..parts)
         .map(|_| PartQuad {
             corners: quad(random, size),
@@ -102,7 +102,7 @@ fn rows(quads: &[PartQuad]) -> Vec<layout::Quad> {
         .collect()
 }
 
-fn observations(random: &mut Random, model: &DeviceModel) -> Vec<Observation> {
+pub(super) fn observations(random: &mut Random, model: &DeviceModel) -> Vec<Observation> {
     model
         .sizes
         .iter()
@@ -115,7 +115,7 @@ fn observations(random: &mut Random, model: &DeviceModel) -> Vec<Observation> {
 }
 
 /// Puts quads in the workspace in the place of projected ones.
-fn put(device: &Device, workspace: &Workspace, model: &DeviceModel, images: &[Vec<PartQuad>]) {
+pub(super) fn put(device: &Device, workspace: &Workspace, model: &DeviceModel, images: &[Vec<PartQuad>]) {
     let quads: Vec<_> = images.iter().flat_map(|quads| rows(quads)).collect();
     let bounds: Vec<_> = images
         .iter()

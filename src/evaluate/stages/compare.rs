@@ -1,0 +1,84 @@
+//! The framebuffer against the observations: components of every image (SPEC A6, A9).
+
+use anyhow::Result;
+
+use crate::evaluate::vulkan::{DeviceModel, Framebuffer, Workspace};
+use crate::gpu::{Capabilities, Device, Dispatch, Groups, Pipeline, Recorder, Shader, Stage};
+
+use super::Share;
+use super::generated::{compare_shared_comp, compare_subgroup_comp, compare_texels_comp};
+
+/// How the four bytes of a texel become four pixels of a candidate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Gathering {
+    /// Every invocation reads four texels and takes all four candidates.
+    Texels,
+    /// Four invocations exchange theirs by subgroup shuffles.
+    Subgroup,
+    /// Four invocations exchange theirs through shared memory.
+    Shared,
+}
+
+impl Gathering {
+    /// Whether a device can.
+    pub(crate) fn works_on(self, capabilities: &Capabilities) -> bool {
+        self != Self::Subgroup || (capabilities.subgroup_shuffle && capabilities.subgroup_size >= 4)
+    }
+
+    fn shader(self) -> &'static Shader {
+        match self {
+            Self::Texels => &compare_texels_comp::SHADER,
+            Self::Subgroup => &compare_subgroup_comp::SHADER,
+            Self::Shared => &compare_shared_comp::SHADER,
+        }
+    }
+}
+
+/// The stage.
+#[derive(Debug)]
+pub(crate) struct CompareStage {
+    pipeline: Pipeline,
+    /// Workgroups a tile, each of which takes every nth row.
+    bands: u32,
+}
+
+impl CompareStage {
+    /// Its name in timings.
+    pub(crate) const NAME: &'static str = "compare";
+
+    /// Compiles it; `edge_bit` is the bit of a pixel's byte that says edge, `bands` the number of workgroups a tile.
+    pub(crate) fn new(device: &Device, gathering: Gathering, edge_bit: u32, bands: u32) -> Result<Self> {
+        let shader = gathering.shader();
+        Ok(Self { pipeline: device.compute_pipeline(Stage { shader, constants: &[(0, edge_bit)] })?, bands })
+    }
+
+    /// Records it: the framebuffer and the packed observations to `workspace.sums`.
+    pub(crate) fn record(
+        &self,
+        recorder: &mut Recorder,
+        model: &DeviceModel,
+        workspace: &Workspace,
+        framebuffer: &Framebuffer,
+        share: Share,
+    ) -> Result<()> {
+        let push: compare_texels_comp::Push = model.batch(share);
+        // All variants have the same bindings.
+        recorder.compute(
+            Self::NAME,
+            &[Dispatch {
+                pipeline: &self.pipeline,
+                bindings: &compare_texels_comp::Bindings {
+                    placements: &framebuffer.placements,
+                    tiles: &framebuffer.tiles,
+                    cameras: &model.cameras,
+                    pixels: &model.pixels,
+                    all_sums: &workspace.sums,
+                    framebuffer: &framebuffer.words,
+                }
+                .bound(),
+                push: bytemuck::bytes_of(&push),
+                groups: Groups::Count([share.candidates.div_ceil(4) * model.counts.views, self.bands, 1]),
+            }],
+        )
+    }
+}

@@ -1,0 +1,81 @@
+//! Every image's place in the framebuffer (SPEC A9), and the list of those that do not fit their tile.
+
+use anyhow::Result;
+
+use crate::evaluate::vulkan::{DeviceModel, Framebuffer, Workspace};
+use crate::gpu::{Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+
+use super::Share;
+use super::generated::{PLACE_GROUP, place_comp};
+
+/// The stage.
+#[derive(Debug)]
+pub(crate) struct PlaceStage {
+    pipeline: Pipeline,
+}
+
+impl PlaceStage {
+    /// Its name in timings.
+    pub(crate) const NAME: &'static str = "place";
+
+    /// Compiles it.
+    pub(crate) fn new(device: &Device) -> Result<Self> {
+        Ok(Self { pipeline: device.compute_pipeline(Stage { shader: &place_comp::SHADER, constants: &[] })? })
+    }
+
+    /// Records it: `workspace.bounds` and `quads` to the framebuffer's placements and list, and zeros to `workspace.sums`.
+    pub(crate) fn record(
+        &self,
+        recorder: &mut Recorder,
+        model: &DeviceModel,
+        workspace: &Workspace,
+        framebuffer: &Framebuffer,
+        share: Share,
+    ) -> Result<()> {
+        self.record_parts(recorder, (model, workspace), framebuffer, share, model.counts.parts)
+    }
+
+    /// Records it for a model that is not drawn from `workspace.quads`, which then hold nothing: from `workspace.bounds` alone.
+    pub(crate) fn record_by_bounds(
+        &self,
+        recorder: &mut Recorder,
+        model: &DeviceModel,
+        workspace: &Workspace,
+        framebuffer: &Framebuffer,
+        share: Share,
+    ) -> Result<()> {
+        self.record_parts(recorder, (model, workspace), framebuffer, share, 0)
+    }
+
+    fn record_parts(
+        &self,
+        recorder: &mut Recorder,
+        (model, workspace): (&DeviceModel, &Workspace),
+        framebuffer: &Framebuffer,
+        share: Share,
+        parts: u32,
+    ) -> Result<()> {
+        let push = place_comp::Push { parts, ..model.batch(share) };
+        let images = share.candidates * model.counts.views;
+        let empty = &framebuffer.empty_list;
+        recorder.copy(Self::NAME, (empty, 0), (&framebuffer.listed, 0), empty.size())?;
+        recorder.compute(
+            Self::NAME,
+            &[Dispatch {
+                pipeline: &self.pipeline,
+                bindings: &place_comp::Bindings {
+                    all_bounds: &workspace.bounds,
+                    tiles: &framebuffer.tiles,
+                    cameras: &model.cameras,
+                    quads: &workspace.quads,
+                    placements: &framebuffer.placements,
+                    all_sums: &workspace.sums,
+                    listed: &framebuffer.listed,
+                }
+                .bound(),
+                push: bytemuck::bytes_of(&push),
+                groups: Groups::Count([images.div_ceil(PLACE_GROUP), 1, 1]),
+            }],
+        )
+    }
+}

@@ -1,0 +1,120 @@
+//! What a backend draws into the framebuffer: the flat model, or a mesh.
+
+use anyhow::Result;
+
+use crate::evaluate::MeshProjector;
+use crate::evaluate::stages::{
+    Coverage, DrawMeshStage, DrawStage, Packing, PlaceStage, ProjectFeedbackStage, ProjectStage, RasterStage, Share,
+    SkinStage,
+};
+use crate::gpu::{Buffer, Device, Recorder};
+
+use super::{DeviceMesh, DeviceModel, Framebuffer, MeshRoom, Workspace};
+
+/// The stages of one model, and the memory that it alone needs.
+#[derive(Debug)]
+pub(super) enum Drawn {
+    Flat { project: ProjectStage, draw: DrawStage, raster: RasterStage },
+    Mesh(Box<DrawnMesh>),
+}
+
+#[derive(Debug)]
+pub(super) struct DrawnMesh {
+    mesh: DeviceMesh,
+    skin: SkinStage,
+    draw: DrawMeshStage,
+    room: MeshRoom,
+}
+
+impl Drawn {
+    /// The flat model of a body of `parts` parts.
+    pub(super) fn flat(device: &Device, parts: u32, packing: Packing, coverage: Coverage) -> Result<Self> {
+        Ok(Self::Flat {
+            project: ProjectStage::new(device)?,
+            draw: DrawStage::new(device, parts, packing, coverage)?,
+            raster: RasterStage::new(device)?,
+        })
+    }
+
+    /// The mesh of a projector that `model` was made of.
+    pub(super) fn mesh(device: &Device, model: &DeviceModel, projector: &MeshProjector) -> Result<Self> {
+        let mesh = DeviceMesh::new(device, projector)?;
+        Ok(Self::Mesh(Box::new(DrawnMesh {
+            skin: SkinStage::new(device, mesh.skinning)?,
+            draw: DrawMeshStage::new(device)?,
+            room: MeshRoom::new(device, model.counts, &mesh, 1)?,
+            mesh,
+        })))
+    }
+
+    /// Makes room for batches of `candidates`, or as many as fit.
+    pub(super) fn reserve(&mut self, model: &DeviceModel, candidates: u32) -> Result<()> {
+        if let Self::Mesh(drawn) = self {
+            drawn.room = MeshRoom::new(&model.device, model.counts, &drawn.mesh, candidates)?;
+        }
+        Ok(())
+    }
+
+    /// Most candidates of a batch.
+    pub(super) fn most(&self) -> u32 {
+        match self {
+            Self::Flat { .. } => u32::MAX,
+            Self::Mesh(drawn) => drawn.room.batch,
+        }
+    }
+
+    /// Whether images that fit no tile are scored all the same.
+    pub(super) fn scores_what_fits_no_tile(&self) -> bool {
+        matches!(self, Self::Flat { .. })
+    }
+
+    /// Records the copies that bring what is drawn to the device.
+    pub(super) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
+        match self {
+            Self::Flat { .. } => Ok(()),
+            Self::Mesh(drawn) => drawn.mesh.record_upload(recorder),
+        }
+    }
+
+    /// Records everything from `workspace.world` to the pictures; the flat model's parts are projected by `feedback` and its room, if
+    /// given.
+    pub(super) fn record(
+        &self,
+        recorder: &mut Recorder,
+        (model, workspace): (&DeviceModel, &Workspace),
+        feedback: Option<(&ProjectFeedbackStage, &Buffer)>,
+        (place, framebuffer): (&PlaceStage, &Framebuffer),
+        share: Share,
+    ) -> Result<()> {
+        match self {
+            Self::Flat { project, draw, .. } => {
+                match feedback {
+                    Some((feedback, captured)) => feedback.record(recorder, model, workspace, captured, share)?,
+                    None => project.record(recorder, model, workspace, share)?,
+                }
+                place.record(recorder, model, workspace, framebuffer, share)?;
+                draw.record(recorder, model, workspace, framebuffer, share)
+            }
+            Self::Mesh(drawn) => {
+                let DrawnMesh { mesh, skin, draw, room } = &**drawn;
+                skin.record(recorder, (model, mesh), (workspace, room), share)?;
+                place.record_by_bounds(recorder, model, workspace, framebuffer, share)?;
+                draw.record(recorder, (model, mesh), room, framebuffer, share)
+            }
+        }
+    }
+
+    /// Records the sums of the images that fit no tile, where it can.
+    pub(super) fn record_unplaced(
+        &self,
+        recorder: &mut Recorder,
+        (model, workspace): (&DeviceModel, &Workspace),
+        framebuffer: &Framebuffer,
+        share: Share,
+    ) -> Result<()> {
+        match self {
+            Self::Flat { raster, .. } => raster.record_listed(recorder, model, workspace, share, &framebuffer.listed),
+            Self::Mesh(_) => Ok(()),
+        }
+    }
+}

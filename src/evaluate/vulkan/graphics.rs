@@ -1,0 +1,728 @@
+//! The backend that draws with the graphics pipeline: four candidates of a view a tile of one large framebuffer, compared there
+//! with the observations (SPEC A9).
+
+use std::time::Instant;
+
+use anyhow::{Result, bail, ensure};
+
+use crate::body::{Body, Mesh};
+use crate::evaluate::batch::check_batch;
+use crate::evaluate::rig::Rig;
+use crate::evaluate::stages::{
+    CompareStage, Coverage, Gathering, ObjectiveStage, Packing, PlaceStage, PoseStage, ProjectFeedbackStage, Share,
+    layout,
+};
+use crate::evaluate::{CandidateImage, Components, Evaluator, Footprint, MeshProjector, Objective, Projector};
+use crate::features::Observation;
+use crate::geometry::Camera;
+use crate::gpu::{
+    Buffer, Device, DeviceFacts, DeviceKind, DevicePass, Memory, OutOfMemory, PassTiming, Recorder, Recording, Timing,
+};
+
+use super::drawn::Drawn;
+use super::readback::{FramebufferCopy, HostComparison};
+use super::tiles::{TileLayout, fitting_tile, next_tile};
+use super::{
+    Comparison, DeviceEvaluator, DeviceModel, Framebuffer, GraphicsSettings, Projection, Tiling, Workspace, open_device,
+};
+
+/// What a run is recorded for: a number of candidates, and an objective or the components.
+type RunKey = (u32, Option<Objective>);
+
+/// Recordings kept: a search asks for a few numbers of candidates over and over.
+const MOST_RECORDINGS: usize = 16;
+
+/// The evaluator that draws with the graphics pipeline of a Vulkan device.
+#[derive(Debug)]
+pub struct Graphics {
+    settings: GraphicsSettings,
+    model: DeviceModel,
+    drawn: Drawn,
+    stages: Stages,
+    room: Room,
+    /// Tile sizes of the views, pixels.
+    tiles: Vec<[u32; 2]>,
+    /// Whether `tiles` was measured on candidates.
+    is_measured: bool,
+    /// Whether `tiles` stays as it is.
+    is_fixed: bool,
+    /// Kept for the comparison on the host.
+    observations: Vec<Observation>,
+    /// Brings body, cameras and observations to the device.
+    upload: Recording,
+    is_uploaded: bool,
+    /// What was recorded for a number of candidates, and for an objective or for the components; the latest last.
+    recordings: Vec<(RunKey, Vec<Recording>)>,
+    /// What ran since it was last asked for, once it is to be measured.
+    passes: Option<Vec<DevicePass>>,
+    /// Whether a search has recorded itself with these tiles, and whether the newest observations have outgrown them since.
+    is_recorded: bool,
+    is_outgrown: bool,
+    timing: Timing,
+}
+
+#[derive(Debug)]
+struct Stages {
+    pose: PoseStage,
+    feedback: Option<ProjectFeedbackStage>,
+    place: PlaceStage,
+    compare: CompareStage,
+    objective: ObjectiveStage,
+}
+
+/// Buffers for a number of candidates.
+#[derive(Debug)]
+struct Room {
+    workspace: Workspace,
+    framebuffer: Framebuffer,
+    /// Most candidates of a batch.
+    batch: u32,
+    fitness: Buffer,
+    /// The host's ends of poses, fitness, sums and bounds.
+    poses_in: Buffer,
+    fitness_out: Buffer,
+    sums_out: Buffer,
+    bounds_out: Buffer,
+    /// Of the framebuffer, for the comparison on the host.
+    copy: Option<FramebufferCopy>,
+    /// For transform feedback.
+    captured: Option<Buffer>,
+}
+
+impl Room {
+    fn new(
+        model: &DeviceModel,
+        drawn: &mut Drawn,
+        settings: &GraphicsSettings,
+        tiles: &[[u32; 2]],
+        candidates: u32,
+    ) -> Result<Self> {
+        let (device, counts) = (&model.device, model.counts);
+        let candidates = candidates.max(1);
+        let count = candidates as usize;
+        let images = count * counts.views as usize;
+        let fitness = device.buffer::<f32>("fitness", count, Memory::Device)?;
+        let poses_in = device.buffer::<f32>("poses staging", count * counts.dofs as usize, Memory::Upload)?;
+        let fitness_out = device.buffer::<f32>("fitness readback", count, Memory::Readback)?;
+        let sums_out = device.buffer::<layout::Sums>("sums readback", images, Memory::Readback)?;
+        let bounds_out = device.buffer::<layout::Bounds>("bounds readback", images, Memory::Readback)?;
+        drawn.reserve(model, candidates)?;
+        let (framebuffer, copy) = make_framebuffer(device, settings, tiles, candidates)?;
+        // The workspace last: it takes what is left.
+        let workspace = Workspace::new(device, counts, candidates)?;
+        let batch = workspace.batch.min(framebuffer.layout.candidates).min(drawn.most());
+        let captured = match settings.projection {
+            Projection::Compute => None,
+            Projection::Feedback => Some(ProjectFeedbackStage::room(device, counts, workspace.batch)?),
+        };
+        Ok(Self { workspace, framebuffer, batch, fitness, poses_in, fitness_out, sums_out, bounds_out, copy, captured })
+    }
+}
+
+/// The largest framebuffer that `candidates` need and the device has room for, and the host's copy of it where it compares there.
+fn make_framebuffer(
+    device: &Device,
+    settings: &GraphicsSettings,
+    tiles: &[[u32; 2]],
+    candidates: u32,
+) -> Result<(Framebuffer, Option<FramebufferCopy>)> {
+    let on_host = matches!(settings.comparison, Comparison::Host(_));
+    let texel = 4 * (1 + u64::from(settings.packing == Packing::Depth) + u64::from(on_host));
+    let mut most_pixels = device.memory_available() / 2 / texel;
+    if on_host {
+        most_pixels = most_pixels.min(device.capabilities().max_storage / 4);
+    }
+    loop {
+        let layout = TileLayout::new(tiles, candidates, device.capabilities().max_image, most_pixels)?;
+        let made =
+            Framebuffer::new(device, layout, settings.packing, settings.tiling == Tiling::Pictures).and_then(|made| {
+                let copy = if on_host { Some(FramebufferCopy::new(device, &made)?) } else { None };
+                Ok((made, copy))
+            });
+        match made {
+            // Until not even a tile is left, which the layout says.
+            Err(error) if error.is::<OutOfMemory>() => most_pixels /= 2,
+            made => return made,
+        }
+    }
+}
+
+impl Graphics {
+    /// For a body and its cameras at working size, with the default settings, on the device of [`open_device`].
+    ///
+    /// # Errors
+    /// As [`open_device`] and [`Self::on`].
+    pub fn new(body: &Body, cameras: &[Camera]) -> Result<Self> {
+        Self::on(&open_device()?, body, cameras, GraphicsSettings::default())
+    }
+
+    /// On a device. Subgroup shuffles that it does not have become an exchange through shared memory, transform feedback a compute
+    /// stage.
+    ///
+    /// # Errors
+    /// When a picture has no pixel or more than 16384 a side, the body has no or too many parts, or the device fails.
+    pub fn on(device: &Device, body: &Body, cameras: &[Camera], settings: GraphicsSettings) -> Result<Self> {
+        Self::of(device, body, None, cameras, settings)
+    }
+
+    /// The mesh model of a body, drawn from `mesh`, which is bound to this body. It has a depth a pixel: whatever the settings say,
+    /// candidates are packed by depth and the device's own triangles cover the pixels.
+    ///
+    /// # Errors
+    /// As [`Self::on`]; also when the mesh is bound to another number of bones, or a picture is larger than a framebuffer may be.
+    pub fn of_mesh(
+        device: &Device,
+        body: &Body,
+        mesh: Mesh,
+        cameras: &[Camera],
+        settings: GraphicsSettings,
+    ) -> Result<Self> {
+        let most = device.capabilities().max_image / 4 * 4;
+        for camera in cameras {
+            let [width, height] = camera.size;
+            ensure!(
+                width <= most && height <= most,
+                "camera {} has pictures of {width}x{height}, and this device draws at most {most} pixels a side",
+                camera.name
+            );
+        }
+        let settings = GraphicsSettings {
+            packing: Packing::Depth,
+            coverage: Coverage::Hardware,
+            projection: Projection::Compute,
+            ..settings
+        };
+        Self::of(device, body, Some(mesh), cameras, settings)
+    }
+
+    fn of(
+        device: &Device,
+        body: &Body,
+        mesh: Option<Mesh>,
+        cameras: &[Camera],
+        settings: GraphicsSettings,
+    ) -> Result<Self> {
+        ensure!(!cameras.is_empty(), "there are no cameras, expected at least one to compare poses with");
+        ensure!(body.dof_count() > 0, "the body has no degree of freedom, expected at least one to search over");
+        ensure!(
+            body.parts.len() <= 127,
+            "the body has {} parts, and the backend graphics tells at most 127 apart",
+            body.parts.len()
+        );
+        for camera in cameras {
+            let [width, height] = camera.size;
+            ensure!(
+                (1..=16384).contains(&width) && (1..=16384).contains(&height),
+                "camera {} has pictures of {width}x{height}, expected 1 to 16384 pixels a side",
+                camera.name
+            );
+        }
+        let mut settings = settings;
+        let gathering = match &mut settings.comparison {
+            Comparison::Device(gathering) => {
+                if !gathering.works_on(device.capabilities()) {
+                    *gathering = Gathering::Shared;
+                }
+                *gathering
+            }
+            Comparison::Host(_) => Gathering::Texels,
+        };
+        if !device.capabilities().transform_feedback {
+            settings.projection = Projection::Compute;
+        }
+        let labels = body.parts.iter().map(|part| part.label).collect();
+        let model = DeviceModel::new(device, &Projector::new(body, cameras), labels)?;
+        let mut drawn = match mesh {
+            None => Drawn::flat(device, model.counts.parts, settings.packing, settings.coverage)?,
+            Some(mesh) => Drawn::mesh(device, &model, &MeshProjector::new(body, mesh, cameras)?)?,
+        };
+        let mut recorder = device.recorder(Timing::Off)?;
+        model.record_upload(&mut recorder)?;
+        drawn.record_upload(&mut recorder)?;
+        // A real device has room for more workgroups than there are tiles; for a processor each is work.
+        let bands = if device.facts().kind == DeviceKind::Cpu { 1 } else { 4 };
+        let stages = Stages {
+            pose: PoseStage::new(device)?,
+            feedback: match settings.projection {
+                Projection::Compute => None,
+                Projection::Feedback => Some(ProjectFeedbackStage::new(device)?),
+            },
+            place: PlaceStage::new(device)?,
+            compare: CompareStage::new(device, gathering, settings.packing.edge_bit(), bands)?,
+            objective: ObjectiveStage::new(device)?,
+        };
+        let tiles = model.sizes.clone();
+        Ok(Self {
+            room: Room::new(&model, &mut drawn, &settings, &tiles, 1)?,
+            drawn,
+            settings,
+            stages,
+            tiles,
+            is_measured: false,
+            is_fixed: settings.tiling == Tiling::Pictures,
+            is_recorded: false,
+            is_outgrown: false,
+            observations: cameras.iter().map(|camera| Observation::empty(camera.size[0], camera.size[1])).collect(),
+            upload: recorder.finish()?,
+            is_uploaded: false,
+            recordings: Vec::new(),
+            passes: None,
+            timing: Timing::Off,
+            model,
+        })
+    }
+
+    /// The device it works on.
+    pub fn facts(&self) -> &DeviceFacts {
+        self.model.device.facts()
+    }
+
+    /// How it works: as asked for, but for what the device does not have.
+    pub fn settings(&self) -> GraphicsSettings {
+        self.settings
+    }
+
+    /// Tile sizes of the views, [width, height] in pixels, and candidates a batch.
+    pub fn tiles(&self) -> (&[[u32; 2]], u32) {
+        (&self.tiles, self.room.batch)
+    }
+
+    /// Has every evaluation from now on timed by stage ([`Self::timings`]).
+    pub fn time_stages(&mut self, timing: Timing) {
+        self.timing = timing;
+        self.recordings.clear();
+    }
+
+    /// The times of the last evaluation's passes.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn timings(&self) -> Result<Vec<PassTiming>> {
+        let mut all = Vec::new();
+        for recording in self.recordings.last().iter().flat_map(|(_, recordings)| recordings) {
+            all.extend(recording.timings()?);
+        }
+        Ok(all)
+    }
+
+    /// Exchanges the body for another one of as many bones, parts and degrees of freedom; what was observed stays.
+    ///
+    /// # Errors
+    /// When their numbers differ, or a mesh is drawn, which belongs to its body.
+    pub fn set_body(&mut self, body: &Body) -> Result<()> {
+        ensure!(
+            matches!(self.drawn, Drawn::Flat { .. }),
+            "a mesh is bound to the body it was made with: another body needs an evaluator of its own"
+        );
+        self.model.set_rig(&Rig::new(body))?;
+        self.is_uploaded = false;
+        Ok(())
+    }
+
+    /// One pose in one view as the device draws it, for looking and for tests.
+    ///
+    /// # Errors
+    /// When the pose has another length, there is no such view, its picture is larger than a framebuffer may be, or the device
+    /// fails.
+    pub fn draw(&mut self, pose: &[f32], view: usize) -> Result<CandidateImage> {
+        let (views, parts) = (self.view_count(), self.model.counts.parts as usize);
+        check_batch(pose, self.dof_count(), 1, 1)?;
+        ensure!(view < views, "there are {views} views, and view {view} was asked for");
+        let device = self.model.device.clone();
+        let workspace = Workspace::new(&device, self.model.counts, 1)?;
+        let settings = GraphicsSettings { comparison: Comparison::Host(HostComparison::Scalar), ..self.settings };
+        let (framebuffer, copy) = make_framebuffer(&device, &settings, &self.model.sizes, 1)?;
+        let [width, height] = self.model.sizes[view];
+        let held = framebuffer.layout.views[view].size;
+        ensure!(
+            held[0] >= width && held[1] >= height,
+            "a picture of {width}x{height} is larger than the {}x{} that this device draws at once",
+            held[0],
+            held[1]
+        );
+        let staging = device.buffer::<f32>("pose staging", pose.len(), Memory::Upload)?;
+        staging.write(0, pose)?;
+        let quads_out = device.buffer::<layout::Quad>("quads readback", views * parts, Memory::Readback)?;
+        let share = Share { first: 0, candidates: 1 };
+        let mut recorder = device.recorder(Timing::Off)?;
+        self.record_upload(&mut recorder)?;
+        recorder.copy("upload poses", (&staging, 0), (&workspace.poses, 0), staging.size())?;
+        self.record_drawing(&mut recorder, &workspace, &framebuffer, share)?;
+        recorder.copy("read quads", (&workspace.quads, 0), (&quads_out, 0), quads_out.size())?;
+        let copy = match copy {
+            Some(copy) => copy,
+            None => FramebufferCopy::new(&device, &framebuffer)?,
+        };
+        copy.record(&mut recorder, &framebuffer)?;
+        recorder.finish()?.run()?;
+        let mut quads: Vec<layout::Quad> = bytemuck::zeroed_vec(views * parts);
+        quads_out.read(0, &mut quads)?;
+        let drawn = copy.read(&framebuffer, 1)?.image(0, view, [width, height]);
+        let labels = &quads[view * parts..][..parts];
+        let bytes = match self.settings.packing {
+            Packing::Depth => drawn,
+            // 2 rank + edge, ranks counted from the farthest part on, 1 the farthest.
+            Packing::Max => drawn
+                .iter()
+                .map(|&byte| match usize::from(byte >> 1) {
+                    0 => 0,
+                    rank => labels[parts - rank.min(parts)].label as u8 | byte << 7,
+                })
+                .collect(),
+        };
+        Ok(CandidateImage { width, height, bytes })
+    }
+
+    /// Poses to pictures.
+    fn record_drawing(
+        &self,
+        recorder: &mut Recorder,
+        workspace: &Workspace,
+        framebuffer: &Framebuffer,
+        share: Share,
+    ) -> Result<()> {
+        self.stages.pose.record(recorder, &self.model, workspace, share)?;
+        let feedback = self.stages.feedback.as_ref().zip(self.room.captured.as_ref());
+        self.drawn.record(recorder, (&self.model, workspace), feedback, (&self.stages.place, framebuffer), share)
+    }
+
+    /// Everything from the poses to the sums of a share; with the comparison on the host, to the framebuffer's copy, and the sums
+    /// of the images that fit no tile.
+    fn record_share(&self, recorder: &mut Recorder, share: Share, copy: Option<&FramebufferCopy>) -> Result<()> {
+        let Room { workspace, framebuffer, .. } = &self.room;
+        self.record_drawing(recorder, workspace, framebuffer, share)?;
+        match copy {
+            Some(copy) => copy.record(recorder, framebuffer)?,
+            None => self.stages.compare.record(recorder, &self.model, workspace, framebuffer, share)?,
+        }
+        // What fits no tile is scored without a framebuffer.
+        self.drawn.record_unplaced(recorder, (&self.model, workspace), framebuffer, share)
+    }
+
+    fn shares(&self, candidates: u32) -> Result<Vec<Share>> {
+        let Room { workspace, batch, .. } = &self.room;
+        ensure!(
+            candidates <= workspace.candidates,
+            "there is room for {} candidates, and {candidates} were asked for",
+            workspace.candidates
+        );
+        let firsts = (0..candidates).step_by(*batch as usize);
+        Ok(firsts.map(|first| Share { first, candidates: (*batch).min(candidates - first) }).collect())
+    }
+
+    /// Host to host: the poses, all stages, fitness or sums, bounds. One recording, or with the comparison on the host one a
+    /// batch.
+    fn record_run(&self, objective: Option<&Objective>, candidates: u32) -> Result<Vec<Recording>> {
+        let Room { workspace, fitness, poses_in, fitness_out, sums_out, bounds_out, copy, .. } = &self.room;
+        let (count, views) = (u64::from(candidates), u64::from(self.model.counts.views));
+        let mut recorder = self.model.device.recorder(self.timing)?;
+        let bytes = count * u64::from(self.model.counts.dofs) * size_of::<f32>() as u64;
+        recorder.copy("upload poses", (poses_in, 0), (&workspace.poses, 0), bytes)?;
+        let mut recordings = Vec::new();
+        let shares = self.shares(candidates)?;
+        for (place, share) in shares.iter().enumerate() {
+            self.record_share(&mut recorder, *share, copy.as_ref())?;
+            let image = size_of::<layout::Bounds>() as u64;
+            let (from, bytes) = (u64::from(share.first) * views * image, u64::from(share.candidates) * views * image);
+            recorder.copy("read bounds", (&workspace.bounds, 0), (bounds_out, from), bytes)?;
+            if copy.is_some() && place + 1 < shares.len() {
+                let next = self.model.device.recorder(self.timing)?;
+                recordings.push(std::mem::replace(&mut recorder, next));
+            }
+        }
+        match objective.filter(|_| copy.is_none()) {
+            Some(objective) => {
+                self.stages.objective.record(&mut recorder, &self.model, workspace, objective, candidates, fitness)?;
+                recorder.copy("read fitness", (fitness, 0), (fitness_out, 0), count * size_of::<f32>() as u64)?;
+            }
+            None => {
+                let bytes = count * views * size_of::<layout::Sums>() as u64;
+                recorder.copy("read sums", (&workspace.sums, 0), (sums_out, 0), bytes)?;
+            }
+        }
+        recordings.push(recorder);
+        recordings.into_iter().map(Recorder::finish).collect()
+    }
+
+    /// Runs poses through the device. The results then lie in the readback buffers; with the comparison on the host, what it
+    /// counted comes back, `[candidate][view]`, none for images that the device scored.
+    fn run(&mut self, poses: &[f32], objective: Option<&Objective>) -> Result<Vec<Option<layout::Sums>>> {
+        let candidates = u32::try_from(poses.len() / self.dof_count())?;
+        self.make_room(candidates)?;
+        self.room.poses_in.write(0, poses)?;
+        let key: RunKey = (candidates, objective.copied());
+        match self.recordings.iter().position(|(known, _)| *known == key) {
+            Some(place) => self.recordings[place..].rotate_left(1),
+            None => {
+                let recorded = self.record_run(objective, candidates)?;
+                if self.recordings.len() == MOST_RECORDINGS {
+                    self.recordings.remove(0);
+                }
+                self.recordings.push((key, recorded));
+            }
+        }
+        if !self.is_uploaded {
+            // The run that follows waits for it on the device.
+            self.upload.submit()?;
+            self.is_uploaded = true;
+        }
+        let shares = self.shares(candidates)?;
+        let mut counted = Vec::new();
+        if let Some((_, recordings)) = self.recordings.last_mut() {
+            for (recording, share) in recordings.iter_mut().zip(shares) {
+                recording.run()?;
+                if let Some(passes) = &mut self.passes {
+                    passes.extend(recording.passes_run(Instant::now())?);
+                }
+                if let (Some(copy), Comparison::Host(how)) = (&self.room.copy, self.settings.comparison) {
+                    let pictures = copy.read(&self.room.framebuffer, share.candidates)?;
+                    counted.extend(pictures.compare(&self.observations, self.settings.packing.edge_bit(), how));
+                }
+            }
+        }
+        if let Some(message) = self.model.device.validation_log().messages().first() {
+            bail!("the Vulkan validation layer finds a fault: {message}");
+        }
+        if self.measure(candidates)? && !self.drawn.scores_what_fits_no_tile() {
+            // Tiles grow up to the pictures, which everything fits.
+            return self.run(poses, objective);
+        }
+        Ok(counted)
+    }
+
+    /// Fits the tiles to what the images of the last run touched. What was recorded before then goes on with the old ones.
+    /// Whether a tile was too small, with those spared that are scored without one.
+    fn measure(&mut self, candidates: u32) -> Result<bool> {
+        if self.is_fixed {
+            return Ok(false);
+        }
+        let spare = if self.drawn.scores_what_fits_no_tile() { 50 } else { usize::MAX };
+        let views = self.view_count();
+        let mut bounds: Vec<layout::Bounds> = bytemuck::zeroed_vec(candidates as usize * views);
+        self.room.bounds_out.read(0, &mut bounds)?;
+        let mut tiles = self.tiles.clone();
+        let mut outgrown = false;
+        for (view, tile) in tiles.iter_mut().enumerate() {
+            let mut extents: Vec<[u32; 2]> = bounds
+                .iter()
+                .skip(view)
+                .step_by(views)
+                .filter(|bounds| bounds.low[0] < bounds.high[0] && bounds.low[1] < bounds.high[1])
+                .map(|bounds| {
+                    let side = |axis: usize, low: i32| (bounds.high[axis] - low).unsigned_abs();
+                    [side(0, bounds.low[0] & !3), side(1, bounds.low[1])]
+                })
+                .collect();
+            if let Some(needed) = fitting_tile(&mut extents, spare) {
+                outgrown |= needed[0] > tile[0].next_multiple_of(4) || needed[1] > tile[1];
+                *tile = next_tile(*tile, needed, self.model.sizes[view]);
+            }
+        }
+        self.is_measured = true;
+        self.set_tiles(tiles)?;
+        Ok(outgrown)
+    }
+
+    fn make_room(&mut self, candidates: u32) -> Result<()> {
+        if candidates > self.room.workspace.candidates {
+            // Recordings hold the old room; without them it is free before the new one is taken.
+            self.recordings.clear();
+            self.room = Room::new(&self.model, &mut self.drawn, &self.settings, &self.tiles, candidates)?;
+        }
+        Ok(())
+    }
+
+    pub(super) fn set_tiles(&mut self, tiles: Vec<[u32; 2]>) -> Result<()> {
+        if tiles != self.tiles {
+            // Recordings hold the old framebuffer; without them it is free before the new one is taken.
+            self.recordings.clear();
+            let Room { workspace, .. } = &self.room;
+            let candidates = workspace.candidates;
+            let (framebuffer, copy) = make_framebuffer(&self.model.device, &self.settings, &tiles, candidates)?;
+            self.room.batch = workspace.batch.min(framebuffer.layout.candidates).min(self.drawn.most());
+            self.room.framebuffer = framebuffer;
+            self.room.copy = copy;
+            self.tiles = tiles;
+        }
+        Ok(())
+    }
+}
+
+impl Evaluator for Graphics {
+    fn name(&self) -> &'static str {
+        "graphics"
+    }
+
+    fn variant(&self) -> &'static str {
+        self.settings.name()
+    }
+
+    fn view_count(&self) -> usize {
+        self.model.counts.views as usize
+    }
+
+    fn dof_count(&self) -> usize {
+        self.model.counts.dofs as usize
+    }
+
+    fn observe(&mut self, observations: &[Observation]) -> Result<()> {
+        self.model.observe(observations)?;
+        self.is_uploaded = false;
+        if matches!(self.settings.comparison, Comparison::Host(_)) {
+            self.observations = observations.to_vec();
+        }
+        // Until candidates have told, they are taken to be about as large as what is seen.
+        if !self.is_measured && !self.is_fixed {
+            let seen: Vec<[u32; 2]> = observations.iter().map(first_tile).collect();
+            let outgrows = |(seen, tile): (&[u32; 2], &[u32; 2])| seen[0] > tile[0] || seen[1] > tile[1];
+            if self.is_recorded && seen.iter().zip(&self.tiles).any(outgrows) {
+                // With room to grow into, so that this does not happen in every frame of an approach.
+                let grown = seen
+                    .iter()
+                    .zip(&self.model.sizes)
+                    .map(|(seen, size)| [0, 1].map(|axis| (seen[axis] + seen[axis] / 4).min(size[axis])));
+                self.set_tiles(grown.collect())?;
+                self.is_outgrown = true;
+            } else if !self.is_recorded {
+                self.set_tiles(seen)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn components(&mut self, poses: &[f32], components: &mut [Components]) -> Result<()> {
+        check_batch(poses, self.dof_count(), components.len(), self.view_count())?;
+        if components.is_empty() {
+            return Ok(());
+        }
+        let counted = self.run(poses, None)?;
+        let mut sums: Vec<layout::Sums> = bytemuck::zeroed_vec(components.len());
+        self.room.sums_out.read(0, &mut sums)?;
+        let areas = self.model.observed_areas().collect::<Vec<_>>();
+        for (index, (components, sums)) in components.iter_mut().zip(&sums).enumerate() {
+            let layout::Sums { area_model, overlap, edges, proximity } =
+                counted.get(index).copied().flatten().unwrap_or(*sums);
+            *components = Components { area_obs: areas[index % areas.len()], area_model, overlap, edges, proximity };
+        }
+        Ok(())
+    }
+
+    fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
+        check_batch(poses, self.dof_count(), fitness.len(), 1)?;
+        if fitness.is_empty() {
+            return Ok(());
+        }
+        if let Comparison::Host(_) = self.settings.comparison {
+            let views = self.view_count();
+            let mut components = vec![Components::default(); fitness.len() * views];
+            self.components(poses, &mut components)?;
+            for (value, row) in fitness.iter_mut().zip(components.chunks_exact(views)) {
+                *value = objective.fitness(row);
+            }
+            return Ok(());
+        }
+        self.run(poses, Some(objective))?;
+        // The tiles may have been fitted since; the room's ends stay.
+        self.room.fitness_out.read(0, fitness)
+    }
+
+    fn on_device(&mut self) -> Option<&mut dyn DeviceEvaluator> {
+        match self.settings.comparison {
+            Comparison::Device(_) => Some(self),
+            Comparison::Host(_) => None,
+        }
+    }
+
+    fn measure_passes(&mut self, measured: bool) -> Result<()> {
+        if measured != self.passes.is_some() {
+            self.passes = measured.then(Vec::new);
+            self.time_stages(if measured { Timing::Statistics } else { Timing::Off });
+        }
+        Ok(())
+    }
+
+    fn device_passes(&mut self) -> Vec<DevicePass> {
+        self.passes.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    fn footprint(&self) -> Option<Footprint> {
+        let tile = [0, 1].map(|axis| self.tiles.iter().map(|tile| tile[axis]).max().unwrap_or(0));
+        // A channel of a texel, and a quarter of its depth.
+        let bytes_per_pixel = if self.settings.packing == Packing::Depth { 2.0 } else { 1.0 };
+        Some(Footprint { tile, bytes_per_pixel })
+    }
+}
+
+/// The tile of a view of which only the observation is known: its silhouette, a quarter larger; the picture when there is none.
+fn first_tile(observation: &Observation) -> [u32; 2] {
+    let width = observation.width as usize;
+    let (mut low, mut high) = ([u32::MAX; 2], [0; 2]);
+    for (index, byte) in observation.bytes.iter().enumerate() {
+        if byte & Observation::SILHOUETTE != 0 {
+            let at = [(index % width) as u32, (index / width) as u32];
+            for axis in 0..2 {
+                low[axis] = low[axis].min(at[axis]);
+                high[axis] = high[axis].max(at[axis] + 1);
+            }
+        }
+    }
+    let picture = [observation.width, observation.height];
+    if high[0] == 0 {
+        return picture;
+    }
+    [0, 1].map(|axis| {
+        let side = high[axis] - low[axis];
+        (side + side / 4 + 16).min(picture[axis])
+    })
+}
+
+impl DeviceEvaluator for Graphics {
+    fn device(&self) -> &Device {
+        &self.model.device
+    }
+
+    fn poses(&self) -> &Buffer {
+        &self.room.workspace.poses
+    }
+
+    fn fitness(&self) -> &Buffer {
+        &self.room.fitness
+    }
+
+    fn views(&self) -> usize {
+        self.view_count()
+    }
+
+    fn sums(&self) -> &Buffer {
+        &self.room.workspace.sums
+    }
+
+    fn has_outgrown_its_recording(&self) -> bool {
+        self.is_outgrown
+    }
+
+    fn reserve(&mut self, candidates: u32) -> Result<()> {
+        (self.is_recorded, self.is_outgrown) = (true, false);
+        if !self.drawn.scores_what_fits_no_tile() && !self.is_fixed {
+            // Nobody looks between what is recorded here: every image must fit.
+            self.set_tiles(self.model.sizes.clone())?;
+            self.is_fixed = true;
+        }
+        self.make_room(candidates)
+    }
+
+    fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
+        self.model.record_upload(recorder)?;
+        self.drawn.record_upload(recorder)
+    }
+
+    /// With tiles of the size that the newest observations or candidates told; images that outgrow them later are still scored,
+    /// the slower way. The comparison is on the device, whatever the settings say.
+    fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
+        for share in self.shares(candidates)? {
+            self.record_share(recorder, share, None)?;
+        }
+        let Room { workspace, fitness, .. } = &self.room;
+        self.stages.objective.record(recorder, &self.model, workspace, objective, candidates, fitness)
+    }
+}

@@ -1,0 +1,67 @@
+//! The graphics backend gives the reference's integers and fitness in the same scene as the other backends: small and large
+//! people, behind and inside of cameras, off screen.
+//!
+//! Runs on whatever Vulkan device there is, under the validation layer, which must stay silent.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod scene;
+
+use pantin::body::Body;
+use pantin::evaluate::vulkan::{
+    Comparison, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
+};
+use pantin::evaluate::{Evaluator as _, Objective, ObjectiveKind};
+use pantin::gpu::{Device, DeviceSettings, Instance, Validation};
+use scene::{Random, cameras, evaluate, first_difference, observations, poses, reference_in_parallel};
+
+#[test]
+fn five_hundred_poses_give_identical_integers() {
+    const NAME: &str = "five_hundred_poses_give_identical_integers";
+    let instance = match Instance::open(Validation::Synchronisation) {
+        Ok(instance) => instance,
+        Err(error) => {
+            assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
+            println!("SKIPPED {NAME}: {error:#}");
+            return;
+        }
+    };
+    let device = Device::open(&instance, DeviceSettings::default()).unwrap();
+    let log = instance.validation_log();
+    let (body, cameras) = (Body::adult(1750.0).unwrap(), cameras());
+    let mut random = Random(21);
+    let seen = observations(&cameras, &mut random);
+    let count = 500;
+    let poses = poses(&body, count, &mut random);
+    let expected = reference_in_parallel(&body, &cameras, &seen, &poses);
+    let usual = GraphicsSettings::default();
+    for settings in [
+        usual,
+        GraphicsSettings { comparison: Comparison::Device(Gathering::Subgroup), ..usual },
+        GraphicsSettings { packing: Packing::Depth, projection: Projection::Feedback, ..usual },
+        GraphicsSettings { tiling: Tiling::Pictures, ..usual },
+        GraphicsSettings { comparison: Comparison::Host(HostComparison::Simd), ..usual },
+    ] {
+        let mut graphics = Graphics::on(&device, &body, &cameras, settings).unwrap();
+        for tiles in ["guessed", "fitted"] {
+            let found = evaluate(&mut graphics, &seen, &poses);
+            assert_eq!(first_difference(cameras.len(), &expected, &found), None, "{settings:?}, {tiles} tiles");
+        }
+        for kind in ObjectiveKind::ALL {
+            let objective = Objective { kind, beta: 0.4, w1: 0.7, w2: 0.3 };
+            let mut fitness = vec![-1.0; count];
+            graphics.fitness(&poses, &objective, &mut fitness).unwrap();
+            for (value, row) in fitness.iter().zip(expected.chunks_exact(cameras.len())) {
+                let expected = objective.fitness(row);
+                assert!((value - expected).abs() < 1e-5, "{}: {value} against {expected}", kind.name());
+            }
+        }
+        // A changed corner or pixel would show: another pose's components are not these.
+        let mut moved = poses.clone();
+        moved[0] += 40.0;
+        let found = evaluate(&mut graphics, &seen, &moved);
+        let difference = first_difference(cameras.len(), &expected, &found).unwrap();
+        assert!(difference.starts_with("pose 0, "), "{difference}");
+    }
+    drop(device);
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
