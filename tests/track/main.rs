@@ -339,8 +339,9 @@ fn the_trace_has_the_device_beside_the_host() {
     let end = |event: &serde_json::Value| event["ts"].as_f64().unwrap() + event["dur"].as_f64().unwrap();
     let (frames, rasters) = (of("frame"), of("raster"));
     assert_eq!(frames.len(), 2);
-    // Every evaluation of the search, and one of the result.
-    assert_eq!(rasters.len(), of("evaluate").len() + 2);
+    // A frame is one submission, which the host sees as one evaluation; on the device it is one of every iteration.
+    assert_eq!(of("evaluate").len(), 2);
+    assert_eq!(rasters.len(), 2 * SEARCH[3].parse::<usize>().unwrap());
     for raster in rasters {
         let frame = frames.iter().find(|frame| frame["args"]["frame"] == raster["args"]["frame"]).unwrap();
         assert_eq!((&frame["pid"], &raster["pid"]), (&1.into(), &2.into()));
