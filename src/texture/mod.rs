@@ -1,0 +1,3 @@
+//! Procedural textures (SPEC B).
+
+pub mod noise;
