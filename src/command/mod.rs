@@ -10,6 +10,7 @@ mod fit;
 mod objective_flags;
 mod progress;
 mod score;
+mod texture;
 mod track;
 
 use std::ffi::OsString;
@@ -38,6 +39,7 @@ enum Command {
     /// Measure the error of tracked points against a truth: per point, per frame, mean and standard deviation, mm.
     Score(score::ScoreArgs),
     Features(features::FeaturesArgs),
+    Texture(texture::TextureArgs),
     /// Track a person through a sequence of calibrated pictures.
     Track(track::TrackArgs),
 }
@@ -69,6 +71,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Fit(args) => fit::run(&args),
         Command::Score(args) => score::run(&args),
         Command::Features(args) => features::run(&args),
+        Command::Texture(args) => texture::run(&args),
         Command::Track(args) => track::run(&args),
     }
 }
