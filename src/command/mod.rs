@@ -11,6 +11,7 @@ mod objective_flags;
 mod progress;
 mod score;
 mod synth;
+mod texture;
 mod track;
 
 use std::ffi::OsString;
@@ -40,6 +41,7 @@ enum Command {
     Score(score::ScoreArgs),
     Features(features::FeaturesArgs),
     Synth(synth::SynthArgs),
+    Texture(texture::TextureArgs),
     /// Track a person through a sequence of calibrated pictures.
     Track(track::TrackArgs),
 }
@@ -72,6 +74,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Score(args) => score::run(&args),
         Command::Features(args) => features::run(&args),
         Command::Synth(args) => synth::run(&args),
+        Command::Texture(args) => texture::run(&args),
         Command::Track(args) => track::run(&args),
     }
 }
