@@ -146,7 +146,7 @@ impl Studio<'_> {
                 instants.push(*time);
             }
         }
-        let lamp = DVec3::from(self.scene.light.position);
+        let lamp = self.scene.light.position.map(DVec3::from);
         for instant in instants {
             let poses = self.performances.iter().map(|performance| performance.pose(instant));
             let poses: Vec<Vec<f64>> = poses.collect::<Result<_>>()?;
@@ -168,16 +168,17 @@ impl Studio<'_> {
                 covered.iter_mut().zip(&coverage).for_each(|(sum, quarters)| *sum += u16::from(*quarters));
             }
         }
-        let shot = |((&view, times), (light, covered)): ((&usize, &Vec<f64>), (Light, Vec<u16>))| {
+        let mut shots = Vec::with_capacity(asked.len());
+        for ((&view, times), (light, covered)) in asked.iter().zip(&times).zip(sums) {
             let shutter = &self.shutters[view];
             let half = 2 * times.len() as u16;
-            Shot {
+            shots.push(Shot {
                 // A dropped frame is the same picture once more, noise and all.
                 bytes: shutter.sensor.expose(&light, view, shutter.shown[frame]),
                 mask: covered.iter().map(|&quarters| if quarters >= half { 255 } else { 0 }).collect(),
-            }
-        };
-        Ok(asked.iter().zip(&times).zip(sums).map(shot).collect())
+            });
+        }
+        Ok(shots)
     }
 
     /// The camera's picture of the empty room, without noise.

@@ -12,6 +12,9 @@ use super::solid::Ray;
 use super::triangle::Primitive;
 use crate::geometry::Camera;
 
+/// Direction to the light where there is no lamp in the room (not of unit length): that of a high window.
+const TO_WINDOW: DVec3 = DVec3::new(0.42, -0.38, 1.25);
+
 /// Distance off a surface from which its shadow is asked, mm.
 const LIFT: f64 = 2.0;
 
@@ -58,20 +61,26 @@ struct Member<'a> {
 type Candidate = (u16, u32);
 
 impl<'a> Cast<'a> {
-    /// Prepares shadows, for a lamp at a place in the room (mm).
+    /// Prepares shadows, for a lamp at a place in the room (mm) or light from far away.
     ///
     /// # Errors
     /// When a figure has no root.
-    pub fn new(figures: &'a [PlacedFigure<'a>], lamp: DVec3) -> Result<Self> {
+    pub fn new(figures: &'a [PlacedFigure<'a>], lamp: Option<DVec3>) -> Result<Self> {
         let member = |figure: &'a PlacedFigure<'a>| {
-            let to_light = (lamp - figure.root()?).normalize_or(DVec3::Z);
-            // A lamp beside a person would throw a shadow without end.
-            let to_light = to_light.with_z(to_light.z.max(0.25)).normalize();
+            let towards = match lamp {
+                None => TO_WINDOW,
+                Some(lamp) => {
+                    // A lamp beside a person would throw a shadow without end.
+                    let towards = (lamp - figure.root()?).normalize_or(DVec3::Z);
+                    towards.with_z(towards.z.max(0.25))
+                }
+            };
+            let to_light = towards.normalize();
             let bins = LightBins::new(&figure.primitives, to_light);
             // The middle of the shadow lies away from the light.
             let low = figure.balls.iter().map(|pair| pair[0].0.truncate());
             let middle = low.fold(DVec2::ZERO, |sum, p| sum + p) / figure.balls.len().max(1) as f64;
-            let middle = middle - to_light.truncate() / to_light.z * 700.0;
+            let middle = middle - towards.truncate() / towards.z * 700.0;
             let floor_shadow = FloorShadow::new(&bins, &figure.balls, middle);
             Ok(Member { figure, to_light, bins, floor_shadow })
         };

@@ -37,6 +37,8 @@ pub struct Scene {
     pub actor: Vec<ActorSettings>,
     /// What single cameras do otherwise.
     pub camera: Vec<CameraSettings>,
+    /// `[features]` of the sequence.toml that is written: how its pictures are told from the plates.
+    pub features: Option<toml::Table>,
 }
 
 /// `[room]`: it lies round the origin, its floor at z = 0.
@@ -59,8 +61,8 @@ pub struct RoomSettings {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LightSettings {
-    /// Where the lamp hangs, mm.
-    pub position: [f64; 3],
+    /// Where the lamp hangs, mm; without one light falls from far away.
+    pub position: Option<[f64; 3]>,
     /// By which fraction all light grows and shrinks.
     pub swing: f64,
     /// How long that takes, s.
@@ -201,6 +203,7 @@ impl Default for Scene {
             output: OutputSettings::default(),
             actor: vec![ActorSettings::default()],
             camera: Vec::new(),
+            features: None,
         }
     }
 }
@@ -213,8 +216,7 @@ impl Default for RoomSettings {
 
 impl Default for LightSettings {
     fn default() -> Self {
-        // Far away: the light of a high window.
-        Self { position: [4.2e6, -3.8e6, 12.5e6], swing: 0.0, period: 4.0 }
+        Self { position: None, swing: 0.0, period: 4.0 }
     }
 }
 
@@ -365,11 +367,12 @@ impl Scene {
         self.room.check().context("[room]")?;
         within("[light] swing", self.light.swing, 0.0, 0.95, "of the light")?;
         within("[light] period", self.light.period, 0.01, 1e6, "s")?;
-        let [x, y, z] = self.light.position;
-        ensure!(
-            [x, y, z].iter().all(|value| value.abs() <= 1e9) && z > 2000.0,
-            "[light] position is [{x}, {y}, {z}], expected a place at least 2000 mm above the floor"
-        );
+        if let Some([x, y, z]) = self.light.position {
+            ensure!(
+                [x, y, z].iter().all(|value| value.abs() <= 1e9) && z > 2000.0,
+                "[light] position is [{x}, {y}, {z}], expected a place at least 2000 mm above the floor"
+            );
+        }
         self.rig.check().context("[rig]")?;
         self.sensor.check(self.fps).context("[sensor]")?;
         one_of("[output] pictures", &self.output.pictures, &PICTURES)?;
@@ -528,7 +531,7 @@ mod tests {
             (|s| s.sensor.exposure = 50.0, "[sensor]: exposure is 50, expected 0 to 40 ms"),
             (|s| s.output.pictures = "jpg".into(), "the nearest known one is `jpeg`"),
             (|s| s.output.crf = 60, "crf is 60"),
-            (|s| s.light.position = [0.0, 0.0, -1.0], "[light] position"),
+            (|s| s.light.position = Some([0.0, 0.0, -1.0]), "[light] position"),
             (|s| s.actor[0].motion.gait = Some("strait".into()), "the nearest known one is `straight`"),
             (|s| s.actor[0].motion.unit = Some("cm".into()), "`unit` stands without `file`"),
             (

@@ -51,6 +51,7 @@ struct Manifest<'a> {
     start: &'a str,
     truth: &'a str,
     view: Vec<ManifestView<'a>>,
+    features: Option<&'a toml::Table>,
 }
 
 #[derive(Serialize)]
@@ -201,6 +202,7 @@ impl SyntheticSequence {
             start: "start.csv",
             truth: "truth.trc",
             view: self.cameras.iter().map(view).collect(),
+            features: self.scene.features.as_ref(),
         }
     }
 }
@@ -248,7 +250,7 @@ mod tests {
         for &frame in frames {
             let pose = &sequence.poses().poses[frame];
             let figures = [sequence.figures[0].place(pose).unwrap()];
-            let cast = Cast::new(&figures, glam::DVec3::from(scene.light.position)).unwrap();
+            let cast = Cast::new(&figures, scene.light.position.map(glam::DVec3::from)).unwrap();
             let (light, coverage) = view.picture(&cast);
             let area = coverage.iter().filter(|&&quarters| quarters > 0).count();
             assert!((1500..22_000).contains(&area), "{area} pixels of a person");
@@ -450,6 +452,7 @@ mod tests {
             assert_eq!((truth.names.len(), truth.frames.len(), truth.rate), (markers, 2, scene.fps), "{name}");
             let picture = image::open(folder.path().join("frames/cam1_0001.png")).unwrap();
             assert_eq!(picture.color().has_color(), name != "leewalk", "{name}");
+            assert_eq!(sequence.features, scene.features, "{name}");
             // The whole length stays in the room.
             SyntheticSequence::new(&Scene::preset(name).unwrap()).unwrap();
         }

@@ -39,6 +39,10 @@ pub struct RetargetSettings {
     pub repeats: bool,
 }
 
+/// No joint turns faster, radians a second: where a bone passes a place at which two of its angles turn about one axis, they
+/// would swap in an instant.
+const FASTEST: f64 = 21.0;
+
 /// Height of a grown person over the length of the leg from hip to ankle (Drillis and Contini: 0.530 - 0.039 of stature).
 const STATURE_OF_LEG: f64 = 1.0 / 0.491;
 /// Heights that are believed of a person, mm.
@@ -106,7 +110,15 @@ impl Body {
                 Some(DMat3::from_quat(placed[joint].rotation * align.turns[bone]))
             };
             let wanted: Vec<Option<Wanted>> = (0..self.bones.len()).map(wanted).collect();
-            let next = solver.solve(&wanted, pose.as_deref())?;
+            let mut next = solver.solve(&wanted, pose.as_deref())?;
+            if let Some(before) = &pose {
+                let most = FASTEST / rate;
+                for ((value, before), (_, dof)) in next.iter_mut().zip(before).zip(self.dofs()) {
+                    if dof.axis.is_rotation() {
+                        *value = value.clamp(before - most, before + most);
+                    }
+                }
+            }
             ground.note(&placed);
             pose = Some(next.clone());
             poses.push(next);

@@ -11,6 +11,9 @@ use super::asf::{AmcChannel, AsfSkeleton};
 use super::{Placement, SkeletalJoint, SkeletalMotion, UpAxis, ensure_size};
 use crate::files::shortened;
 
+/// The values of each bone in a frame, as far as the file gives them.
+type Row = Vec<Option<Vec<f64>>>;
+
 /// Reads the text of an AMC file that moves `skeleton` at `rate` frames a second (the format does not say it); `name` stands
 /// for the file in messages. A joint is where a bone begins and has its name; the free ends are named `<bone>_end`.
 ///
@@ -21,7 +24,8 @@ pub fn parse_amc(text: &str, name: &str, skeleton: &AsfSkeleton, rate: f64) -> R
     ensure!(rate.is_finite() && rate > 0.0, "{name}: the frame rate is {rate}, expected a positive number");
     let index: HashMap<&str, usize> =
         skeleton.bones.iter().enumerate().map(|(index, bone)| (bone.name.as_str(), index)).collect();
-    let (mut in_degrees, mut rows): (bool, Vec<(usize, Vec<Option<Vec<f64>>>)>) = (skeleton.in_degrees, Vec::new());
+    let mut in_degrees = skeleton.in_degrees;
+    let mut rows: Vec<(usize, Row)> = Vec::new();
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     for (line, content) in text.lines().enumerate().map(|(index, line)| (index + 1, line)) {
         let words: Vec<&str> = content.split('#').next().unwrap_or_default().split_whitespace().collect();

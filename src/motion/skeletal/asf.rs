@@ -194,14 +194,30 @@ fn root(lines: &[(usize, Vec<&str>)], in_degrees: bool) -> Result<(AsfBone, DVec
     Ok((AsfBone { name: "root".into(), parent: None, extent: DVec3::ZERO, axes, channels }, position))
 }
 
+/// A bone between its `begin` and its `end`.
+struct OpenBone {
+    begin: usize,
+    name: Option<String>,
+    direction: DVec3,
+    length: f64,
+    axes: DQuat,
+    channels: Vec<AmcChannel>,
+}
+
+impl OpenBone {
+    fn new(begin: usize) -> Self {
+        Self { begin, name: None, direction: DVec3::Y, length: 0.0, axes: DQuat::IDENTITY, channels: Vec::new() }
+    }
+}
+
 fn bones(lines: &[(usize, Vec<&str>)], in_degrees: bool) -> Result<Vec<AsfBone>> {
     let mut bones: Vec<AsfBone> = Vec::new();
-    let mut open: Option<(usize, Option<String>, DVec3, f64, DQuat, Vec<AmcChannel>)> = None;
+    let mut open: Option<OpenBone> = None;
     for (line, words) in lines {
         let key = words[0].to_ascii_lowercase();
         let Some(bone) = open.as_mut() else {
             ensure!(key == "begin", "line {line}: found `{}`, expected `begin` of a bone", shortened(&key));
-            open = Some((*line, None, DVec3::Y, 0.0, DQuat::IDENTITY, Vec::new()));
+            open = Some(OpenBone::new(*line));
             continue;
         };
         match key.as_str() {
@@ -212,19 +228,19 @@ fn bones(lines: &[(usize, Vec<&str>)], in_degrees: bool) -> Result<Vec<AsfBone>>
                     "line {line}: two bones are named `{}`, expected every name once",
                     shortened(found)
                 );
-                bone.1 = Some((*found).to_string());
+                bone.name = Some((*found).to_string());
             }
-            "direction" => bone.2 = vector(*line, words)?,
-            "length" => bone.3 = number(*line, words, 1)?,
+            "direction" => bone.direction = vector(*line, words)?,
+            "length" => bone.length = number(*line, words, 1)?,
             "axis" => {
                 let order = words.get(4).copied().unwrap_or("XYZ");
-                bone.4 =
+                bone.axes =
                     rotation(vector(*line, words)?, order, in_degrees).with_context(|| format!("line {line}: axis"))?;
             }
-            "dof" => bone.5 = channels(*line, words)?,
+            "dof" => bone.channels = channels(*line, words)?,
             "end" => {
-                let Some((begin, found, direction, length, axes, channels)) = open.take() else { continue };
-                let Some(found) = found else { bail!("line {begin}: found a bone without a name") };
+                let Some(OpenBone { begin, name, direction, length, axes, channels }) = open.take() else { continue };
+                let Some(found) = name else { bail!("line {begin}: found a bone without a name") };
                 let long = direction.length();
                 ensure!(
                     length == 0.0 || long > 1e-9,
@@ -238,7 +254,7 @@ fn bones(lines: &[(usize, Vec<&str>)], in_degrees: bool) -> Result<Vec<AsfBone>>
             _ => {}
         }
     }
-    if let Some((begin, ..)) = open {
+    if let Some(OpenBone { begin, .. }) = open {
         bail!("line {begin}: the file ends inside a bone, expected `end`");
     }
     ensure!(!bones.is_empty(), ":bonedata holds no bones, expected at least one");

@@ -197,7 +197,7 @@ impl Gait {
     fn lead(&self, phase: f64) -> f64 {
         let phase = phase.rem_euclid(1.0);
         let lift = self.style.lift;
-        let middle = self.travelled(0.48 * lift);
+        let middle = self.travelled(self.style.over);
         if phase < lift {
             return self.travelled(phase) - middle;
         }

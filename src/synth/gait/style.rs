@@ -9,6 +9,8 @@ pub struct Style {
     pub knee: [f64; 10],
     /// The phase at which the foot leaves the floor; before a half there is a flight.
     pub lift: f64,
+    /// The phase at which the body is over the foot.
+    pub over: f64,
     /// Height of the flight, mm.
     pub flight_height: f64,
     /// Swing of the arms to either side, degrees.
@@ -28,6 +30,7 @@ impl Style {
         hip: [19.0, 16.0, 10.0, 0.0, -10.0, -14.0, -4.0, 13.0, 25.0, 25.0],
         knee: [3.0, 9.0, 10.0, 10.0, 12.0, 32.0, 56.0, 60.0, 44.0, 17.0],
         lift: 0.56,
+        over: 0.27,
         flight_height: 0.0,
         arm_swing: 22.0,
         elbow: [26.0, 13.0],
@@ -39,6 +42,7 @@ impl Style {
         hip: [36.0, 31.0, 19.0, 1.0, -9.0, -3.0, 18.0, 40.0, 48.0, 43.0],
         knee: [18.0, 34.0, 36.0, 24.0, 24.0, 54.0, 88.0, 96.0, 70.0, 32.0],
         lift: 0.38,
+        over: 0.18,
         flight_height: 45.0,
         arm_swing: 38.0,
         elbow: [82.0, 12.0],
