@@ -273,14 +273,13 @@ impl View {
                 .map(move |(index, primitive)| ((member as u16, index as u32), primitive))
         });
         for (candidate, primitive) in all {
-            let [first, second] = primitive.bounding_balls();
-            let one = self.ball_box(first.0, first.1);
-            let other = if first == second { one } else { self.ball_box(second.0, second.1) };
-            // A ball that cannot be bounded (round the camera) may be anywhere.
-            let (low, high) = match (one, other) {
-                (Some(a), Some(b)) => (a.0.min(b.0), a.1.max(b.1)),
-                _ => (DVec2::ZERO, DVec2::new(width as f64, height as f64)),
-            };
+            // The far side of a closed mesh is never seen.
+            if matches!(primitive, Primitive::Triangle(triangle) if !triangle.faces(self.centre)) {
+                continue;
+            }
+            // What cannot be bounded (round the camera) may be anywhere.
+            let everywhere = (DVec2::ZERO, DVec2::new(width as f64, height as f64));
+            let (low, high) = self.bounds(primitive).unwrap_or(everywhere);
             if high.x < 0.0 || high.y < 0.0 || low.x >= width as f64 || low.y >= height as f64 {
                 continue;
             }
@@ -291,6 +290,24 @@ impl View {
             }
         }
         tiles
+    }
+
+    /// A rectangle of the picture that holds a primitive.
+    fn bounds(&self, primitive: &Primitive) -> Option<(DVec2, DVec2)> {
+        match primitive {
+            Primitive::Solid(solid) => {
+                let [first, second] = solid.bounding_balls();
+                let one = self.ball_box(first.0, first.1)?;
+                let other = if first == second { one } else { self.ball_box(second.0, second.1)? };
+                Some((one.0.min(other.0), one.1.max(other.1)))
+            }
+            Primitive::Triangle(triangle) => {
+                let [a, b, c] = triangle.corners();
+                let (a, b, c) = (self.camera.project(a)?, self.camera.project(b)?, self.camera.project(c)?);
+                // Distortion bends the edges of so small a triangle by far less than a pixel.
+                Some((a.min(b).min(c) - 1.0, a.max(b).max(c) + 1.0))
+            }
+        }
     }
 
     /// A rectangle of the picture that holds a ball, with a margin for perspective and distortion.

@@ -5,8 +5,9 @@ use glam::{DVec2, DVec3};
 use super::solid::{BoundingBall, Ray};
 use super::triangle::Primitive;
 
-/// Width of a bin in the plane across the light, mm.
+/// Width of a bin in the plane across the light, mm: for solids, and for a mesh of many small triangles.
 const BIN: f64 = 45.0;
+const MESH_BIN: f64 = 12.0;
 
 /// Solids and triangles sorted by where they stand in the light, to ask quickly whether a point is in their shadow.
 pub struct LightBins<'a> {
@@ -15,6 +16,8 @@ pub struct LightBins<'a> {
     to_light: DVec3,
     across: [DVec3; 2],
     origin: DVec2,
+    /// mm
+    width: f64,
     size: [usize; 2],
     bins: Vec<Vec<u32>>,
 }
@@ -35,22 +38,23 @@ impl<'a> LightBins<'a> {
             .collect();
         let origin = boxes.iter().map(|b| b.0).reduce(DVec2::min).unwrap_or_default();
         let end = boxes.iter().map(|b| b.1).reduce(DVec2::max).unwrap_or_default();
-        let size = ((end - origin) / BIN).to_array().map(|extent| extent as usize + 1);
+        let width = if matches!(primitives.first(), Some(Primitive::Triangle(_))) { MESH_BIN } else { BIN };
+        let size = ((end - origin) / width).to_array().map(|extent| extent as usize + 1);
         let mut bins = vec![Vec::new(); size[0] * size[1]];
         for (index, (low, high)) in boxes.iter().enumerate() {
-            let (first, last) = ((*low - origin) / BIN, (*high - origin) / BIN);
+            let (first, last) = ((*low - origin) / width, (*high - origin) / width);
             for y in first.y as usize..=(last.y as usize).min(size[1] - 1) {
                 for x in first.x as usize..=(last.x as usize).min(size[0] - 1) {
                     bins[y * size[0] + x].push(index as u32);
                 }
             }
         }
-        Self { primitives, to_light, across, origin, size, bins }
+        Self { primitives, to_light, across, origin, width, size, bins }
     }
 
     /// Whether something stands between the point and the light.
     pub fn in_shadow(&self, point: DVec3) -> bool {
-        let at = (DVec2::new(point.dot(self.across[0]), point.dot(self.across[1])) - self.origin) / BIN;
+        let at = (DVec2::new(point.dot(self.across[0]), point.dot(self.across[1])) - self.origin) / self.width;
         if at.x < 0.0 || at.y < 0.0 || at.x >= self.size[0] as f64 || at.y >= self.size[1] as f64 {
             return false;
         }

@@ -47,10 +47,19 @@ impl Triangle {
         self.rest[0] * (1.0 - u - v) + self.rest[1] * u + self.rest[2] * v
     }
 
+    /// The corners in the world.
+    pub fn corners(&self) -> [DVec3; 3] {
+        [self.corner, self.corner + self.edges[0], self.corner + self.edges[1]]
+    }
+
+    /// Whether its outside is turned to a point.
+    pub fn faces(&self, point: DVec3) -> bool {
+        self.edges[0].cross(self.edges[1]).dot(point - self.corner) > 0.0
+    }
+
     fn ball(&self) -> BoundingBall {
         let middle = self.corner + (self.edges[0] + self.edges[1]) / 3.0;
-        let reach = [self.corner, self.corner + self.edges[0], self.corner + self.edges[1]];
-        (middle, reach.iter().map(|at| at.distance(middle)).fold(0.0, f64::max))
+        (middle, self.corners().iter().map(|at| at.distance(middle)).fold(0.0, f64::max))
     }
 }
 
