@@ -22,4 +22,5 @@ pub mod report;
 pub mod search;
 pub mod sequence;
 pub mod synth;
+pub mod texture;
 pub mod track;

@@ -18,9 +18,10 @@ const FLOORS: &[(&str, u32)] = &[
     ("features", 2),
     ("body", 2),
     ("sequence", 2),
+    ("texture", 2),
+    ("gpu", 1),
     ("motion", 1),
     ("geometry", 1),
-    ("gpu", 1),
     ("files", 0),
 ];
 

@@ -5,9 +5,13 @@
 
 use std::path::Path;
 
-use pantin::body::{Body, PoseTable, parse_body};
-use pantin::motion::{parse_bvh, parse_c3d, parse_points_csv, parse_trc};
+use pantin::body::{Body, PoseTable, RetargetSettings, parse_body};
+use pantin::motion::{
+    DeepMimicSkeleton, parse_amc, parse_asf, parse_bvh, parse_c3d, parse_deepmimic, parse_deepmimic_skeleton,
+    parse_points_csv, parse_trc,
+};
 use pantin::sequence::{check_manifest, parse_cameras_toml, parse_opencv_xml, parse_opencv_yaml, parse_qualisys};
+use pantin::synth::Scene;
 use proptest::prelude::*;
 
 /// One kind of damage; places are fractions of the file's length.
@@ -129,7 +133,7 @@ fn leg() -> Body {
 }
 
 /// The folder of seeds, and the parser.
-const PARSERS: [(&str, Parser); 10] = [
+const PARSERS: [(&str, Parser); 15] = [
     ("c3d", |bytes| parse_c3d(bytes, NAME)?.check()),
     ("trc", |bytes| parse_trc(&text(bytes), NAME)?.check()),
     ("csv", |bytes| parse_points_csv(&text(bytes), NAME)?.check()),
@@ -138,6 +142,25 @@ const PARSERS: [(&str, Parser); 10] = [
         motion.check()?;
         // Far ends are refused here, with a sentence that the file's reader completes with its name.
         motion.to_points().map(|_| ()).map_err(|error| error.context(NAME))
+    }),
+    ("asf", |bytes| parse_asf(&text(bytes), NAME).map(|_| ())),
+    ("amc", |bytes| {
+        let skeleton = parse_asf(include_str!("fuzz/seeds/asf/leg.asf"), "leg.asf")?;
+        parse_amc(&text(bytes), NAME, &skeleton, 120.0)?.check()
+    }),
+    ("deepmimic", |bytes| {
+        let motion = parse_deepmimic(&text(bytes), NAME, &DeepMimicSkeleton::humanoid())?;
+        motion.check()?;
+        // What is read is a whole person: it fits the default body or is refused, whatever its numbers.
+        Body::adult(1750.0)?
+            .retarget(&motion, &RetargetSettings::default(), 30.0, 2)
+            .map(|_| ())
+            .map_err(|error| error.context(NAME))
+    }),
+    ("character", |bytes| parse_deepmimic_skeleton(&text(bytes), NAME).map(|_| ())),
+    ("scene", |bytes| {
+        let scene: Scene = pantin::files::parse_toml(&text(bytes), NAME)?;
+        scene.check().map_err(|error| error.context(NAME))
     }),
     ("body", |bytes| {
         let body = parse_body(&text(bytes), NAME)?;

@@ -8,6 +8,7 @@ mod loader;
 mod mesh;
 mod pose;
 mod proportions;
+mod retarget;
 mod save;
 mod skeleton;
 
@@ -16,4 +17,5 @@ pub use loader::parse_body;
 pub use mesh::{FrustumBase, Mesh, MeshEdge, MeshSource, MeshVertex, Skinning};
 pub use pose::{PoseTable, PoseWriter};
 pub use proportions::{Proportion, Proportions};
+pub use retarget::RetargetSettings;
 pub use skeleton::{Body, Bone, Dof, DofAxis, FreeEnd, Marker, Part};

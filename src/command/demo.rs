@@ -28,7 +28,7 @@ pub struct DemoArgs {
     #[arg(long)]
     force: bool,
     /// Length of the sequence, at 25 frames a second.
-    #[arg(long, value_name = "N", default_value_t = Scene::default().frames)]
+    #[arg(long, value_name = "N", default_value_t = 100)]
     frames: usize,
     /// Poses scored at once.
     #[arg(long, value_name = "N", default_value_t = 600)]
@@ -53,7 +53,7 @@ const OVERLAY_EVERY: usize = 10;
 /// # Errors
 /// When a number makes no sense, the folder is not empty (without `--force`) or a file cannot be written.
 pub fn run(args: &DemoArgs) -> Result<()> {
-    let scene = Scene { frames: args.frames, seed: args.seed, ..Scene::default() };
+    let scene = Scene { frames: args.frames, seed: args.seed, ..Scene::preset("demo")? };
     let search = SearchSettings {
         particles: args.particles,
         iterations: args.iterations,
@@ -68,7 +68,7 @@ pub fn run(args: &DemoArgs) -> Result<()> {
     let folder = OutputFolder::open(&args.output.join("sequence"))?;
     let begin = Instant::now();
     let bar = Mutex::new(Progress::new("making the sequence", scene.frames));
-    synthetic.write(&folder, &|_| bar.lock().unwrap_or_else(PoisonError::into_inner).advance())?;
+    synthetic.write(&folder, false, &|_| bar.lock().unwrap_or_else(PoisonError::into_inner).advance())?;
     drop(bar);
     let views = synthetic.cameras().len();
     let made = begin.elapsed().as_secs_f64();

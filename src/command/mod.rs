@@ -12,6 +12,8 @@ mod fit;
 mod objective_flags;
 mod progress;
 mod score;
+mod synth;
+mod texture;
 mod track;
 
 use std::ffi::OsString;
@@ -44,6 +46,8 @@ enum Command {
     /// Measure the error of tracked points against a truth: per point, per frame, mean and standard deviation, mm.
     Score(score::ScoreArgs),
     Features(features::FeaturesArgs),
+    Synth(synth::SynthArgs),
+    Texture(texture::TextureArgs),
     /// Track a person through a sequence of calibrated pictures.
     Track(track::TrackArgs),
 }
@@ -77,6 +81,8 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Fit(args) => fit::run(&args),
         Command::Score(args) => score::run(&args),
         Command::Features(args) => features::run(&args),
+        Command::Synth(args) => synth::run(&args),
+        Command::Texture(args) => texture::run(&args),
         Command::Track(args) => track::run(&args),
     }
 }

@@ -49,6 +49,20 @@ impl EulerOrder {
         }
     }
 
+    /// The angles about x, y, z (radians, the middle one within a quarter turn) whose product in this order is `rotation`:
+    /// the inverse of [`euler_matrix`].
+    pub fn angles(self, rotation: &DMat3) -> [f64; 3] {
+        let [i, j, k] = self.axes();
+        // Even orders are x y z and what follows from it by going round.
+        let sign = if (i + 1) % 3 == j { 1.0 } else { -1.0 };
+        let at = |row: usize, column: usize| rotation.col(column)[row];
+        let mut angles = [0.0; 3];
+        angles[i] = (-sign * at(j, k)).atan2(at(k, k));
+        angles[j] = (sign * at(i, k)).clamp(-1.0, 1.0).asin();
+        angles[k] = (-sign * at(i, j)).atan2(at(i, i));
+        angles
+    }
+
     /// The order of that name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|order| order.name() == name)
@@ -100,6 +114,19 @@ mod tests {
             prop_assume!(vector.length() < std::f64::consts::PI);
             let back = rodrigues_vector(rodrigues_matrix(vector));
             prop_assert!((back - vector).length() <= 1e-15 + 1e-14 * vector.length(), "{vector} {back}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn angles_are_those_of_the_matrix(a in -3.1..3.1_f64, b in -1.5..1.5_f64, c in -3.1..3.1_f64, which in 0..6_usize) {
+            let order = EulerOrder::ALL[which];
+            let mut angles = [0.0; 3];
+            for (axis, angle) in order.axes().into_iter().zip([a, b, c]) {
+                angles[axis] = angle;
+            }
+            let found = order.angles(&euler_matrix(angles.into(), order));
+            prop_assert!(found.iter().zip(angles).all(|(f, e)| (f - e).abs() < 1e-9), "{found:?} {angles:?}");
         }
     }
 

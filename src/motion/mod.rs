@@ -1,4 +1,4 @@
-//! Trajectories of points and bodies: C3D, TRC, BVH and CSV files, and the error between two of them (SPEC A10).
+//! Trajectories of points and bodies: C3D, TRC, BVH, ASF/AMC, DeepMimic and CSV files, and the error between two of them (SPEC A10).
 
 mod bvh;
 mod c3d;
@@ -7,6 +7,7 @@ mod number;
 mod point_file;
 mod points;
 mod points_csv;
+mod skeletal;
 #[cfg(test)]
 mod test_points;
 mod trc;
@@ -17,4 +18,8 @@ pub use error::{FrameError, Matching, PointError, PointPairs, TrajectoryError, w
 pub use point_file::{PointFormat, read_bvh, read_points, write_points};
 pub use points::{LARGEST_COORDINATE, PointTrajectory};
 pub use points_csv::{parse_points_csv, write_points_csv};
+pub use skeletal::{
+    AsfBone, AsfSkeleton, DeepMimicSkeleton, Placement, SkeletalJoint, SkeletalMotion, UpAxis, parse_amc, parse_asf,
+    parse_deepmimic, parse_deepmimic_skeleton, read_skeletal_motion,
+};
 pub use trc::{parse_trc, write_trc};

@@ -97,7 +97,7 @@ pub fn write_points(path: &Path, points: &PointTrajectory, overwrite: Overwrite)
     })
 }
 
-fn read_bytes(path: &Path) -> Result<Vec<u8>> {
+pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
     let cannot = || format!("cannot read {}", path.display());
     let metadata = fs::metadata(path).with_context(cannot)?;
     if metadata.len() > LARGEST_FILE {
@@ -106,7 +106,7 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>> {
     fs::read(path).with_context(cannot)
 }
 
-fn text<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str> {
+pub(super) fn text<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str> {
     std::str::from_utf8(bytes).map_err(|error| {
         let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
         anyhow!("{name}, line {line}: byte {} is not UTF-8, expected a text file", error.valid_up_to())

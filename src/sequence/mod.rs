@@ -7,6 +7,7 @@ mod manifest;
 mod pictures;
 mod resample;
 mod video;
+mod video_encoder;
 
 pub use calibration::{
     cameras_toml, parse_cameras_toml, parse_opencv_xml, parse_opencv_yaml, parse_qualisys, read_cameras,
@@ -16,3 +17,4 @@ pub use frames::{FrameReader, FrameSet, Source};
 pub use manifest::{Sequence, View, check_manifest};
 pub use pictures::PicturePattern;
 pub use video::{VideoInfo, probe_video};
+pub use video_encoder::VideoEncoder;

@@ -26,6 +26,34 @@ pub enum Material {
 }
 
 impl Material {
+    /// The name of the garment in scene.toml.
+    pub fn garment(self) -> &'static str {
+        match self {
+            Self::Skin | Self::Face => "skin",
+            Self::Hair => "hair",
+            Self::Shirt => "shirt",
+            Self::Trousers => "trousers",
+            Self::Shoe => "shoes",
+        }
+    }
+
+    /// Reflectance at a point of the bone's frame, mm, as the tailor makes it.
+    pub fn reflectance(self, at: DVec3) -> Colour {
+        let grain = |scale: f64| 0.9 + 0.2 * smooth_noise(at.y / scale + 3.1 * at.x / scale, at.z / scale, 31);
+        match self {
+            Self::Skin | Self::Face => Colour::new(0.55, 0.31, 0.21),
+            Self::Hair => Colour::new(0.055, 0.032, 0.02) * (0.7 + 0.6 * smooth_noise(at.y / 7.0, at.x / 40.0, 33)),
+            Self::Shirt => {
+                // Brick red with pale bands.
+                let band = (at.z / 105.0).rem_euclid(1.0) < 0.2;
+                let cloth = if band { Colour::new(0.66, 0.58, 0.46) } else { Colour::new(0.56, 0.085, 0.05) };
+                cloth * grain(26.0)
+            }
+            Self::Trousers => Colour::new(0.045, 0.075, 0.17) * grain(18.0),
+            Self::Shoe => Colour::new(0.10, 0.05, 0.03),
+        }
+    }
+
     /// Whether two materials go over into each other without a crease.
     pub fn joins(self, other: Self) -> bool {
         let family = |material| if material == Self::Face { Self::Skin } else { material };
@@ -236,20 +264,7 @@ impl Actor {
 impl Shape {
     /// Reflectance at a point of the bone's frame, mm.
     pub fn reflectance(&self, at: DVec3) -> Colour {
-        let grain = |scale: f64| 0.9 + 0.2 * smooth_noise(at.y / scale + 3.1 * at.x / scale, at.z / scale, 31);
-        match self.material {
-            Material::Skin => Colour::new(0.55, 0.31, 0.21),
-            Material::Face => self.face(at),
-            Material::Hair => Colour::new(0.055, 0.032, 0.02) * (0.7 + 0.6 * smooth_noise(at.y / 7.0, at.x / 40.0, 33)),
-            Material::Shirt => {
-                // Brick red with pale bands.
-                let band = (at.z / 105.0).rem_euclid(1.0) < 0.2;
-                let cloth = if band { Colour::new(0.66, 0.58, 0.46) } else { Colour::new(0.56, 0.085, 0.05) };
-                cloth * grain(26.0)
-            }
-            Material::Trousers => Colour::new(0.045, 0.075, 0.17) * grain(18.0),
-            Material::Shoe => Colour::new(0.10, 0.05, 0.03),
-        }
+        if self.material == Material::Face { self.face(at) } else { self.material.reflectance(at) }
     }
 
     /// Eyes, brows and mouth on the front of the head, placed relative to the shape's own centre.

@@ -1,13 +1,18 @@
-//! Synthetic sequences with exact truth: an actor, a room, cameras, noise.
+//! Synthetic sequences with exact truth: people, a room, cameras, noise.
 //!
-//! [`Scene`] says what to show, [`SyntheticSequence`] makes it: a [gait](gait::Gait) moves the bones, an
-//! [actor](actor::Actor) of ellipsoids and capsules hangs on them, [render](render::View) draws it before the
-//! [room](room::Room) for each camera of the [rig], the [sensor](noise::Sensor) adds its noise.
+//! [`Scene`] says what to show, [`SyntheticSequence`] makes it: a [performance](performance::Performance) moves the bones, by a
+//! [gait](gait::Gait) or a recording; a [figure](figure::Figure) of ellipsoids and capsules or with a skinned mesh hangs on
+//! them; [render](render::View) draws it before the [room](room::Room) for each camera of the [rig]; shutters
+//! and [sensor](noise::Sensor) record it.
 
 pub mod actor;
+pub mod figure;
+mod finish;
 pub mod gait;
 mod hash;
 pub mod noise;
+pub mod performance;
+mod recording;
 pub mod render;
 pub mod rig;
 pub mod room;
@@ -15,6 +20,11 @@ mod scene;
 mod sequence;
 pub mod shadow;
 pub mod solid;
+pub mod triangle;
 
-pub use scene::Scene;
+pub use finish::{Finish, FinishSettings};
+pub use scene::{
+    ActorSettings, CameraSettings, LightSettings, MotionSettings, OutputSettings, RigSettings, RoomSettings, Scene,
+    SensorSettings,
+};
 pub use sequence::SyntheticSequence;

@@ -7,6 +7,9 @@ use super::hash::hash;
 pub struct Sensor {
     /// Standard deviation of the noise at full brightness, grey levels of 255.
     noise: f64,
+    /// Factor on the light.
+    gain: f32,
+    is_grey: bool,
     seed: u64,
     /// Encoded level (0..=255) of linear light in steps of 1 / (length - 1).
     encoding: Vec<f32>,
@@ -15,7 +18,7 @@ pub struct Sensor {
 const ENCODING_STEPS: usize = 4096;
 
 impl Sensor {
-    /// A sensor with noise of `noise` grey levels (standard deviation in bright places; dark ones get a little less).
+    /// A colour sensor of gain 1 with noise of `noise` grey levels (standard deviation in bright places; dark ones get a little less).
     pub fn new(noise: f64, seed: u64) -> Self {
         let encoding = (0..=ENCODING_STEPS)
             .map(|i| {
@@ -25,28 +28,50 @@ impl Sensor {
                 (255.0 * level) as f32
             })
             .collect();
-        Self { noise, seed, encoding }
+        Self { noise, gain: 1.0, is_grey: false, seed, encoding }
     }
 
-    /// The bytes (RGB) of a picture of linear light, without noise.
+    /// The same sensor with another gain: what it lifts above 1 is white.
+    pub fn with_gain(self, gain: f64) -> Self {
+        Self { gain: gain as f32, ..self }
+    }
+
+    /// The same sensor, grey or not.
+    pub fn grey(self, is_grey: bool) -> Self {
+        Self { is_grey, ..self }
+    }
+
+    /// Bytes a pixel: 1 or 3.
+    pub fn channels(&self) -> usize {
+        if self.is_grey { 1 } else { 3 }
+    }
+
+    /// The bytes of a picture of linear light, without noise: one (grey) or three (RGB) a pixel.
     pub fn expose_clean(&self, light: &[[f32; 3]]) -> Vec<u8> {
-        light.iter().flat_map(|rgb| rgb.map(|value| (self.encode(value) + 0.5) as u8)).collect()
+        self.levels(light).map(|level| (level + 0.5) as u8).collect()
     }
 
-    /// The bytes (RGB) of a picture as the camera number `camera` takes it in frame `frame`.
+    /// The bytes of a picture as the camera number `camera` takes it in frame `frame`.
     pub fn expose(&self, light: &[[f32; 3]], camera: usize, frame: usize) -> Vec<u8> {
         let picture = u64::from(hash(self.seed ^ ((camera as u64) << 48) ^ frame as u64)) << 32;
-        let mut bytes = Vec::with_capacity(3 * light.len());
-        for (pixel, rgb) in light.iter().enumerate() {
-            for (channel, &value) in rgb.iter().enumerate() {
-                let level = self.encode(value);
-                // Half of the variance is read-out noise, half grows with the light.
-                let deviation = self.noise as f32 * (0.5 + 0.5 * level / 255.0).sqrt();
-                let normal = nearly_normal(hash(picture | (3 * pixel + channel) as u64));
-                bytes.push((level + deviation * normal + 0.5).clamp(0.0, 255.0) as u8);
-            }
-        }
-        bytes
+        let noisy = |(sample, level): (usize, f32)| {
+            // Half of the variance is read-out noise, half grows with the light.
+            let deviation = self.noise as f32 * (0.5 + 0.5 * level / 255.0).sqrt();
+            let normal = nearly_normal(hash(picture | sample as u64));
+            (level + deviation * normal + 0.5).clamp(0.0, 255.0) as u8
+        };
+        self.levels(light).enumerate().map(noisy).collect()
+    }
+
+    /// Encoded levels, 0 to 255, channel by channel.
+    fn levels<'a>(&'a self, light: &'a [[f32; 3]]) -> impl Iterator<Item = f32> + 'a {
+        light.iter().flat_map(move |rgb| {
+            let [red, green, blue] = rgb.map(|value| value * self.gain);
+            // Luminance of linear light in sRGB's primaries.
+            let grey = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+            let samples = if self.is_grey { [grey; 3] } else { [red, green, blue] };
+            samples.into_iter().take(self.channels()).map(|value| self.encode(value))
+        })
     }
 
     fn encode(&self, linear: f32) -> f32 {
@@ -85,6 +110,19 @@ mod tests {
         assert_ne!(noisy, sensor.expose(&light, 1, 3), "another frame");
         assert_ne!(noisy, sensor.expose(&light, 2, 2), "another camera");
         assert_ne!(noisy, Sensor::new(4.0, 8).expose(&light, 1, 2), "another seed");
+    }
+
+    #[test]
+    fn grey_and_saturated() {
+        let light = [[0.2, 0.2, 0.2], [0.6, 0.1, 0.0], [0.0, 1.0, 0.0]];
+        let (colour, grey) = (Sensor::new(0.0, 0), Sensor::new(0.0, 0).grey(true));
+        let (rgb, levels) = (colour.expose_clean(&light), grey.expose_clean(&light));
+        assert_eq!((rgb.len(), levels.len()), (9, 3));
+        assert_eq!(levels[0], rgb[0]);
+        assert!(levels[1] < levels[2], "green is brighter than red");
+        let bright = Sensor::new(0.0, 0).with_gain(2.0).expose_clean(&light);
+        assert_eq!(bright[3], 255, "0.6 at twice the gain is white");
+        assert!(bright[0] > rgb[0] && bright[0] < 255);
     }
 
     #[test]

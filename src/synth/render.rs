@@ -1,17 +1,24 @@
-//! Drawing: one ray through each quarter of a pixel, the room once a camera, the actor over it in every frame.
+//! Drawing: one ray through each quarter of a pixel, the room once a camera, the people over it in every frame.
 
 use anyhow::{Result, anyhow};
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
-use super::actor::{Actor, Material, Shape};
+use super::actor::Material;
+use super::figure::PlacedFigure;
 use super::hash::smooth_noise;
 use super::room::{Colour, Room, Surface};
 use super::shadow::{FloorShadow, LightBins};
-use super::solid::{PlacedSolid, Ray};
+use super::solid::Ray;
+use super::triangle::Primitive;
 use crate::geometry::Camera;
 
-/// Direction to the key light (not of unit length), its share of the light on the floor.
-const TO_LIGHT: DVec3 = DVec3::new(0.42, -0.38, 1.25);
+/// Direction to the light where there is no lamp in the room (not of unit length): that of a high window.
+const TO_WINDOW: DVec3 = DVec3::new(0.42, -0.38, 1.25);
+
+/// Distance off a surface from which its shadow is asked, mm.
+const LIFT: f64 = 2.0;
+
+/// The lamp's share of the light on the floor.
 const KEY_SHARE: f32 = 0.40;
 
 /// Pixels a side of the tiles that solids are sorted into.
@@ -37,35 +44,64 @@ pub struct View {
     floor: Vec<[f32; 2]>,
 }
 
-/// The actor in one frame, ready to be drawn in any view.
-pub struct PlacedActor<'a> {
-    shapes: &'a [Shape],
-    solids: &'a [PlacedSolid],
-    bone_from_world: Vec<DAffine3>,
+/// The people in one instant, ready to be drawn in any view.
+pub struct Cast<'a> {
+    members: Vec<Member<'a>>,
+}
+
+/// One of them with the light as it falls there.
+struct Member<'a> {
+    figure: &'a PlacedFigure<'a>,
+    to_light: DVec3,
     bins: LightBins<'a>,
     floor_shadow: FloorShadow,
 }
 
-impl<'a> PlacedActor<'a> {
-    /// Prepares shadows. `solids` are those of `actor` placed by `world_from_bone`.
-    pub fn new(actor: &'a Actor, solids: &'a [PlacedSolid], world_from_bone: &[DAffine3]) -> Self {
-        let bins = LightBins::new(solids, TO_LIGHT.normalize());
-        // The middle of the shadow lies away from the light.
-        let low = solids.iter().map(|s| s.bounding_balls()[0].0.truncate());
-        let middle = low.fold(DVec2::ZERO, |sum, p| sum + p) / solids.len().max(1) as f64;
-        let floor_shadow = FloorShadow::new(&bins, middle - TO_LIGHT.truncate() / TO_LIGHT.z * 700.0);
-        let bone_from_world = world_from_bone.iter().map(DAffine3::inverse).collect();
-        Self { shapes: actor.shapes(), solids, bone_from_world, bins, floor_shadow }
+/// A primitive of a member: (member, index).
+type Candidate = (u16, u32);
+
+impl<'a> Cast<'a> {
+    /// Prepares shadows, for a lamp at a place in the room (mm) or light from far away.
+    ///
+    /// # Errors
+    /// When a figure has no root.
+    pub fn new(figures: &'a [PlacedFigure<'a>], lamp: Option<DVec3>) -> Result<Self> {
+        let member = |figure: &'a PlacedFigure<'a>| {
+            let towards = match lamp {
+                None => TO_WINDOW,
+                Some(lamp) => {
+                    // A lamp beside a person would throw a shadow without end.
+                    let towards = (lamp - figure.root()?).normalize_or(DVec3::Z);
+                    towards.with_z(towards.z.max(0.25))
+                }
+            };
+            let to_light = towards.normalize();
+            let bins = LightBins::new(&figure.primitives, to_light);
+            // The middle of the shadow lies away from the light.
+            let low = figure.balls.iter().map(|pair| pair[0].0.truncate());
+            let middle = low.fold(DVec2::ZERO, |sum, p| sum + p) / figure.balls.len().max(1) as f64;
+            let middle = middle - towards.truncate() / towards.z * 700.0;
+            let floor_shadow = FloorShadow::new(&bins, &figure.balls, middle);
+            Ok(Member { figure, to_light, bins, floor_shadow })
+        };
+        Ok(Self { members: figures.iter().map(member).collect::<Result<_>>()? })
     }
 
     /// The normal at a point, mixed with those of solids of the same material that pass close by: the crease between two
-    /// muscles is then shaded as one soft surface.
-    fn blended(&self, normal: DVec3, point: DVec3, material: Material, candidates: &[u16]) -> DVec3 {
+    /// muscles is then shaded as one soft surface. Triangles have mixed normals of their own.
+    fn blended(&self, normal: DVec3, point: DVec3, of: Candidate, candidates: &[Candidate]) -> DVec3 {
+        let figure = self.members[usize::from(of.0)].figure;
+        if matches!(figure.primitives[of.1 as usize], Primitive::Triangle(_)) {
+            return normal;
+        }
+        let material = figure.material(of.1 as usize);
         let mut sum = normal * 1e-3;
-        for &index in candidates {
-            let index = usize::from(index);
-            if self.shapes[index].material.joins(material) {
-                let (outside, own) = self.solids[index].near(point);
+        for &(_, index) in candidates.iter().filter(|(member, _)| *member == of.0) {
+            let index = index as usize;
+            if figure.material(index).joins(material)
+                && let Primitive::Solid(solid) = &figure.primitives[index]
+            {
+                let (outside, own) = solid.near(point);
                 let weight = (1.0 - outside.abs() / BLEND).max(0.0);
                 sum += own * (weight * weight);
             }
@@ -73,24 +109,24 @@ impl<'a> PlacedActor<'a> {
         sum.normalize_or(normal)
     }
 
-    /// The light from the nearest solid among `candidates` along a ray.
-    fn light(&self, ray: &Ray, candidates: &[u16]) -> Option<Colour> {
-        let (index, distance, normal) = candidates
+    /// The member that is first met along a ray, and the light from there.
+    fn light(&self, ray: &Ray, candidates: &[Candidate]) -> Option<(u16, Colour)> {
+        let ((of, index), distance, normal) = candidates
             .iter()
-            .filter_map(|&index| {
-                let (distance, normal) = self.solids[usize::from(index)].first_hit(ray)?;
-                Some((usize::from(index), distance, normal))
+            .filter_map(|&(member, index)| {
+                let hit = self.members[usize::from(member)].figure.primitives[index as usize].first_hit(ray)?;
+                Some(((member, index), hit.0, hit.1))
             })
             .min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let shape = &self.shapes[index];
+        let member = &self.members[usize::from(of)];
         let point = ray.origin + ray.direction * distance;
-        let at = self.bone_from_world[shape.bone].transform_point3(point);
-        let lifted = point + normal * 2.0;
-        let normal = self.blended(normal, point, shape.material, candidates) + folds(shape.material, at);
+        let look = member.figure.look(index as usize, point);
+        let lifted = point + normal * LIFT;
+        let normal = self.blended(normal, point, (of, index), candidates) + folds(look.material, look.at);
         let normal = normal.normalize_or_zero();
-        let towards_light = normal.dot(TO_LIGHT.normalize()).max(0.0);
-        // Lifted off the surface, so that a solid does not shade its own skin by rounding.
-        let lit = towards_light > 0.0 && !self.bins.in_shadow(lifted);
+        let towards_light = normal.dot(member.to_light).max(0.0);
+        // Lifted off the surface, so that nothing shades its own skin by rounding.
+        let lit = towards_light > 0.0 && !self.members.iter().any(|other| other.bins.in_shadow(lifted));
         let key = if lit { towards_light } else { 0.0 };
         let up = 0.5 + 0.5 * normal.z;
         // Near the floor less of the room's light arrives.
@@ -99,7 +135,8 @@ impl<'a> PlacedActor<'a> {
         let bounce = Colour::new(0.25, 0.22, 0.18) * (1.0 - up) * open;
         // Grazing views of cloth and skin are a little brighter.
         let rim = 0.08 * (1.0 + normal.dot(ray.direction)).clamp(0.0, 1.0).powi(3);
-        Some(shape.reflectance(at) * (Colour::new(0.98, 0.94, 0.86) * key + sky + bounce) + Colour::splat(rim * 0.3))
+        let light = Colour::new(0.98, 0.94, 0.86) * key + sky + bounce;
+        Some((of, look.reflectance * light + Colour::splat(rim * 0.3)))
     }
 }
 
@@ -164,8 +201,8 @@ impl View {
         &self.plate
     }
 
-    /// The room with the actor in it, and how much of each pixel the actor covers, in 0..=4 quarters.
-    pub fn picture(&self, actor: &PlacedActor) -> (Light, Vec<u8>) {
+    /// The room with people in it, and how much of each pixel the first of them covers, in 0..=4 quarters.
+    pub fn picture(&self, cast: &Cast) -> (Light, Vec<u8>) {
         let [width, height] = self.camera.size.map(|side| side as usize);
         let mut light: Light = self
             .plate
@@ -175,23 +212,28 @@ impl View {
                 if x.is_nan() {
                     return *rgb;
                 }
-                let [key, around] = actor.floor_shadow.at(f64::from(x), f64::from(y));
-                let factor = KEY_SHARE * key + (1.0 - KEY_SHARE) * around;
+                let (x, y) = (f64::from(x), f64::from(y));
+                let factor = cast.members.iter().map(|member| {
+                    let [key, around] = member.floor_shadow.at(x, y);
+                    KEY_SHARE * key + (1.0 - KEY_SHARE) * around
+                });
+                let factor: f32 = factor.product();
                 rgb.map(|value| value * factor)
             })
             .collect();
         let mut coverage = vec![0; light.len()];
-        for (tile, candidates) in self.tiles(actor.solids).iter().enumerate().filter(|(_, list)| !list.is_empty()) {
+        for (tile, candidates) in self.tiles(cast).iter().enumerate().filter(|(_, list)| !list.is_empty()) {
             let columns = width.div_ceil(TILE);
             let (left, top) = (tile % columns * TILE, tile / columns * TILE);
             for y in top..(top + TILE).min(height) {
                 for x in left..(left + TILE).min(width) {
                     let hits =
-                        quarters(ACTOR_RAYS).filter_map(|(fx, fy)| actor.light(&self.ray(x, y, fx, fy), candidates));
-                    let (mut sum, mut count) = (Colour::ZERO, 0u8);
-                    for hit in hits {
+                        quarters(ACTOR_RAYS).filter_map(|(fx, fy)| cast.light(&self.ray(x, y, fx, fy), candidates));
+                    let (mut sum, mut count, mut first) = (Colour::ZERO, 0u8, 0u8);
+                    for (member, hit) in hits {
                         sum += hit;
                         count += 1;
+                        first += u8::from(member == 0);
                     }
                     if count > 0 {
                         let all = (ACTOR_RAYS * ACTOR_RAYS) as f32;
@@ -200,7 +242,7 @@ impl View {
                         for (value, actor) in behind.iter_mut().zip(sum.as_vec3().to_array()) {
                             *value = *value * (1.0 - seen) + actor / all;
                         }
-                        coverage[y * width + x] = count;
+                        coverage[y * width + x] = first;
                     }
                 }
             }
@@ -218,28 +260,54 @@ impl View {
         Ray { origin: self.centre, direction: upper.lerp(lower, fy).normalize_or(DVec3::Z) }
     }
 
-    /// The solids that may be seen in each tile of the picture.
-    fn tiles(&self, solids: &[PlacedSolid]) -> Vec<Vec<u16>> {
+    /// What may be seen in each tile of the picture.
+    fn tiles(&self, cast: &Cast) -> Vec<Vec<Candidate>> {
         let [width, height] = self.camera.size.map(|side| side as usize);
         let (columns, rows) = (width.div_ceil(TILE), height.div_ceil(TILE));
         let mut tiles = vec![Vec::new(); columns * rows];
-        for (index, solid) in solids.iter().enumerate() {
-            let boxes = solid.bounding_balls().map(|(centre, radius)| self.ball_box(centre, radius));
-            // A ball that cannot be bounded (round the camera) may be anywhere.
-            let (low, high) = match boxes {
-                [Some(a), Some(b)] => (a.0.min(b.0), a.1.max(b.1)),
-                _ => (DVec2::ZERO, DVec2::new(width as f64, height as f64)),
-            };
+        let all = cast.members.iter().enumerate().flat_map(|(member, of)| {
+            of.figure
+                .primitives
+                .iter()
+                .enumerate()
+                .map(move |(index, primitive)| ((member as u16, index as u32), primitive))
+        });
+        for (candidate, primitive) in all {
+            // The far side of a closed mesh is never seen.
+            if matches!(primitive, Primitive::Triangle(triangle) if !triangle.faces(self.centre)) {
+                continue;
+            }
+            // What cannot be bounded (round the camera) may be anywhere.
+            let everywhere = (DVec2::ZERO, DVec2::new(width as f64, height as f64));
+            let (low, high) = self.bounds(primitive).unwrap_or(everywhere);
             if high.x < 0.0 || high.y < 0.0 || low.x >= width as f64 || low.y >= height as f64 {
                 continue;
             }
             for row in low.y as usize / TILE..=(high.y as usize / TILE).min(rows - 1) {
                 for column in low.x as usize / TILE..=(high.x as usize / TILE).min(columns - 1) {
-                    tiles[row * columns + column].push(index as u16);
+                    tiles[row * columns + column].push(candidate);
                 }
             }
         }
         tiles
+    }
+
+    /// A rectangle of the picture that holds a primitive.
+    fn bounds(&self, primitive: &Primitive) -> Option<(DVec2, DVec2)> {
+        match primitive {
+            Primitive::Solid(solid) => {
+                let [first, second] = solid.bounding_balls();
+                let one = self.ball_box(first.0, first.1)?;
+                let other = if first == second { one } else { self.ball_box(second.0, second.1)? };
+                Some((one.0.min(other.0), one.1.max(other.1)))
+            }
+            Primitive::Triangle(triangle) => {
+                let [a, b, c] = triangle.corners();
+                let (a, b, c) = (self.camera.project(a)?, self.camera.project(b)?, self.camera.project(c)?);
+                // Distortion bends the edges of so small a triangle by far less than a pixel.
+                Some((a.min(b).min(c) - 1.0, a.max(b).max(c) + 1.0))
+            }
+        }
     }
 
     /// A rectangle of the picture that holds a ball, with a margin for perspective and distortion.

@@ -1,8 +1,12 @@
-//! Four cameras round the room, looking at its middle.
+//! Cameras round the room, looking at its middle: four in the corners, any number in a ring, or those of a calibration.
 
+use anyhow::{Result, bail};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-use crate::geometry::{BrownConrady, Camera, Lens};
+use super::room::Room;
+use super::scene::RigSettings;
+use crate::geometry::{BrownConrady, Camera, Lens, Tsai};
+use crate::sequence::read_cameras;
 
 /// Where a camera stands and what its lens is like.
 struct Station {
@@ -41,7 +45,7 @@ pub fn four_cameras(half_size: DVec2, size: [u32; 2]) -> Vec<Camera> {
         Camera {
             name: format!("cam{}", index + 1),
             size,
-            camera_from_world: look_at(centre, DVec3::new(0.0, 0.0, 880.0)),
+            camera_from_world: look_at(centre, TARGET),
             lens: Lens::BrownConrady(BrownConrady {
                 focal: DVec2::new(focal, focal * 1.002),
                 centre: DVec2::new(0.5 * (width - 1.0), 0.5 * (height - 1.0)) + shift,
@@ -52,6 +56,79 @@ pub fn four_cameras(half_size: DVec2, size: [u32; 2]) -> Vec<Camera> {
     };
     STATIONS.iter().enumerate().map(camera).collect()
 }
+
+/// The cameras of a scene.
+///
+/// # Errors
+/// When the calibration cannot be read, or a camera of it stands outside the room (the message names it).
+pub fn cameras(settings: &RigSettings, room: &Room) -> Result<Vec<Camera>> {
+    if let Some(path) = &settings.cameras {
+        let cameras = read_cameras(path)?;
+        for camera in &cameras {
+            let centre = camera.centre_in_world();
+            let inside =
+                centre.truncate().abs().cmplt(room.half_size).all() && centre.z > 0.0 && centre.z < room.height;
+            if !inside {
+                bail!(
+                    "{}: the camera {} stands at {centre:.0} mm, expected it inside the room of {:.0} x {:.0} x {:.0} mm: make [room] larger",
+                    path.display(),
+                    camera.name,
+                    2.0 * room.half_size.x,
+                    2.0 * room.half_size.y,
+                    room.height
+                );
+            }
+        }
+        return Ok(cameras);
+    }
+    let mut cameras = if settings.preset == "ring" {
+        ring(settings.count, room.half_size, settings.size)
+    } else {
+        four_cameras(room.half_size, settings.size)
+    };
+    for camera in &mut cameras {
+        let centre = camera.centre_in_world();
+        // Low ceilings bring a camera down.
+        if centre.z > room.height - 100.0 {
+            camera.camera_from_world = look_at(centre.with_z(room.height - 100.0), TARGET);
+        }
+        if let Lens::BrownConrady(lens) = &mut camera.lens {
+            lens.focal *= settings.zoom;
+            match settings.lens.as_str() {
+                "pinhole" => (lens.radial, lens.tangential) = ([0.0; 3], [0.0; 2]),
+                "tsai" => camera.lens = Lens::Tsai(tsai(lens)),
+                _ => {}
+            }
+        }
+    }
+    Ok(cameras)
+}
+
+/// A lens of 6 mm with the same focal length in pixels and, to first order, the same distortion.
+fn tsai(lens: &BrownConrady) -> Tsai {
+    let f = 6.0;
+    let pitch = f / lens.focal;
+    Tsai { f, kappa: -lens.radial[0] / (f * f), centre: lens.centre, sx: 1.0, pitch: DVec2::new(pitch.x, pitch.y) }
+}
+
+/// `count` cameras on an ellipse along the walls, at changing heights, named cam1 and so on.
+fn ring(count: usize, half_size: DVec2, size: [u32; 2]) -> Vec<Camera> {
+    let corners = four_cameras(half_size, size);
+    (0..count)
+        .map(|index| {
+            let angle = std::f64::consts::TAU * (index as f64 + 0.5) / count as f64;
+            let centre = (half_size * 0.94 * DVec2::from_angle(angle)).extend([2150.0, 1700.0, 2300.0][index % 3]);
+            Camera {
+                name: format!("cam{}", index + 1),
+                camera_from_world: look_at(centre, TARGET),
+                ..corners[index % 4].clone()
+            }
+        })
+        .collect()
+}
+
+/// What they look at, mm.
+const TARGET: DVec3 = DVec3::new(0.0, 0.0, 880.0);
 
 /// The frame of an upright camera at `centre` that looks at `target`: x right, y down, z forward.
 fn look_at(centre: DVec3, target: DVec3) -> DAffine3 {
@@ -65,6 +142,38 @@ fn look_at(centre: DVec3, target: DVec3) -> DAffine3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rings_and_lenses() {
+        let room = Room::new(&super::super::scene::RoomSettings::default()).unwrap();
+        let settings = RigSettings { preset: "ring".into(), count: 7, lens: "tsai".into(), ..RigSettings::default() };
+        let cameras = cameras(&settings, &room).unwrap();
+        assert_eq!(cameras.len(), 7);
+        let same = super::cameras(&RigSettings { lens: "brown-conrady".into(), ..settings.clone() }, &room).unwrap();
+        for (camera, brown) in cameras.iter().zip(&same) {
+            let at = DVec3::new(300.0, -200.0, 1400.0);
+            let (tsai, brown) = (camera.project(at).unwrap(), brown.project(at).unwrap());
+            assert!(tsai.distance(brown) < 1.0, "{tsai} {brown}");
+            assert!(
+                tsai.distance(
+                    super::cameras(&RigSettings { zoom: 2.0, ..settings.clone() }, &room).unwrap()[0]
+                        .project(at)
+                        .unwrap()
+                ) > 5.0
+            );
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("cameras.toml");
+        crate::sequence::write_cameras_toml(&path, &cameras, crate::files::Overwrite::Refuse).unwrap();
+        let read = RigSettings { cameras: Some(path.clone()), ..RigSettings::default() };
+        assert_eq!(super::cameras(&read, &room).unwrap().len(), 7);
+        let small = super::super::scene::RoomSettings { size: [3000.0, 3000.0], ..Default::default() };
+        let error = super::cameras(&read, &Room::new(&small).unwrap()).unwrap_err().to_string();
+        assert!(
+            error.contains("cameras.toml") && error.contains("cam1") && error.contains("make [room] larger"),
+            "{error}"
+        );
+    }
 
     #[test]
     fn the_middle_of_the_room_is_in_every_picture_upright() {

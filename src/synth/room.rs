@@ -1,15 +1,20 @@
 //! The room the actor walks in: a tiled floor with a round rug, four walls with panels, paper, pictures and a door.
 
+use std::sync::Arc;
+
+use anyhow::Result;
 use glam::{DVec2, DVec3};
 
+use super::finish::Finish;
 use super::hash::{cell, smooth_noise};
+use super::scene::RoomSettings;
 use super::solid::Ray;
 
 /// Linear light or reflectance, red green blue.
 pub type Colour = DVec3;
 
 /// A rectangular room round the origin, floor at z = 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Room {
     /// Half of its extent along x and y, mm.
     pub half_size: DVec2,
@@ -17,6 +22,8 @@ pub struct Room {
     pub height: f64,
     /// Radius of the round rug in the middle, mm.
     pub rug_radius: f64,
+    floor: Option<Arc<Finish>>,
+    walls: Option<Arc<Finish>>,
 }
 
 /// Which surface of the room a point is on.
@@ -36,6 +43,23 @@ const RAIL: f64 = 960.0;
 const TILE: f64 = 400.0;
 
 impl Room {
+    /// The room of a scene.
+    ///
+    /// # Errors
+    /// When a finish is unknown or out of range.
+    pub fn new(settings: &RoomSettings) -> Result<Self> {
+        let finish = |settings: &Option<super::finish::FinishSettings>, what| {
+            settings.as_ref().map(|settings| settings.finish(what).map(Arc::new)).transpose()
+        };
+        Ok(Self {
+            half_size: DVec2::from(settings.size) * 0.5,
+            height: settings.height,
+            rug_radius: settings.rug,
+            floor: finish(&settings.floor, "[room] floor")?,
+            walls: finish(&settings.walls, "[room] walls")?,
+        })
+    }
+
     /// Where a ray from inside the room leaves it.
     pub fn hit(&self, ray: &Ray) -> (f64, Surface) {
         let along = |origin: f64, direction: f64, low: f64, high: f64| {
@@ -89,6 +113,9 @@ impl Room {
         if radius < self.rug_radius {
             return rug(radius / self.rug_radius, p.y.atan2(p.x)) * weave;
         }
+        if let Some(finish) = &self.floor {
+            return finish.at(p.extend(0.0));
+        }
         let (tx, ty) = ((p.x / TILE).floor(), (p.y / TILE).floor());
         let (ix, iy) = (tx as i64, ty as i64);
         let inside = DVec2::new(p.x / TILE - tx, p.y / TILE - ty);
@@ -109,6 +136,10 @@ impl Room {
         }
         if z < SKIRTING {
             return Colour::new(0.33, 0.36, 0.36);
+        }
+        if let Some(finish) = &self.walls {
+            // Each wall is cut from another place of the material.
+            return finish.at(DVec3::new(u + 20_000.0 * wall as f64, z, 0.0));
         }
         if z < RAIL {
             return panel(u, z);
@@ -238,19 +269,13 @@ fn framed(edge: f64, picture: impl Fn() -> Colour) -> Colour {
     }
 }
 
-impl Default for Room {
-    fn default() -> Self {
-        Self { half_size: DVec2::new(3600.0, 3100.0), height: 2800.0, rug_radius: 1500.0 }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn rays_end_on_the_right_surfaces() {
-        let room = Room::default();
+        let room = Room::new(&RoomSettings::default()).unwrap();
         let from = DVec3::new(100.0, -200.0, 1000.0);
         let hit = |direction: DVec3| room.hit(&Ray { origin: from, direction });
         assert_eq!(hit(-DVec3::Z), (1000.0, Surface::Floor));
@@ -262,8 +287,22 @@ mod tests {
     }
 
     #[test]
+    fn floors_and_walls_of_other_finish() {
+        let red = super::super::finish::FinishSettings { colour: Some([1.0, 0.0, 0.0]), ..Default::default() };
+        let settings =
+            RoomSettings { floor: Some(red.clone()), walls: Some(red), rug: 500.0, ..RoomSettings::default() };
+        let room = Room::new(&settings).unwrap();
+        let is_red = |light: Colour| light.x > 0.2 && light.y == 0.0;
+        assert!(is_red(room.light(DVec3::new(2000.0, 0.0, 0.0), Surface::Floor)));
+        assert!(is_red(room.light(DVec3::new(3600.0, 1500.0, 700.0), Surface::Wall(0))));
+        assert!(!is_red(room.light(DVec3::ZERO, Surface::Floor)), "the rug lies on it");
+        let none = RoomSettings { walls: Some(Default::default()), ..RoomSettings::default() };
+        assert!(format!("{:#}", Room::new(&none).unwrap_err()).contains("[room] walls"));
+    }
+
+    #[test]
     fn every_surface_gives_light_within_range() {
-        let room = Room::default();
+        let room = Room::new(&RoomSettings::default()).unwrap();
         for i in 0..40_000u32 {
             let a = f64::from(i) * 2.399_963;
             let direction = DVec3::new(a.cos(), a.sin(), f64::from(i) / 20_000.0 - 1.0).normalize();

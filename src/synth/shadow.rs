@@ -2,60 +2,65 @@
 
 use glam::{DVec2, DVec3};
 
-use super::solid::{PlacedSolid, Ray};
+use super::solid::{BoundingBall, Ray};
+use super::triangle::Primitive;
 
-/// Width of a bin in the plane across the light, mm.
+/// Width of a bin in the plane across the light, mm: for solids, and for a mesh of many small triangles.
 const BIN: f64 = 45.0;
+const MESH_BIN: f64 = 12.0;
 
-/// Solids sorted by where they stand in the light, to ask quickly whether a point is in their shadow.
+/// Solids and triangles sorted by where they stand in the light, to ask quickly whether a point is in their shadow.
 pub struct LightBins<'a> {
-    solids: &'a [PlacedSolid],
+    primitives: &'a [Primitive],
     /// Towards the light, unit length.
     to_light: DVec3,
     across: [DVec3; 2],
     origin: DVec2,
+    /// mm
+    width: f64,
     size: [usize; 2],
-    bins: Vec<Vec<u16>>,
+    bins: Vec<Vec<u32>>,
 }
 
 impl<'a> LightBins<'a> {
-    /// Sorts the solids for parallel light from the direction `to_light`.
-    pub fn new(solids: &'a [PlacedSolid], to_light: DVec3) -> Self {
+    /// Sorts them for parallel light from the direction `to_light`.
+    pub fn new(primitives: &'a [Primitive], to_light: DVec3) -> Self {
         let across = to_light.any_orthonormal_pair();
         let across = [across.0, across.1];
         let flat = |p: DVec3| DVec2::new(p.dot(across[0]), p.dot(across[1]));
-        let boxes: Vec<(DVec2, DVec2)> = solids
+        let boxes: Vec<(DVec2, DVec2)> = primitives
             .iter()
-            .map(|solid| {
-                let [(a, radius_a), (b, radius_b)] = solid.bounding_balls();
+            .map(|primitive| {
+                let [(a, radius_a), (b, radius_b)] = primitive.bounding_balls();
                 let (a, b) = (flat(a), flat(b));
                 ((a - radius_a).min(b - radius_b), (a + radius_a).max(b + radius_b))
             })
             .collect();
         let origin = boxes.iter().map(|b| b.0).reduce(DVec2::min).unwrap_or_default();
         let end = boxes.iter().map(|b| b.1).reduce(DVec2::max).unwrap_or_default();
-        let size = ((end - origin) / BIN).to_array().map(|extent| extent as usize + 1);
+        let width = if matches!(primitives.first(), Some(Primitive::Triangle(_))) { MESH_BIN } else { BIN };
+        let size = ((end - origin) / width).to_array().map(|extent| extent as usize + 1);
         let mut bins = vec![Vec::new(); size[0] * size[1]];
         for (index, (low, high)) in boxes.iter().enumerate() {
-            let (first, last) = ((*low - origin) / BIN, (*high - origin) / BIN);
+            let (first, last) = ((*low - origin) / width, (*high - origin) / width);
             for y in first.y as usize..=(last.y as usize).min(size[1] - 1) {
                 for x in first.x as usize..=(last.x as usize).min(size[0] - 1) {
-                    bins[y * size[0] + x].push(index as u16);
+                    bins[y * size[0] + x].push(index as u32);
                 }
             }
         }
-        Self { solids, to_light, across, origin, size, bins }
+        Self { primitives, to_light, across, origin, width, size, bins }
     }
 
-    /// Whether a solid stands between the point and the light.
+    /// Whether something stands between the point and the light.
     pub fn in_shadow(&self, point: DVec3) -> bool {
-        let at = (DVec2::new(point.dot(self.across[0]), point.dot(self.across[1])) - self.origin) / BIN;
+        let at = (DVec2::new(point.dot(self.across[0]), point.dot(self.across[1])) - self.origin) / self.width;
         if at.x < 0.0 || at.y < 0.0 || at.x >= self.size[0] as f64 || at.y >= self.size[1] as f64 {
             return false;
         }
         let ray = Ray { origin: point, direction: self.to_light };
         let bin = &self.bins[at.y as usize * self.size[0] + at.x as usize];
-        bin.iter().any(|&index| self.solids[usize::from(index)].first_hit(&ray).is_some())
+        bin.iter().any(|&index| self.primitives[index as usize].first_hit(&ray).is_some())
     }
 }
 
@@ -72,8 +77,9 @@ const CELL: f64 = 22.0;
 const SIDE: usize = 130;
 
 impl FloorShadow {
-    /// The shadow of the solids in `bins`, in a square of the floor round `middle`.
-    pub fn new(bins: &LightBins, middle: DVec2) -> Self {
+    /// The shadow of what is in `bins`, in a square of the floor round `middle`; `balls` are pairs whose hulls stand for it
+    /// where light comes from all around.
+    pub fn new(bins: &LightBins, balls: &[[BoundingBall; 2]], middle: DVec2) -> Self {
         let origin = middle - 0.5 * CELL * SIDE as f64;
         let at = |index: usize| origin + DVec2::new((index % SIDE) as f64 + 0.5, (index / SIDE) as f64 + 0.5) * CELL;
         let mut key: Vec<f32> =
@@ -87,7 +93,7 @@ impl FloorShadow {
             .enumerate()
             .map(|(index, &key)| {
                 let point = at(index).extend(0.0);
-                let hidden: f64 = bins.solids.iter().map(|solid| hidden_sky(solid, point)).sum();
+                let hidden: f64 = balls.iter().map(|pair| hidden_sky(*pair, point)).sum();
                 // The grid ends softly, so that its border cannot be seen.
                 let rim = (at(index) - middle).abs().max_element() / (0.5 * CELL * SIDE as f64);
                 let fade = ((1.0 - rim) * 6.0).clamp(0.0, 1.0);
@@ -115,8 +121,7 @@ impl FloorShadow {
 }
 
 /// The fraction of the sky that a solid hides from a point of the floor, taking its two balls for it.
-fn hidden_sky(solid: &PlacedSolid, point: DVec3) -> f64 {
-    let [first, second] = solid.bounding_balls();
+fn hidden_sky([first, second]: [BoundingBall; 2], point: DVec3) -> f64 {
     // A ball of radius r at distance d hides (r/d)^2 of the sky, weighted by the sine of its height.
     let ball = |(centre, radius): (DVec3, f64)| {
         let offset = centre - point;
@@ -145,16 +150,16 @@ mod tests {
     use glam::DAffine3;
 
     use super::*;
-    use crate::synth::solid::Solid;
+    use crate::synth::solid::{PlacedSolid, Solid};
 
-    fn ball(at: DVec3, radius: f64) -> PlacedSolid {
+    fn ball(at: DVec3, radius: f64) -> Primitive {
         let map = DAffine3::from_scale_rotation_translation(DVec3::splat(radius), glam::DQuat::IDENTITY, at);
-        PlacedSolid::new(Solid::Ball, map)
+        Primitive::Solid(PlacedSolid::new(Solid::Ball, map))
     }
 
     #[test]
     fn bins_answer_as_all_solids_do() {
-        let solids: Vec<PlacedSolid> = (0..30)
+        let solids: Vec<Primitive> = (0..30)
             .map(|i| {
                 let i = f64::from(i);
                 ball(DVec3::new((i * 1.7).sin(), (i * 2.3).cos(), 1.2 + i.sin()) * 500.0, 60.0 + 4.0 * i)
@@ -177,7 +182,7 @@ mod tests {
     fn the_floor_is_darkest_under_the_ball_and_open_far_away() {
         let solids = [ball(DVec3::new(100.0, 50.0, 150.0), 140.0)];
         let bins = LightBins::new(&solids, DVec3::Z);
-        let shadow = FloorShadow::new(&bins, DVec2::new(100.0, 50.0));
+        let shadow = FloorShadow::new(&bins, &[solids[0].bounding_balls()], DVec2::new(100.0, 50.0));
         assert!(shadow.at(100.0, 50.0)[0] < 0.01 && shadow.at(100.0, 50.0)[1] < 0.85);
         assert!(shadow.at(400.0, 50.0)[0] > 0.99);
         assert_eq!(shadow.at(9000.0, 0.0), [1.0, 1.0]);

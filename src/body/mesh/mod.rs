@@ -13,6 +13,7 @@ use glam::{DAffine3, DVec3, Vec3};
 
 use super::Body;
 pub use frusta::FrustumBase;
+pub(super) use joint_names::plain as plain_name;
 pub use source::MeshSource;
 pub(super) use source::{MeshEntry, build_source};
 

@@ -10,9 +10,10 @@ pub use write::write_bvh;
 use std::collections::HashSet;
 
 use anyhow::{Result, ensure};
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DVec3};
 
 use super::points::PointTrajectory;
+use super::skeletal::joint_placement;
 
 /// What one number of a frame moves. Translations are in the file's unit, rotations in degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,7 +154,7 @@ impl BvhMotion {
     /// When the motion breaks [`Self::check`], or describes more points than memory should hold.
     pub fn to_points(&self) -> Result<PointTrajectory> {
         self.check()?;
-        let names = self.point_names();
+        let names = self.to_point_names();
         ensure!(
             names.len().saturating_mul(self.frames.len()) <= MOST_POINTS,
             "{} joints and ends in {} frames are too many, expected at most {MOST_POINTS} points in all",
@@ -168,7 +169,8 @@ impl BvhMotion {
         Ok(points)
     }
 
-    fn point_names(&self) -> Vec<String> {
+    /// Names of [`Self::to_points`]: the joints', then `<joint>_end` for every free end.
+    pub(super) fn to_point_names(&self) -> Vec<String> {
         let mut names: Vec<String> = self.joints.iter().map(|joint| joint.name.clone()).collect();
         let mut taken: HashSet<String> = names.iter().cloned().collect();
         for joint in &self.joints {
@@ -189,19 +191,7 @@ impl BvhMotion {
     fn pose(&self, row: &[f64], global: &mut [DAffine3]) -> Vec<Option<DVec3>> {
         let mut values = row.iter();
         for (index, joint) in self.joints.iter().enumerate() {
-            let (mut origin, mut rotation) = (joint.offset, DMat3::IDENTITY);
-            for (channel, &value) in joint.channels.iter().zip(&mut values) {
-                let angle = value.to_radians();
-                match channel {
-                    BvhChannel::XPosition => origin.x = value,
-                    BvhChannel::YPosition => origin.y = value,
-                    BvhChannel::ZPosition => origin.z = value,
-                    BvhChannel::XRotation => rotation *= DMat3::from_rotation_x(angle),
-                    BvhChannel::YRotation => rotation *= DMat3::from_rotation_y(angle),
-                    BvhChannel::ZRotation => rotation *= DMat3::from_rotation_z(angle),
-                }
-            }
-            let local = DAffine3 { matrix3: rotation, translation: origin };
+            let local = joint_placement(joint.offset, &joint.channels, &mut values);
             global[index] = joint.parent.map_or(local, |parent| global[parent] * local);
         }
         let origins = global.iter().map(|transform| transform.translation);

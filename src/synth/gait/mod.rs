@@ -1,21 +1,19 @@
-//! Walking in a circle: joint angles over the gait cycle, and a path on which the feet stay where they step.
+//! Walking and running along a circle or a line: joint angles over the gait cycle, and a path on which the feet stay where
+//! they step. [`Jump`] jumps on the spot.
+
+mod jump;
+mod style;
+
+pub use jump::Jump;
+pub use style::Style;
 
 use std::f64::consts::TAU;
 
 use anyhow::{Result, ensure};
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use crate::body::{Body, DofAxis};
-
-/// Flexion of hip and knee in degrees at every tenth of the gait cycle, which starts when the heel strikes. The shape is
-/// that of the normal data of gait laboratories (hip from flexion to extension in stance, a knee that gives in a little
-/// under load and bends to 60 degrees in swing). The body has no ankle, so what an ankle would do is shared out: the
-/// ranges of the hip are those of a slow walk, and the knee bends early before the foot leaves the floor.
-const HIP_FLEXION: [f64; 10] = [19.0, 16.0, 10.0, 0.0, -10.0, -14.0, -4.0, 13.0, 25.0, 25.0];
-const KNEE_FLEXION: [f64; 10] = [3.0, 9.0, 10.0, 10.0, 12.0, 32.0, 56.0, 60.0, 44.0, 17.0];
-
-/// The phase at which a foot leaves the floor.
-const LIFT: f64 = 0.56;
+use crate::geometry::EulerOrder;
 
 /// How steady the pace is: 0 follows the joint angles, 1 is constant.
 const STEADY: f64 = 0.75;
@@ -23,12 +21,34 @@ const STEADY: f64 = 0.75;
 /// Finely sampled phases of the cycle on which the path is integrated.
 const PHASES: usize = 240;
 
-/// A walk for one body.
+/// Where somebody walks on the floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Way {
+    /// Counter-clockwise round a point, from its +x side.
+    Circle {
+        /// The middle, mm.
+        middle: DVec2,
+        /// The radius, mm.
+        radius: f64,
+    },
+    /// Straight ahead.
+    Line {
+        /// Where it begins, mm.
+        from: DVec2,
+        /// Where it leads, radians to the left of +x.
+        heading: f64,
+    },
+}
+
+/// A walk (or run) for one body.
 #[derive(Clone, Debug)]
 pub struct Gait {
     body: Body,
+    style: &'static Style,
     /// Seconds for two steps.
     stride_time: f64,
+    way: Way,
+    /// Radius of the circle, infinite on a line.
     radius: f64,
     /// Change of heading in a stride, radians.
     turn_per_stride: f64,
@@ -58,27 +78,23 @@ fn pelvis_turn(phase: f64) -> f64 {
     (-5.0 * (TAU * phase).cos()).to_radians()
 }
 
-/// The angles about x, y, z whose product Rx Ry Rz is the rotation (SPEC A3).
-fn euler_xyz(rotation: &DMat3) -> [f64; 3] {
-    [
-        (-rotation.z_axis.y).atan2(rotation.z_axis.z),
-        rotation.z_axis.x.clamp(-1.0, 1.0).asin(),
-        (-rotation.y_axis.x).atan2(rotation.x_axis.x),
-    ]
-}
-
 impl Gait {
-    /// A walk of `body` counter-clockwise on a circle of `radius` mm round the origin, a stride (two steps) in
-    /// `stride_time` seconds.
+    /// `body` going its `way`, a stride (two steps) in `stride_time` seconds.
     ///
     /// # Errors
     /// When the body has no legs to walk with.
-    pub fn new(body: &Body, radius: f64, stride_time: f64) -> Result<Self> {
+    pub fn new(body: &Body, style: &'static Style, way: Way, stride_time: f64) -> Result<Self> {
+        let radius = match way {
+            Way::Circle { radius, .. } => radius,
+            Way::Line { .. } => f64::INFINITY,
+        };
         // Straight ahead nothing depends on the way yet; it is measured below.
         let even: Vec<f64> = (0..=PHASES).map(|i| i as f64).collect();
         let mut gait = Self {
             body: body.clone(),
+            style,
             stride_time,
+            way,
             radius,
             turn_per_stride: 0.0,
             inner_share: 0.0,
@@ -90,11 +106,11 @@ impl Gait {
         let feet: Vec<Vec<DVec3>> = (0..=PHASES)
             .map(|i| gait.sole_points(&gait.posture(i as f64 / PHASES as f64, 0.0)))
             .collect::<Result<_>>()?;
-        for points in feet.iter().take(PHASES) {
-            gait.height.push(-soft_minimum(points));
+        let flight = |index: usize| style.flight(index as f64 / PHASES as f64);
+        for (index, points) in feet.iter().take(PHASES).enumerate() {
+            gait.height.push(flight(index) - soft_minimum(points));
         }
-        let mut travelled = 0.0;
-        let mut travel = vec![travelled];
+        let mut advances = Vec::with_capacity(PHASES);
         for pair in feet.windows(2) {
             // The lowest points carry the weight: they stand still, so the pelvis moves against them.
             let lowest = pair[0].iter().chain(&pair[1]).map(|p| p.z).fold(f64::INFINITY, f64::min);
@@ -104,7 +120,15 @@ impl Gait {
                 sum += weight * (before.x - after.x);
                 weights += weight;
             }
-            travelled += if weights > 0.0 { sum / weights } else { 0.0 };
+            advances.push(if weights > 0.0 { sum / weights } else { 0.0 });
+        }
+        // In the air the pelvis keeps the pace that the feet have given it.
+        let on_floor: Vec<f64> = (0..PHASES).filter(|&i| flight(i) == 0.0).map(|i| advances[i]).collect();
+        let pace = on_floor.iter().sum::<f64>() / on_floor.len().max(1) as f64;
+        let mut travelled = 0.0;
+        let mut travel = vec![travelled];
+        for (index, advance) in advances.into_iter().enumerate() {
+            travelled += if flight(index) > 0.0 { pace } else { advance };
             travel.push(travelled);
         }
         ensure!(travelled > 1.0, "the body `{}` makes no way when its legs walk", body.name);
@@ -115,18 +139,33 @@ impl Gait {
         Ok(gait)
     }
 
+    /// Way made in a second, mm.
+    pub fn pace(&self) -> f64 {
+        self.travel[PHASES] / self.stride_time
+    }
+
     /// The state vector (mm, radians) at a time in seconds.
     pub fn pose(&self, time: f64) -> Vec<f64> {
         let strides = time / self.stride_time;
         let phase = self.phase(strides.rem_euclid(1.0));
-        let along = (strides.floor() + self.travelled(phase)) * self.turn_per_stride;
-        let heading = along + TAU / 4.0;
+        let strides_made = strides.floor() + self.travelled(phase);
+        let along = strides_made * self.turn_per_stride;
+        let heading = match self.way {
+            Way::Circle { .. } => along + TAU / 4.0,
+            Way::Line { heading, .. } => heading,
+        };
 
         let mut pose = self.posture(phase, heading);
         // Weight shifts over the standing leg: left heel strikes at phase 0, so the body is on the left around 0.25.
         let sway = 10.0 * (TAU * phase).sin();
-        let outward = DVec3::new(along.cos(), along.sin(), 0.0);
-        let place = outward * (self.radius - sway) + DVec3::Z * periodic(&self.height, phase);
+        let place = match self.way {
+            Way::Circle { middle, radius } => middle + DVec2::from_angle(along) * (radius - sway),
+            Way::Line { from, heading } => {
+                let ahead = DVec2::from_angle(heading);
+                from + ahead * (strides_made * self.travel[PHASES]) + ahead.perp() * sway
+            }
+        };
+        let place = place.extend(periodic(&self.height, phase));
         self.set(&mut pose, "pelvis", DofAxis::Tx, place.x);
         self.set(&mut pose, "pelvis", DofAxis::Ty, place.y);
         self.set(&mut pose, "pelvis", DofAxis::Tz, place.z);
@@ -157,20 +196,21 @@ impl Gait {
     /// its direction in the world and on a circle the body turns over it; in swing the leg catches up.
     fn lead(&self, phase: f64) -> f64 {
         let phase = phase.rem_euclid(1.0);
-        let middle = self.travelled(0.27);
-        if phase < LIFT {
+        let lift = self.style.lift;
+        let middle = self.travelled(self.style.over);
+        if phase < lift {
             return self.travelled(phase) - middle;
         }
-        let t = (phase - LIFT) / (1.0 - LIFT);
-        let ahead = self.travelled(LIFT) - middle;
+        let t = (phase - lift) / (1.0 - lift);
+        let ahead = self.travelled(lift) - middle;
         ahead + (-middle - ahead) * t * t * (3.0 - 2.0 * t)
     }
 
     /// Turns the pelvis: with the leading leg, a little down on the swinging side and into the circle.
     fn turn_pelvis(&self, pose: &mut [f64], phase: f64, heading: f64) {
-        let list = (-2.5 * (TAU * phase).sin() - 1.5).to_radians();
+        let list = (-2.5 * (TAU * phase).sin() - if self.radius.is_finite() { 1.5 } else { 0.0 }).to_radians();
         let rotation = DMat3::from_rotation_z(heading + pelvis_turn(phase)) * DMat3::from_rotation_x(list);
-        let [rx, ry, rz] = euler_xyz(&rotation);
+        let [rx, ry, rz] = EulerOrder::Xyz.angles(&rotation);
         // Unwrapped next to the heading, which goes round and round.
         let rz = rz + TAU * ((heading - rz) / TAU).round();
         self.set(pose, "pelvis", DofAxis::Rx, rx);
@@ -180,6 +220,7 @@ impl Gait {
 
     /// All joints and the pelvis' rotation at a phase of the cycle; the pelvis stays at the origin.
     fn posture(&self, phase: f64, heading: f64) -> Vec<f64> {
+        let style = self.style;
         let mut pose = vec![0.0; self.body.dof_count()];
         self.turn_pelvis(&mut pose, phase, heading);
         let mut degrees = |bone: &str, axis, value: f64| self.set(&mut pose, bone, axis, value.to_radians());
@@ -189,57 +230,67 @@ impl Gait {
             // Flexion lifts the limb forward: a negative turn about y for the hip, a positive one for the knee.
             let lead = self.turn_per_stride * self.lead(own);
             // The path bends away from the line on which the foot stands, to the left of it before and after.
-            let aside = self.radius * (1.0 - lead.cos()) / self.leg_length;
+            let aside = if self.radius.is_finite() { self.radius * (1.0 - lead.cos()) / self.leg_length } else { 0.0 };
             // The inner leg has the shorter way.
             let reach = 1.0 - sign * self.inner_share;
             let leg = DMat3::from_rotation_z(-pelvis_turn(phase) - lead)
                 * DMat3::from_rotation_x((sign * (2.0 + 2.0 * (TAU * own).sin())).to_radians() - aside)
-                * DMat3::from_rotation_y(-(reach * periodic(&HIP_FLEXION, own)).to_radians())
+                * DMat3::from_rotation_y(-(reach * periodic(&style.hip, own)).to_radians())
                 * DMat3::from_rotation_z((sign * 5.0f64).to_radians());
-            for (axis, angle) in [DofAxis::Rx, DofAxis::Ry, DofAxis::Rz].into_iter().zip(euler_xyz(&leg)) {
+            for (axis, angle) in [DofAxis::Rx, DofAxis::Ry, DofAxis::Rz].into_iter().zip(EulerOrder::Xyz.angles(&leg)) {
                 degrees(&hip, axis, angle.to_degrees());
             }
-            degrees(&knee, DofAxis::Ry, periodic(&KNEE_FLEXION, own));
+            degrees(&knee, DofAxis::Ry, periodic(&style.knee, own));
             // Arms swing against the leg of their side.
             let swing = -(TAU * (own - 0.02)).cos();
             let (clavicle, shoulder, elbow) =
                 (format!("{side}_clavicle"), format!("{side}_shoulder"), format!("{side}_elbow"));
             degrees(&clavicle, DofAxis::Rx, sign * -2.0);
             degrees(&shoulder, DofAxis::Rx, sign * 9.0);
-            degrees(&shoulder, DofAxis::Ry, -(4.0 + 22.0 * swing));
+            degrees(&shoulder, DofAxis::Ry, -(4.0 + style.arm_swing * swing));
             degrees(&shoulder, DofAxis::Rz, sign * -8.0);
-            degrees(&elbow, DofAxis::Ry, -(26.0 + 13.0 * (TAU * (own + 0.45)).cos()));
+            degrees(&elbow, DofAxis::Ry, -(style.elbow[0] + style.elbow[1] * (TAU * (own + 0.45)).cos()));
         }
-        degrees("thorax", DofAxis::Ry, 4.0 + 1.5 * (2.0 * TAU * phase).cos());
+        degrees("thorax", DofAxis::Ry, style.lean + 1.5 * (2.0 * TAU * phase).cos());
         degrees("thorax", DofAxis::Rz, 10.0 * (TAU * phase).cos());
         degrees("head", DofAxis::Ry, -2.0);
-        degrees("head", DofAxis::Rz, -5.0 * (TAU * phase).cos() + 8.0);
+        // On a circle one looks where one goes.
+        let aside = if self.radius.is_finite() { 8.0 } else { 0.0 };
+        degrees("head", DofAxis::Rz, -5.0 * (TAU * phase).cos() + aside);
         pose
     }
 
-    /// Sets a degree of freedom within its limits; a body without it keeps still there.
     fn set(&self, pose: &mut [f64], bone: &str, axis: DofAxis, value: f64) {
-        for (index, (of, dof)) in self.body.dofs().enumerate() {
-            if dof.axis == axis && self.body.bones[of].name == bone {
-                pose[index] = value.clamp(dof.limits[0], dof.limits[1]);
-            }
-        }
+        set(&self.body, pose, bone, axis, value);
     }
 
-    /// The under side of heels and toes in the world.
     fn sole_points(&self, pose: &[f64]) -> Result<Vec<DVec3>> {
-        let frames = self.body.world_from_bones(pose)?;
-        let mut points = Vec::new();
-        for side in ["left", "right"] {
-            let Some(knee) = self.body.bone_index(&format!("{side}_knee")) else { continue };
-            for part in self.body.parts.iter().filter(|part| part.bone == knee).skip(1) {
-                for (at, radius) in [(part.a, part.radius_a), (part.b, part.radius_b)] {
-                    points.push(frames[knee].transform_point3(at) - DVec3::Z * radius);
-                }
+        sole_points(&self.body, pose)
+    }
+}
+
+/// Sets a degree of freedom within its limits; a body without it keeps still there.
+fn set(body: &Body, pose: &mut [f64], bone: &str, axis: DofAxis, value: f64) {
+    for (index, (of, dof)) in body.dofs().enumerate() {
+        if dof.axis == axis && body.bones[of].name == bone {
+            pose[index] = value.clamp(dof.limits[0], dof.limits[1]);
+        }
+    }
+}
+
+/// The under side of heels and toes in the world.
+fn sole_points(body: &Body, pose: &[f64]) -> Result<Vec<DVec3>> {
+    let frames = body.world_from_bones(pose)?;
+    let mut points = Vec::new();
+    for side in ["left", "right"] {
+        let Some(knee) = body.bone_index(&format!("{side}_knee")) else { continue };
+        for part in body.parts.iter().filter(|part| part.bone == knee).skip(1) {
+            for (at, radius) in [(part.a, part.radius_a), (part.b, part.radius_b)] {
+                points.push(frames[knee].transform_point3(at) - DVec3::Z * radius);
             }
         }
-        Ok(points)
     }
+    Ok(points)
 }
 
 /// Height of the lowest points, blended where two are nearly equal so that the pelvis does not jerk.
@@ -258,7 +309,7 @@ mod tests {
 
     fn walk() -> (Body, Gait) {
         let body = Body::adult(1750.0).unwrap();
-        let gait = Gait::new(&body, 950.0, 1.2).unwrap();
+        let gait = Gait::new(&body, &Style::WALK, Way::Circle { middle: DVec2::ZERO, radius: 950.0 }, 1.2).unwrap();
         (body, gait)
     }
 
@@ -312,10 +363,42 @@ mod tests {
     }
 
     #[test]
-    fn the_curve_passes_through_its_samples_and_closes() {
-        for (index, sample) in KNEE_FLEXION.iter().enumerate() {
-            assert!((periodic(&KNEE_FLEXION, index as f64 / 10.0 + 3.0) - sample).abs() < 1e-9);
+    fn a_line_is_kept_and_a_run_leaves_the_floor() {
+        let body = Body::adult(1750.0).unwrap();
+        let way = Way::Line { from: DVec2::new(-1000.0, 500.0), heading: 0.6 };
+        for (style, stride_time, least, most) in
+            [(&Style::WALK, 1.2, 900.0, 1500.0), (&Style::RUN, 0.72, 1900.0, 4500.0)]
+        {
+            let gait = Gait::new(&body, style, way, stride_time).unwrap();
+            assert!((least..most).contains(&gait.pace()), "{} mm/s", gait.pace());
+            let (mut highest, mut slip, mut standing) = (0.0f64, 0.0, 0);
+            for step in 0..400 {
+                let time = f64::from(step) * 0.005;
+                let pose = gait.pose(time);
+                body.check_limits(&pose).unwrap();
+                let off = (DVec2::new(pose[0], pose[1]) - DVec2::new(-1000.0, 500.0)).perp_dot(DVec2::from_angle(0.6));
+                assert!(off.abs() < 12.0, "{off} mm off the line");
+                let (before, after) =
+                    (gait.sole_points(&pose).unwrap(), gait.sole_points(&gait.pose(time + 0.005)).unwrap());
+                let lowest = before.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
+                highest = highest.max(lowest);
+                assert!(lowest > -30.0, "{lowest}");
+                for (a, b) in before.iter().zip(&after).filter(|(a, b)| a.z < 3.0 && b.z < 3.0) {
+                    standing += 1;
+                    slip += a.truncate().distance(b.truncate());
+                }
+            }
+            assert_eq!(highest > 30.0, style.lift < 0.5, "the feet are {highest} mm above the floor");
+            let slip = slip / f64::from(standing.max(1)) / 0.005;
+            assert!(slip < 250.0, "{slip} mm/s");
         }
-        assert!((periodic(&HIP_FLEXION, -1e-9) - periodic(&HIP_FLEXION, 1e-9)).abs() < 1e-5);
+    }
+
+    #[test]
+    fn the_curve_passes_through_its_samples_and_closes() {
+        for (index, sample) in Style::WALK.knee.iter().enumerate() {
+            assert!((periodic(&Style::WALK.knee, index as f64 / 10.0 + 3.0) - sample).abs() < 1e-9);
+        }
+        assert!((periodic(&Style::WALK.hip, -1e-9) - periodic(&Style::WALK.hip, 1e-9)).abs() < 1e-5);
     }
 }

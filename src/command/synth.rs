@@ -1,0 +1,69 @@
+//! `pantin synth`.
+
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+use anyhow::Result;
+
+use super::progress::Progress;
+use crate::files::{OutputFolder, Overwrite};
+use crate::synth::{Scene, SyntheticSequence};
+
+/// Makes a synthetic sequence with exact truth from scene.toml: people who walk, run, jump or follow a recorded motion (BVH,
+/// ASF/AMC, DeepMimic) in a room before any number of cameras. The folder can be tracked as it is; truth.trc holds the
+/// joints, truth.c3d the markers, truth_poses.csv the poses.
+#[derive(clap::Args, Debug)]
+pub struct SynthArgs {
+    /// The scene.
+    #[arg(value_name = "SCENE.toml", required_unless_present = "preset", conflicts_with = "preset")]
+    scene: Option<PathBuf>,
+    /// A built-in scene: demo; leewalk (four grey cameras, 640x480, 60 Hz, a walk in a circle, 15 markers); p1s, p2s, p1d, p2d
+    /// (four colour cameras, 480x270, 25 Hz, one or two people going straight or diagonally, 39 markers).
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    /// The folder to write.
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Another number of frames than the scene's.
+    #[arg(long, value_name = "N")]
+    frames: Option<usize>,
+    /// Another seed than the scene's.
+    #[arg(long, value_name = "S")]
+    seed: Option<u64>,
+    /// Replace what the folder holds.
+    #[arg(long, conflicts_with = "resume")]
+    force: bool,
+    /// Go on with a folder that was begun with the same settings.
+    #[arg(long)]
+    resume: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// When the scene makes no sense, a file it names cannot be read, the folder is not empty (without `--force` or
+/// `--resume`) or a file cannot be written; one sentence.
+pub fn run(args: &SynthArgs) -> Result<()> {
+    let mut scene = match (&args.scene, &args.preset) {
+        (Some(path), _) => Scene::load(path)?,
+        (None, preset) => Scene::preset(preset.as_deref().unwrap_or("demo"))?,
+    };
+    scene.frames = args.frames.unwrap_or(scene.frames);
+    scene.seed = args.seed.unwrap_or(scene.seed);
+    let synthetic = SyntheticSequence::new(&scene)?;
+    let overwrite = if args.force || args.resume { Overwrite::Replace } else { Overwrite::Refuse };
+    let folder = OutputFolder::create(&args.output, overwrite)?;
+    let begin = Instant::now();
+    let bar = Mutex::new(Progress::new("making the sequence", scene.frames));
+    synthetic.write(&folder, args.resume, &|_| bar.lock().unwrap_or_else(PoisonError::into_inner).advance())?;
+    drop(bar);
+    let (seconds, views) = (begin.elapsed().as_secs_f64(), synthetic.cameras().len());
+    println!(
+        "made {} frames in {views} views in {seconds:.1} s, {:.3} s a frame of all views: {}",
+        scene.frames,
+        seconds / scene.frames as f64,
+        folder.path().display()
+    );
+    Ok(())
+}

@@ -1,0 +1,217 @@
+//! `pantin texture`: procedural materials, and textures from an example.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use image::codecs::png::PngEncoder;
+use image::{DynamicImage, RgbImage};
+
+use super::progress::Progress;
+use crate::files::{Overwrite, write_atomically};
+use crate::texture::example::{Settings, patch_count, synthesise};
+use crate::texture::materials::{KINDS, Material};
+use crate::texture::picture::{Solid, View, check_size, contact_sheet, flat, heights, lit};
+
+/// Draw a procedural material, or synthesise a texture from an example.
+///
+/// `pantin texture marble -o marble.png`, `pantin texture --list -o sheet.png`, or
+/// `pantin texture --example brick.png -o wall.png`.
+#[derive(clap::Args, Debug)]
+#[command(group(clap::ArgGroup::new("what").required(true).args(["material", "list", "example"])))]
+pub struct TextureArgs {
+    /// The material's name: see --list
+    material: Option<String>,
+    /// List the materials, one line each; with -o also draw a sheet of all of them
+    #[arg(long)]
+    list: bool,
+    /// A picture to synthesise a texture from
+    #[arg(long, value_name = "PICTURE")]
+    example: Option<PathBuf>,
+    /// The PNG to write
+    #[arg(short, long, value_name = "FILE", required_unless_present = "list")]
+    output: Option<PathBuf>,
+    /// Pixels
+    #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = parse_size)]
+    size: [u32; 2],
+    /// Lower left corner of the part of the material, units (X,Y or X,Y,Z)
+    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", value_parser = parse_offset, allow_hyphen_values = true)]
+    offset: [f32; 3],
+    /// Units of the material across the picture (of a preview: units a unit of the object, 1 without it)
+    #[arg(long, value_name = "UNITS")]
+    scale: Option<f32>,
+    /// Another seed gives another piece of the same material
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Make the picture continue over its borders into itself
+    #[arg(long)]
+    tile: bool,
+    /// Bits a channel
+    #[arg(long, value_name = "8|16", default_value = "8", value_parser = ["8", "16"])]
+    depth: String,
+    /// Write heights (grey) instead of colours
+    #[arg(long, conflicts_with = "preview")]
+    height_map: bool,
+    /// Parameters of the material, instead of its defaults
+    #[arg(long, value_name = "FILE.toml")]
+    params: Option<PathBuf>,
+    /// Show the material on an object under a light
+    #[arg(long, value_enum, conflicts_with = "tile")]
+    preview: Option<Preview>,
+    /// From an example: side of a patch, pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = Settings::default().patch)]
+    patch: u32,
+    /// From an example: pixels by which patches overlap
+    #[arg(long, value_name = "PIXELS", default_value_t = Settings::default().overlap)]
+    overlap: u32,
+    /// From an example: error of a patch, 0 to 1, above which it is split: 0 works pixel by pixel, 1 never splits
+    #[arg(long, value_name = "ERROR", default_value_t = Settings::default().delta_max)]
+    delta_max: f32,
+    /// From an example: error of a pixel of an overlap, 0 to 1, above which it is synthesised anew
+    #[arg(long, value_name = "ERROR", default_value_t = Settings::default().delta_pixel)]
+    delta_pixel: f32,
+    /// From an example: a picture of its size, dark where it may not be used
+    #[arg(long, value_name = "PICTURE", requires = "example")]
+    mask: Option<PathBuf>,
+    /// From an example: also write a picture of the patches
+    #[arg(long, value_name = "FILE", requires = "example")]
+    decomposition: Option<PathBuf>,
+    /// From an example: also write a picture of the pixels that were synthesised anew
+    #[arg(long, value_name = "FILE", requires = "example")]
+    resynthesised: Option<PathBuf>,
+    /// Replace files that are there
+    #[arg(long)]
+    force: bool,
+}
+
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum Preview {
+    Sphere,
+    Cube,
+    Plane,
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let number = |text: &str| text.parse::<u32>().ok();
+    text.split_once('x')
+        .and_then(|(width, height)| Some([number(width)?, number(height)?]))
+        .ok_or_else(|| "expected a width and a height in pixels, 640x480 say".into())
+}
+
+fn parse_offset(text: &str) -> Result<[f32; 3], String> {
+    let numbers: Option<Vec<f32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y]) => Ok([x, y, 0.0]),
+        Some(&[x, y, z]) => Ok([x, y, z]),
+        _ => Err("expected two or three numbers, 1.5,-2 say".into()),
+    }
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// When the material or a parameter is unknown, a size makes no sense, or a file cannot be read or written.
+pub fn run(args: &TextureArgs) -> Result<()> {
+    match (&args.example, &args.material, &args.output) {
+        (Some(example), _, Some(output)) => from_example(args, example, output),
+        (None, Some(material), Some(output)) => of_material(args, material, output),
+        (_, _, output) => list(args, output.as_deref()),
+    }
+}
+
+fn write(args: &TextureArgs, picture: DynamicImage, path: &Path) -> Result<()> {
+    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    write_atomically(path, overwrite, |writer| Ok(picture.write_with_encoder(PngEncoder::new(writer))?))
+}
+
+/// A picture of the depth that is wanted.
+fn of_depth(args: &TextureArgs, picture: DynamicImage) -> DynamicImage {
+    match (args.depth.as_str(), &picture) {
+        ("16", _) => picture,
+        (_, DynamicImage::ImageLuma16(_)) => picture.into_luma8().into(),
+        _ => picture.into_rgb8().into(),
+    }
+}
+
+fn list(args: &TextureArgs, output: Option<&Path>) -> Result<()> {
+    for kind in KINDS {
+        println!("{:<10} {}", kind.name, kind.looks);
+    }
+    let Some(output) = output else { return Ok(()) };
+    write(args, of_depth(args, contact_sheet(256, args.seed)?.into()), output)?;
+    println!("wrote {}", output.display());
+    Ok(())
+}
+
+fn of_material(args: &TextureArgs, name: &str, output: &Path) -> Result<()> {
+    check_size(args.size)?;
+    let scale = args.scale.unwrap_or(if args.preview.is_some() { 1.0 } else { 4.0 });
+    let view = View { size: args.size, offset: args.offset, scale }.checked()?;
+    let material = Material::new(name, args.params.as_deref(), args.seed, args.tile.then(|| view.extent()))?;
+    let picture = match args.preview {
+        Some(preview) => {
+            let solid = match preview {
+                Preview::Sphere => Solid::Sphere,
+                Preview::Cube => Solid::Cube,
+                Preview::Plane => Solid::Plane,
+            };
+            lit(&material, solid, args.size, args.offset, scale).into()
+        }
+        None if args.height_map => heights(&material, &view).into(),
+        None => flat(&material, &view).into(),
+    };
+    write(args, of_depth(args, picture), output)?;
+    println!("wrote {name}, {} x {} pixels, to {}", args.size[0], args.size[1], output.display());
+    Ok(())
+}
+
+fn read(path: &Path) -> Result<RgbImage> {
+    let context = || format!("cannot read the picture {}", path.display());
+    let picture = image::ImageReader::open(path).with_context(context)?.with_guessed_format().with_context(context)?;
+    Ok(picture.decode().with_context(context)?.into_rgb8())
+}
+
+fn from_example(args: &TextureArgs, example: &Path, output: &Path) -> Result<()> {
+    for (name, given) in [
+        ("--params", args.params.is_some()),
+        ("--preview", args.preview.is_some()),
+        ("--height-map", args.height_map),
+        ("--scale", args.scale.is_some()),
+        ("--depth 16", args.depth == "16"),
+    ] {
+        if given {
+            bail!("{name} is for materials and means nothing with --example");
+        }
+    }
+    let settings = Settings {
+        size: args.size,
+        patch: args.patch,
+        overlap: args.overlap,
+        delta_max: args.delta_max,
+        delta_pixel: args.delta_pixel,
+        seed: args.seed,
+        tile: args.tile,
+    };
+    let picture = read(example)?;
+    let mask =
+        args.mask.as_deref().map(|path| read(path).map(|mask| DynamicImage::from(mask).into_luma8())).transpose()?;
+    let mut progress = Progress::of("texture", "patch", patch_count(&settings));
+    let synthesis = synthesise(&picture, mask.as_ref(), &settings, || progress.advance())
+        .with_context(|| format!("cannot synthesise from {}", example.display()))?;
+    drop(progress);
+    write(args, synthesis.picture.into(), output)?;
+    for (path, picture) in
+        [(&args.decomposition, synthesis.decomposition), (&args.resynthesised, synthesis.resynthesised)]
+    {
+        if let Some(path) = path {
+            write(args, picture.into(), path)?;
+        }
+    }
+    println!(
+        "wrote {} x {} pixels, of them {} synthesised anew, to {}",
+        args.size[0],
+        args.size[1],
+        synthesis.resynthesised_count,
+        output.display()
+    );
+    Ok(())
+}

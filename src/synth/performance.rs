@@ -1,0 +1,192 @@
+//! What an actor does: his pose at any time.
+
+use anyhow::{Context, Result, bail};
+use glam::DVec2;
+
+use super::gait::{Gait, Jump, Style, Way};
+use super::room::Room;
+use super::scene::{MotionSettings, Scene};
+use crate::body::{Body, RetargetSettings};
+use crate::motion::{UpAxis, read_skeletal_motion};
+
+/// How near an actor's root may come to a wall, mm.
+const TO_WALL: f64 = 150.0;
+
+/// An actor's motion.
+#[derive(Clone, Debug)]
+pub struct Performance {
+    part: Part,
+    /// Seconds into the motion at the first frame.
+    start: f64,
+}
+
+#[derive(Clone, Debug)]
+enum Part {
+    Gait(Gait),
+    Jump(Jump),
+    Stand(Vec<f64>),
+    Recorded { rate: f64, poses: Vec<Vec<f64>> },
+}
+
+impl Performance {
+    /// What `settings` ask of a body in a scene.
+    ///
+    /// # Errors
+    /// When a motion file cannot be read or does not fit the body, or the body has no legs to walk with.
+    pub fn new(body: &Body, settings: &MotionSettings, scene: &Scene, room: &Room) -> Result<Self> {
+        let at = DVec2::from(settings.at);
+        if let Some(file) = &settings.file {
+            let poses = recorded(body, settings, scene).with_context(|| file.display().to_string())?;
+            return Ok(Self { part: Part::Recorded { rate: scene.fps, poses }, start: 0.0 });
+        }
+        let heading = settings.heading.map(f64::to_radians);
+        let line = |style: &'static Style, heading: f64, stride_time: f64| -> Result<Part> {
+            // The way is as long as the scene; its middle is where it is asked to be.
+            let pace = Gait::new(body, style, Way::Line { from: at, heading }, stride_time)?.pace();
+            let middle = settings.start + 0.5 * (scene.frames - 1) as f64 / scene.fps;
+            let from = at - DVec2::from_angle(heading) * (pace * middle);
+            Ok(Part::Gait(Gait::new(body, style, Way::Line { from, heading }, stride_time)?))
+        };
+        let part = match settings.gait.as_deref().unwrap_or("circle") {
+            "circle" => {
+                let way = Way::Circle { middle: at, radius: settings.radius };
+                Part::Gait(Gait::new(body, &Style::WALK, way, settings.stride_time)?)
+            }
+            "straight" => line(&Style::WALK, heading.unwrap_or(0.0), settings.stride_time)?,
+            "diagonal" => {
+                line(&Style::WALK, heading.unwrap_or_else(|| room.half_size.to_angle()), settings.stride_time)?
+            }
+            "run" => line(&Style::RUN, heading.unwrap_or(0.0), 0.6 * settings.stride_time)?,
+            "jump" => {
+                let period = 2.0 * settings.stride_time;
+                Part::Jump(Jump::new(body, at, heading.unwrap_or(0.0), settings.jump_height, period))
+            }
+            _ => Part::Stand(standing(body, at, heading.unwrap_or(0.0))),
+        };
+        Ok(Self { part, start: settings.start })
+    }
+
+    /// The state vector (mm, radians) at a time in seconds; before the first and after the last pose of a recording it is
+    /// that one's.
+    ///
+    /// # Errors
+    /// When the body cannot be posed.
+    pub fn pose(&self, time: f64) -> Result<Vec<f64>> {
+        let time = time + self.start;
+        Ok(match &self.part {
+            Part::Gait(gait) => gait.pose(time),
+            Part::Jump(jump) => jump.pose(time)?,
+            Part::Stand(pose) => pose.clone(),
+            Part::Recorded { rate, poses } => {
+                let last = poses.len() - 1;
+                let position = (time * rate).clamp(0.0, last as f64);
+                // Frame times are whole numbers up to rounding.
+                let position = if (position - position.round()).abs() < 1e-9 { position.round() } else { position };
+                let (before, after) = (position.floor() as usize, position.ceil() as usize);
+                let t = position - position.floor();
+                poses[before].iter().zip(&poses[after]).map(|(a, b)| a + (b - a) * t).collect()
+            }
+        })
+    }
+
+    /// The poses of all frames of a scene.
+    ///
+    /// # Errors
+    /// When the actor leaves the room; the frame is named.
+    pub fn poses(&self, body: &Body, scene: &Scene, room: &Room) -> Result<Vec<Vec<f64>>> {
+        let mut poses = Vec::with_capacity(scene.frames);
+        for frame in 0..scene.frames {
+            let pose = self.pose(frame as f64 / scene.fps)?;
+            let root = body.world_from_bones(&pose)?[body.update_order[0]].translation;
+            let limit = room.half_size - TO_WALL;
+            if !root.truncate().abs().cmple(limit).all() {
+                bail!(
+                    "in frame {frame} he is at ({:.0}, {:.0}) mm, expected him within {:.0} x {:.0} mm of the room's middle: ask for fewer frames or another way",
+                    root.x,
+                    root.y,
+                    limit.x,
+                    limit.y
+                );
+            }
+            poses.push(pose);
+        }
+        Ok(poses)
+    }
+}
+
+fn recorded(body: &Body, settings: &MotionSettings, scene: &Scene) -> Result<Vec<Vec<f64>>> {
+    let Some(file) = &settings.file else { bail!("no motion file is named") };
+    let motion = read_skeletal_motion(file, settings.skeleton.as_deref(), settings.rate)?;
+    let motion = motion.cut(settings.start, settings.until.unwrap_or(f64::INFINITY))?;
+    let up = settings.up.as_deref().map(|up| if up == "z" { UpAxis::Z } else { UpAxis::Y });
+    let retarget = RetargetSettings {
+        joints: settings.joints.clone(),
+        unit: settings.unit_mm(),
+        up,
+        at: Some(DVec2::from(settings.at)),
+        heading: settings.heading.map(f64::to_radians),
+        repeats: settings.repeats,
+    };
+    Ok(body.retarget(&motion, &retarget, scene.fps, scene.frames)?.poses)
+}
+
+/// Standing at ease: arms a little off the body, elbows and knees a little bent.
+fn standing(body: &Body, at: DVec2, heading: f64) -> Vec<f64> {
+    let mut pose = body.standing_pose();
+    for ((index, dof), value) in body.dofs().zip(&mut pose) {
+        let sign = if body.bones[index].name.starts_with("right") { -1.0 } else { 1.0 };
+        let asked = match (body.bones[index].name.as_str(), dof.axis.name()) {
+            ("pelvis", "tx") => at.x,
+            ("pelvis", "ty") => at.y,
+            ("pelvis", "rz") => heading,
+            ("left_shoulder" | "right_shoulder", "rx") => sign * 9f64.to_radians(),
+            ("left_elbow" | "right_elbow", "ry") => -14f64.to_radians(),
+            ("left_hip" | "right_hip", "rx") => sign * 3f64.to_radians(),
+            _ => continue,
+        };
+        *value = asked.clamp(dof.limits[0], dof.limits[1]);
+    }
+    pose
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::scene::RoomSettings;
+    use super::*;
+
+    fn perform(settings: MotionSettings, frames: usize) -> Result<Vec<Vec<f64>>> {
+        let body = Body::adult(1750.0).unwrap();
+        let room = Room::new(&RoomSettings::default()).unwrap();
+        let scene = Scene { frames, ..Scene::default() };
+        Performance::new(&body, &settings, &scene, &room)?.poses(&body, &scene, &room)
+    }
+
+    #[test]
+    fn every_gait_is_performed_within_limits_round_its_middle() {
+        let body = Body::adult(1750.0).unwrap();
+        for gait in super::super::scene::GAITS {
+            let settings = MotionSettings {
+                gait: Some(gait.to_string()),
+                at: [200.0, -100.0],
+                radius: 600.0,
+                ..MotionSettings::default()
+            };
+            let frames = if gait == "run" { 25 } else { 60 };
+            let poses = perform(settings, frames).unwrap();
+            poses.iter().for_each(|pose| body.check_limits(pose).unwrap());
+            if ["straight", "diagonal", "run"].contains(&gait) {
+                let middle = [0, 1].map(|axis| 0.5 * (poses[0][axis] + poses[frames - 1][axis]));
+                assert!((middle[0] - 200.0).abs() < 120.0 && (middle[1] + 100.0).abs() < 60.0, "{gait}: {middle:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn who_leaves_the_room_is_noticed() {
+        let far = MotionSettings { gait: Some("straight".into()), ..MotionSettings::default() };
+        let error = perform(far, 400).unwrap_err().to_string();
+        assert!(error.contains("in frame 0 he is at (-") && error.contains("fewer frames"), "{error}");
+        let none = MotionSettings { file: Some("nowhere.bvh".into()), ..MotionSettings::default() };
+        assert!(format!("{:#}", perform(none, 4).unwrap_err()).contains("nowhere.bvh"));
+    }
+}

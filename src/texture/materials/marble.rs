@@ -1,0 +1,38 @@
+//! Marble: layers bent by turbulence.
+
+use serde::Deserialize;
+
+use super::space::blend;
+use super::{Solid, Space, Texel};
+use crate::texture::noise::Sum;
+
+/// Parameters; frequencies are the thesis's by default.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Marble {
+    /// Colour of the veins, sRGB 0..1.
+    pub vein: [f32; 3],
+    /// Colour between them.
+    pub stone: [f32; 3],
+    /// Radians of the layers a unit of y.
+    pub frequency: f32,
+    /// Radians that turbulence bends them.
+    pub bend: f32,
+    /// Cells of noise a unit of length.
+    pub scale: f32,
+}
+
+impl Default for Marble {
+    fn default() -> Self {
+        Self { vein: [0.32, 0.3, 0.34], stone: [0.93, 0.92, 0.88], frequency: 6.0, bend: 12.0, scale: 1.0 }
+    }
+}
+
+impl Solid for Marble {
+    fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
+        let turbulence = space.sum(Sum::Turbulence, 4, [self.scale; 3], p) / 4.0;
+        let waves = space.whole(self.frequency / std::f32::consts::TAU, 1, 1.0);
+        let height = 0.5 * (std::f32::consts::TAU * waves * p[1] + self.bend * turbulence).sin() + 0.5;
+        Texel { colour: blend(self.vein, self.stone, height), height }
+    }
+}

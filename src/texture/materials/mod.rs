@@ -1,0 +1,155 @@
+//! Materials: a colour and a height for every point of space, so that a solid object is cut out of them (SPEC B2).
+
+mod brick;
+mod clouds;
+mod fabric;
+mod granite;
+mod grass;
+mod lava;
+mod marble;
+mod midpoint;
+mod skin;
+mod space;
+mod terrain;
+#[cfg(test)]
+mod tests;
+mod wood;
+
+use std::path::Path;
+
+use anyhow::{Result, anyhow, bail};
+use serde::de::DeserializeOwned;
+
+pub use brick::Brick;
+pub use clouds::Clouds;
+pub use fabric::Fabric;
+pub use granite::Granite;
+pub use grass::Grass;
+pub use lava::Lava;
+pub use marble::Marble;
+pub use midpoint::Surface;
+pub use skin::Skin;
+pub use space::Space;
+pub use terrain::{Band, Fractal, Map, Terrain};
+pub use wood::Wood;
+
+use crate::files::read_toml;
+
+/// What a material is at a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Texel {
+    /// Colour as a screen shows it, sRGB, 0 to 1.
+    pub colour: [f32; 3],
+    /// Height of the surface, 0 to 1: bumps, or what the material mixes its colours by.
+    pub height: f32,
+}
+
+impl Texel {
+    /// The colour as light adds up: linear, 0 to 1.
+    pub fn linear(&self) -> [f32; 3] {
+        self.colour.map(|c| if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) })
+    }
+}
+
+/// Something with a texel at each point of object space.
+pub(crate) trait Solid: Send + Sync {
+    /// The texel at `p`, object units.
+    fn at(&self, space: &Space, p: [f32; 3]) -> Texel;
+}
+
+/// A material by name.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// What it looks like, one line.
+    pub looks: &'static str,
+    build: Build,
+}
+
+/// Parameters (from a file, or the defaults) and seed to the material.
+type Build = fn(Option<&Path>, u64) -> Result<Box<dyn Solid>>;
+
+fn parameters<T: DeserializeOwned + Default>(path: Option<&Path>) -> Result<T> {
+    path.map_or_else(|| Ok(T::default()), read_toml)
+}
+
+macro_rules! kind {
+    ($name:literal, $looks:literal, $type:ty) => {
+        Kind { name: $name, looks: $looks, build: |path, _| Ok(Box::new(parameters::<$type>(path)?)) }
+    };
+}
+
+/// All materials, in the order they are listed.
+pub const KINDS: &[Kind] = &[
+    kind!("clouds", "sky through four octaves of noise", Clouds),
+    kind!("lava", "the sun's surface, or lava: turbulence about the means of the octaves", Lava),
+    kind!("marble", "layers bent by turbulence", Marble),
+    kind!("granite", "grey grains: the highest octave alone", Granite),
+    kind!("wood", "rings about the y axis, disturbed by noise, with a fine grain", Wood),
+    kind!("brick", "a wall in running bond with mortar", Brick),
+    kind!("grass", "blades over blades, fresh and dry", Grass),
+    kind!("fabric", "woven threads, plain or twill", Fabric),
+    kind!("skin", "mottled skin with freckles and pores", Skin),
+    Kind {
+        name: "fractal",
+        looks: "terrain by random mid-point displacement, in colour bands",
+        build: |path, seed| Ok(Box::new(parameters::<Fractal>(path)?.displaced(seed))),
+    },
+    kind!("terrain", "terrain by noise, in colour bands with isolines", Terrain),
+];
+
+/// A material, ready to be looked up.
+pub struct Material {
+    solid: Box<dyn Solid>,
+    space: Space,
+}
+
+impl std::fmt::Debug for Material {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Material").field("space", &self.space).finish_non_exhaustive()
+    }
+}
+
+impl Material {
+    /// The material called `name` with the parameters of a TOML file (its defaults without one). With a `tile` it repeats
+    /// itself after those lengths along x and y, object units: its frequencies become whole numbers of cells a tile.
+    ///
+    /// # Errors
+    /// When there is none of that name (the nearest is named), when the file has an unknown key or a number that is not finite
+    /// or beyond 1e6, or when the tile is not a positive length.
+    pub fn new(name: &str, parameters: Option<&Path>, seed: u64, tile: Option<[f32; 2]>) -> Result<Self> {
+        let kind = KINDS.iter().find(|kind| kind.name == name).ok_or_else(|| {
+            let distance = |kind: &&Kind| strsim::damerau_levenshtein(kind.name, name);
+            let nearest = KINDS.iter().min_by_key(distance).map_or("", |kind| kind.name);
+            let known: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
+            let name = crate::files::shortened(name);
+            anyhow!("unknown material {name}, the nearest is {nearest} (known: {})", known.join(", "))
+        })?;
+        if let Some(tile) = tile.filter(|tile| !tile.iter().all(|length| (1e-3..=1e4).contains(length))) {
+            bail!("a tile of {} x {} units, expected lengths from 0.001 to 10000", tile[0], tile[1]);
+        }
+        if let Some(path) = parameters {
+            let table: toml::Table = read_toml(path)?;
+            check_numbers(&toml::Value::Table(table), "")
+                .map_err(|message| anyhow!("{}: {message}", path.display()))?;
+        }
+        Ok(Self { solid: (kind.build)(parameters, seed)?, space: Space::new(seed, tile) })
+    }
+
+    /// The texel at a point, object units. The same on every call and thread.
+    pub fn at(&self, p: [f32; 3]) -> Texel {
+        let texel = self.solid.at(&self.space, p.map(|x| if x.is_finite() { x.clamp(-1e6, 1e6) } else { 0.0 }));
+        Texel { colour: texel.colour.map(|c| c.clamp(0.0, 1.0)), height: texel.height.clamp(0.0, 1.0) }
+    }
+}
+
+/// Every number of a parameter file is finite and of a size that sums of octaves stay finite with.
+fn check_numbers(value: &toml::Value, key: &str) -> std::result::Result<(), String> {
+    match value {
+        toml::Value::Float(x) if !(x.abs() <= 1e6) => Err(format!("{key} = {x}, expected a number from -1e6 to 1e6")),
+        toml::Value::Array(items) => items.iter().try_for_each(|item| check_numbers(item, key)),
+        toml::Value::Table(table) => table.iter().try_for_each(|(key, item)| check_numbers(item, key)),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,6 @@
+//! Procedural textures (SPEC B): noise, materials cut out of space, pictures of them, synthesis from an example.
+
+pub mod example;
+pub mod materials;
+pub mod noise;
+pub mod picture;
