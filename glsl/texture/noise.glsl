@@ -121,38 +121,75 @@ float perlin_corner(uint dimensions, uint word, vec4 p) {
     return slope4(word, p.x, p.y, p.z, p.w);
 }
 
+// What corner `away` from the point's cell holds, seen from the point at `t` in the cell.
+float noise_corner(Lattice lattice, bool value, uint dimensions, uint share, vec4 t, vec4 away) {
+    uint word = lattice_word(lattice, share);
+    precise vec4 seen = t - away;
+    return value ? value_number(word) : perlin_corner(dimensions, word, seen);
+}
+
+// The four corners of a cell's face along x and y, mixed; `away` is its place along z and w.
+float noise_face(Lattice lattice, bool value, uint dimensions, uvec4 shares, vec4 t, vec4 fade, vec2 away) {
+    float a = noise_corner(lattice, value, dimensions, shares.x, t, vec4(0.0, 0.0, away));
+    float b = noise_corner(lattice, value, dimensions, shares.y, t, vec4(1.0, 0.0, away));
+    float low = noise_mix(a, b, fade.x);
+    if (dimensions == 1u) return low;
+    float c = noise_corner(lattice, value, dimensions, shares.z, t, vec4(0.0, 1.0, away));
+    float d = noise_corner(lattice, value, dimensions, shares.w, t, vec4(1.0, 1.0, away));
+    return noise_mix(low, noise_mix(c, d, fade.x), fade.y);
+}
+
+uvec4 lattice_join4(Lattice lattice, uvec4 shares, uint axis, int cell) {
+    return uvec4(lattice_join(lattice, shares.x, axis, cell), lattice_join(lattice, shares.y, axis, cell),
+        lattice_join(lattice, shares.z, axis, cell), lattice_join(lattice, shares.w, axis, cell));
+}
+
 // Gradient noise (or value noise) of 1 to 4 dimensions; `word` is that of the point's cell.
 float noise(Lattice lattice, bool value, uint dimensions, vec4 p, out uint word) {
-    ivec2 cells[4];
     vec4 t = vec4(0.0);
-    vec4 fade = vec4(0.0);
-    for (uint axis = 0u; axis < dimensions; axis++) {
-        float place;
-        int cell = noise_split(p[axis], place);
-        cells[axis] = noise_sides(lattice, axis, cell);
-        t[axis] = place;
-        fade[axis] = value ? cubic(place) : quintic(place);
+    float place;
+    ivec2 x = noise_sides(lattice, 0u, noise_split(p.x, place));
+    t.x = place;
+    ivec2 y = ivec2(0), z = ivec2(0), w = ivec2(0);
+    if (dimensions > 1u) {
+        y = noise_sides(lattice, 1u, noise_split(p.y, place));
+        t.y = place;
     }
-    // Mixed along x first, then y, z, w: level[k] waits for its partner along axis k.
-    float level[5];
-    uint corners = 1u << dimensions;
-    for (uint corner = 0u; corner < corners; corner++) {
-        uint share = lattice_first(lattice, cells[0][corner & 1u]);
-        precise vec4 away = t;
-        away.x = t.x - float(corner & 1u);
-        for (uint axis = 1u; axis < dimensions; axis++) {
-            uint side = (corner >> axis) & 1u;
-            share = lattice_join(lattice, share, axis, cells[axis][side]);
-            away[axis] = t[axis] - float(side);
-        }
-        uint here = lattice_word(lattice, share);
-        if (corner == 0u) word = here;
-        float mixed = value ? value_number(here) : perlin_corner(dimensions, here, away);
-        uint axis = 0u;
-        for (; axis < dimensions && ((corner >> axis) & 1u) != 0u; axis++) mixed = noise_mix(level[axis], mixed, fade[axis]);
-        level[axis] = mixed;
+    if (dimensions > 2u) {
+        z = noise_sides(lattice, 2u, noise_split(p.z, place));
+        t.z = place;
     }
-    return level[dimensions];
+    if (dimensions > 3u) {
+        w = noise_sides(lattice, 3u, noise_split(p.w, place));
+        t.w = place;
+    }
+    vec4 fade = value ? vec4(cubic(t.x), cubic(t.y), cubic(t.z), cubic(t.w))
+                      : vec4(quintic(t.x), quintic(t.y), quintic(t.z), quintic(t.w));
+    uvec4 shares = uvec4(lattice_first(lattice, x.x), lattice_first(lattice, x.y), 0u, 0u);
+    shares.zw = shares.xy;
+    if (dimensions > 1u) {
+        shares = uvec4(lattice_join(lattice, shares.x, 1u, y.x), lattice_join(lattice, shares.y, 1u, y.x),
+            lattice_join(lattice, shares.x, 1u, y.y), lattice_join(lattice, shares.y, 1u, y.y));
+    }
+    if (dimensions < 3u) {
+        word = lattice_word(lattice, shares.x);
+        return noise_face(lattice, value, dimensions, shares, t, fade, vec2(0.0));
+    }
+    uvec4 near = lattice_join4(lattice, shares, 2u, z.x);
+    uvec4 far = lattice_join4(lattice, shares, 2u, z.y);
+    if (dimensions == 3u) {
+        word = lattice_word(lattice, near.x);
+        float front = noise_face(lattice, value, dimensions, near, t, fade, vec2(0.0));
+        float back = noise_face(lattice, value, dimensions, far, t, fade, vec2(1.0, 0.0));
+        return noise_mix(front, back, fade.z);
+    }
+    uvec4 now = lattice_join4(lattice, near, 3u, w.x);
+    word = lattice_word(lattice, now.x);
+    float a = noise_face(lattice, value, dimensions, now, t, fade, vec2(0.0));
+    float b = noise_face(lattice, value, dimensions, lattice_join4(lattice, far, 3u, w.x), t, fade, vec2(1.0, 0.0));
+    float c = noise_face(lattice, value, dimensions, lattice_join4(lattice, near, 3u, w.y), t, fade, vec2(0.0, 1.0));
+    float d = noise_face(lattice, value, dimensions, lattice_join4(lattice, far, 3u, w.y), t, fade, vec2(1.0, 1.0));
+    return noise_mix(noise_mix(a, b, fade.z), noise_mix(c, d, fade.z), fade.w);
 }
 
 // What an octave adds before its amplitude: the noise itself, its absolute value, or its ridge.
