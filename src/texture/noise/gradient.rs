@@ -7,11 +7,32 @@
 
 use super::lattice::Lattice;
 
-/// A coordinate's cell and the place in it, [0, 1]. Cells saturate at the ends of their type.
+/// A coordinate's cell and the place in it, [0, 1]. Cells saturate at the ends of their type. `floor` and `as` say the same,
+/// but keep loops over points scalar; so the whole number comes from the bits.
 #[inline(always)]
 pub(super) fn split(x: f32) -> (i32, f32) {
-    let floor = x.floor();
-    (floor as i32, x - floor)
+    // From here on every number is whole.
+    const WHOLE: f32 = 8_388_608.0;
+    let bits = x.to_bits();
+    let size = f32::from_bits(bits & 0x7FFF_FFFF);
+    let negative = bits >> 31 != 0;
+    // Below 2^23 an addition rounds, and leaves the integer in the lower bits.
+    let shifted = size + WHOLE;
+    let rounded = f32::from_bits((shifted - WHOLE).to_bits() | (bits & 0x8000_0000));
+    let small = shifted.to_bits().wrapping_sub(WHOLE.to_bits()) as i32;
+    // From 2^23 on the significand is shifted, up to 2^31.
+    let exponent = (bits >> 23 & 0xFF) as i32 - 150;
+    let significand = ((bits & 0x007F_FFFF) | 0x0080_0000) as i32;
+    let large = significand.wrapping_shl(exponent as u32);
+    let is_small = size < WHOLE;
+    let magnitude = if is_small { small } else { large };
+    let above = is_small & (rounded > x);
+    let cell = (if negative { 0_i32.wrapping_sub(magnitude) } else { magnitude }).wrapping_sub(i32::from(above));
+    let end = if negative { i32::MIN } else { i32::MAX };
+    let cell = if exponent > 7 { end } else { cell };
+    let floor = if above { rounded - 1.0 } else { rounded };
+    let floor = if is_small { floor } else { x };
+    (cell, x - floor)
 }
 
 /// The cells on both sides of a coordinate.
@@ -93,12 +114,7 @@ pub(super) fn shares<L: Lattice>(lattice: &L, [x0, x1]: [i32; 2], [y0, y1]: [i32
 /// Shares joined with a cell of a further axis.
 #[inline(always)]
 pub(super) fn joined<L: Lattice>(lattice: &L, [a, b, c, d]: [u32; 4], axis: usize, cell: i32) -> [u32; 4] {
-    [
-        lattice.join(a, axis, cell),
-        lattice.join(b, axis, cell),
-        lattice.join(c, axis, cell),
-        lattice.join(d, axis, cell),
-    ]
+    [lattice.join(a, axis, cell), lattice.join(b, axis, cell), lattice.join(c, axis, cell), lattice.join(d, axis, cell)]
 }
 
 /// Gradient noise over a plane.

@@ -81,6 +81,14 @@ fn values_are_finite_bounded_and_spread() {
 }
 
 #[test]
+fn cells_are_what_floor_and_saturation_give() {
+    for x in hard_coordinates(100_000, 77) {
+        let (cell, place) = super::gradient::split(x);
+        assert_eq!((cell, place), (x.floor() as i32, x - x.floor()), "{x}");
+    }
+}
+
+#[test]
 fn gradient_noise_is_zero_on_lattice_points_and_smooth_across_cells() {
     let lattice = HashLattice::new(3);
     for i in -1000..1000_i32 {
