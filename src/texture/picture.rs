@@ -46,7 +46,7 @@ impl View {
         if !(1e-3..=1e4).contains(&self.scale) {
             bail!("a picture of {} units across, expected 0.001 to 10000", self.scale);
         }
-        if let Some(offset) = self.offset.iter().find(|offset| !(offset.abs() <= 1e5)) {
+        if let Some(offset) = self.offset.iter().find(|offset| !(-1e5..=1e5).contains(*offset)) {
             bail!("an offset of {offset} units, expected -1e5 to 1e5");
         }
         Ok(self)

@@ -247,10 +247,10 @@ fn row_of_errors(planes: &[Vec<f32>; 3], width: usize, row: usize, known: &[Know
         let mut sums = [0.0_f32; LANES];
         for pixel in known {
             let from = (row + pixel.y) * width + chunk * LANES + pixel.x;
-            for c in 0..3 {
-                let texels = &planes[c][from..from + LANES];
+            for (plane, colour) in planes.iter().zip(pixel.colour) {
+                let texels = &plane[from..from + LANES];
                 for lane in 0..LANES {
-                    let difference = texels[lane] - pixel.colour[c];
+                    let difference = texels[lane] - colour;
                     sums[lane] += difference * difference;
                 }
             }

@@ -110,11 +110,11 @@ impl Octaves {
         let (mut frequency, mut amplitude) = (self.frequency, 1.0);
         (0..count).map(move |_| {
             let mut row = Row { frequency: [frequency; 4], period: [0; 4], amplitude };
-            for axis in 0..4 {
-                if tile[axis] > 0.0 {
-                    let cells = (frequency * tile[axis]).round().clamp(1.0, 1e9);
+            for (axis, length) in tile.into_iter().enumerate() {
+                if length > 0.0 {
+                    let cells = (frequency * length).round().clamp(1.0, 1e9);
                     row.period[axis] = cells as i32;
-                    row.frequency[axis] = cells / tile[axis];
+                    row.frequency[axis] = cells / length;
                 }
             }
             frequency *= lacunarity;
