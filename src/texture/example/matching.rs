@@ -169,7 +169,7 @@ impl Matcher {
         best.map(|(place, error)| (place, error.max(0.0)))
     }
 
-    /// The way that takes fewer operations, as measured: a product summed directly costs about a quarter of one of a transform.
+    /// The way that takes fewer operations, by count: an estimate, since products summed directly are vector code.
     fn cheaper(&self, placements: usize, known: usize) -> Way {
         let area = (self.width * self.height) as f32;
         let direct = placements as f32 * known as f32;
