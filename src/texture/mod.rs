@@ -4,3 +4,4 @@ pub mod example;
 pub mod materials;
 pub mod noise;
 pub mod picture;
+pub mod stages;

@@ -46,7 +46,7 @@ impl View {
         if !(1e-3..=1e4).contains(&self.scale) {
             bail!("a picture of {} units across, expected 0.001 to 10000", self.scale);
         }
-        if let Some(offset) = self.offset.iter().find(|offset| !(offset.abs() <= 1e5)) {
+        if let Some(offset) = self.offset.iter().find(|offset| !(-1e5..=1e5).contains(*offset)) {
             bail!("an offset of {offset} units, expected -1e5 to 1e5");
         }
         Ok(self)
@@ -133,9 +133,13 @@ fn hit(solid: Solid, u: f32, v: f32) -> Option<([f32; 3], [f32; 3])> {
             (z2 >= 0.0).then(|| ([x, y, z2.sqrt()], [x, y, z2.sqrt()]))
         }
         Solid::Plane => {
-            // Leaning back by 50 degrees: v in the picture is cos 50 of it.
-            let (x, y) = (u * 1.5, v / 0.643 * 1.5);
-            (x.abs() <= 1.0 && y.abs() <= 1.0).then_some(([x, y, 0.0], [0.0, 0.643, 0.766]))
+            // Leaning back by 50 degrees, seen in perspective from 4 units away.
+            let (sin, cos) = 50.0_f32.to_radians().sin_cos();
+            let ray = [u * 1.45, v * 1.45, -4.0];
+            let towards = ray[1] * sin + ray[2] * cos;
+            let t = -4.0 * cos / towards;
+            let (x, y) = (t * ray[0], t * ray[1] * cos - (4.0 + t * ray[2]) * sin);
+            (towards < 0.0 && x.abs() <= 1.0 && y.abs() <= 1.0).then_some(([x, y, 0.0], [0.0, sin, cos]))
         }
         Solid::Cube => {
             // Turned by 35 degrees about y, then tipped by 28 degrees towards the eye.

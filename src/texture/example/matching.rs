@@ -169,7 +169,7 @@ impl Matcher {
         best.map(|(place, error)| (place, error.max(0.0)))
     }
 
-    /// The way that takes fewer operations, as measured: a product summed directly costs about a quarter of one of a transform.
+    /// The way that takes fewer operations, by count: an estimate, since products summed directly are vector code.
     fn cheaper(&self, placements: usize, known: usize) -> Way {
         let area = (self.width * self.height) as f32;
         let direct = placements as f32 * known as f32;
@@ -247,10 +247,10 @@ fn row_of_errors(planes: &[Vec<f32>; 3], width: usize, row: usize, known: &[Know
         let mut sums = [0.0_f32; LANES];
         for pixel in known {
             let from = (row + pixel.y) * width + chunk * LANES + pixel.x;
-            for c in 0..3 {
-                let texels = &planes[c][from..from + LANES];
+            for (plane, colour) in planes.iter().zip(pixel.colour) {
+                let texels = &plane[from..from + LANES];
                 for lane in 0..LANES {
-                    let difference = texels[lane] - pixel.colour[c];
+                    let difference = texels[lane] - colour;
                     sums[lane] += difference * difference;
                 }
             }

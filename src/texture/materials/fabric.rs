@@ -37,7 +37,7 @@ impl Solid for Fabric {
         let wander = 0.18 * self.irregularity * space.fbm(2, 2.5, p);
         // The cloth lies along z too, so that an object's sides are woven as its front is.
         let x = (p[0] + p[2]) * per_unit[0] + wander;
-        let y = p[1] * per_unit[1] - wander;
+        let y = (p[1] + p[2]) * per_unit[1] - wander;
         let (cx, cy) = (x.floor(), y.floor());
         let (column, row) = (cx as i64, cy as i64);
         let phase = (column + row).rem_euclid(2 * over);

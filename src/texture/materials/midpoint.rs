@@ -35,7 +35,7 @@ impl Surface {
             }
             // Middles of sides, from the two ends and the two middles beside them.
             for y in (0..side).step_by(half) {
-                let first = if y / half % 2 == 0 { half } else { 0 };
+                let first = if (y / half).is_multiple_of(2) { half } else { 0 };
                 for x in (first..side).step_by(step) {
                     let (l, r) = (wrap(x + side - half), wrap(x + half));
                     let (t, b) = (wrap(y + side - half), wrap(y + half));

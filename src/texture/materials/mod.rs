@@ -147,7 +147,9 @@ impl Material {
 /// Every number of a parameter file is finite and of a size that sums of octaves stay finite with.
 fn check_numbers(value: &toml::Value, key: &str) -> std::result::Result<(), String> {
     match value {
-        toml::Value::Float(x) if !(x.abs() <= 1e6) => Err(format!("{key} = {x}, expected a number from -1e6 to 1e6")),
+        toml::Value::Float(x) if !(-1e6..=1e6).contains(x) => {
+            Err(format!("{key} = {x}, expected a number from -1e6 to 1e6"))
+        }
         toml::Value::Array(items) => items.iter().try_for_each(|item| check_numbers(item, key)),
         toml::Value::Table(table) => table.iter().try_for_each(|(key, item)| check_numbers(item, key)),
         _ => Ok(()),

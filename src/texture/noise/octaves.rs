@@ -110,11 +110,11 @@ impl Octaves {
         let (mut frequency, mut amplitude) = (self.frequency, 1.0);
         (0..count).map(move |_| {
             let mut row = Row { frequency: [frequency; 4], period: [0; 4], amplitude };
-            for axis in 0..4 {
-                if tile[axis] > 0.0 {
-                    let cells = (frequency * tile[axis]).round().clamp(1.0, 1e9);
+            for (axis, length) in tile.into_iter().enumerate() {
+                if length > 0.0 {
+                    let cells = (frequency * length).round().clamp(1.0, 1e9);
                     row.period[axis] = cells as i32;
-                    row.frequency[axis] = cells / tile[axis];
+                    row.frequency[axis] = cells / length;
                 }
             }
             frequency *= lacunarity;
@@ -195,12 +195,16 @@ fn sum_lanes<K: Noise<N>, const N: usize>(
         let (mut frequency, mut amplitude) = (octaves.frequency, 1.0);
         for octave in 0..octaves.count {
             let lattice = lattice.octave(octave);
+            let mut values = [0.0; LANES];
             for lane in 0..LANES {
                 let mut q = [0.0; N];
                 for axis in 0..N {
                     q[axis] = p[axis][lane] * frequency;
                 }
-                total[lane] += part_of(octaves.sum, noise.at(&lattice, q)) * amplitude;
+                values[lane] = noise.at(&lattice, q);
+            }
+            for lane in 0..LANES {
+                total[lane] += part_of(octaves.sum, values[lane]) * amplitude;
             }
             frequency *= octaves.lacunarity;
             amplitude *= octaves.gain;

@@ -1,4 +1,4 @@
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::needless_range_loop)]
 
 use super::*;
 
@@ -77,6 +77,14 @@ fn values_are_finite_bounded_and_spread() {
             }
         }
         assert!(low.iter().zip(&high).all(|(low, high)| *low < -0.5 && *high > 0.5), "{low:?} {high:?}");
+    }
+}
+
+#[test]
+fn cells_are_what_floor_and_saturation_give() {
+    for x in hard_coordinates(100_000, 77) {
+        let (cell, place) = gradient::split(x);
+        assert_eq!((cell, place), (x.floor() as i32, x - x.floor()), "{x}");
     }
 }
 

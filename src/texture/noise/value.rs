@@ -1,7 +1,7 @@
 //! Value noise (SPEC B1): a number on each lattice point, a cubic between. In [-1, 1], with more weight on low frequencies
 //! than gradient noise has. Rounding and coordinates as there.
 
-use super::gradient::{mix, sides, split};
+use super::gradient::{joined, mix, shares, sides, split};
 use super::lattice::Lattice;
 
 #[inline(always)]
@@ -19,37 +19,34 @@ fn number(word: u32) -> f32 {
 #[inline(always)]
 pub fn value1<L: Lattice>(lattice: &L, [x]: [f32; 1]) -> f32 {
     let (cell, t) = split(x);
-    let [left, right] = sides(lattice, 0, cell).map(|cell| number(lattice.word(lattice.first(cell))));
-    mix(left, right, fade(t))
+    let [left, right] = sides(lattice, 0, cell);
+    mix(number(lattice.word(lattice.first(left))), number(lattice.word(lattice.first(right))), fade(t))
+}
+
+/// Four corners mixed along x and y.
+#[inline(always)]
+fn face<L: Lattice>(lattice: &L, [a, b, c, d]: [u32; 4], [fx, fy]: [f32; 2]) -> f32 {
+    let low = mix(number(lattice.word(a)), number(lattice.word(b)), fx);
+    let high = mix(number(lattice.word(c)), number(lattice.word(d)), fx);
+    mix(low, high, fy)
 }
 
 /// Value noise over a plane.
 #[inline(always)]
 pub fn value2<L: Lattice>(lattice: &L, [x, y]: [f32; 2]) -> f32 {
     let ((cx, tx), (cy, ty)) = (split(x), split(y));
-    let shares = sides(lattice, 0, cx).map(|cell| lattice.first(cell));
-    let fx = fade(tx);
-    let [low, high] = sides(lattice, 1, cy).map(|cell| {
-        let [left, right] = shares.map(|share| number(lattice.word(lattice.join(share, 1, cell))));
-        mix(left, right, fx)
-    });
-    mix(low, high, fade(ty))
+    face(lattice, shares(lattice, sides(lattice, 0, cx), sides(lattice, 1, cy)), [fade(tx), fade(ty)])
 }
 
 /// Value noise in space.
 #[inline(always)]
 pub fn value3<L: Lattice>(lattice: &L, [x, y, z]: [f32; 3]) -> f32 {
     let ((cx, tx), (cy, ty), (cz, tz)) = (split(x), split(y), split(z));
-    let shares = sides(lattice, 0, cx).map(|cell| lattice.first(cell));
-    let rows = sides(lattice, 1, cy).map(|cell| shares.map(|share| lattice.join(share, 1, cell)));
-    let (fx, fy) = (fade(tx), fade(ty));
-    let [near, far] = sides(lattice, 2, cz).map(|cell| {
-        let [low, high] = rows.map(|row| {
-            let [left, right] = row.map(|share| number(lattice.word(lattice.join(share, 2, cell))));
-            mix(left, right, fx)
-        });
-        mix(low, high, fy)
-    });
+    let corners = shares(lattice, sides(lattice, 0, cx), sides(lattice, 1, cy));
+    let [z0, z1] = sides(lattice, 2, cz);
+    let fades = [fade(tx), fade(ty)];
+    let near = face(lattice, joined(lattice, corners, 2, z0), fades);
+    let far = face(lattice, joined(lattice, corners, 2, z1), fades);
     mix(near, far, fade(tz))
 }
 
@@ -57,20 +54,13 @@ pub fn value3<L: Lattice>(lattice: &L, [x, y, z]: [f32; 3]) -> f32 {
 #[inline(always)]
 pub fn value4<L: Lattice>(lattice: &L, [x, y, z, w]: [f32; 4]) -> f32 {
     let ((cx, tx), (cy, ty), (cz, tz), (cw, tw)) = (split(x), split(y), split(z), split(w));
-    let shares = sides(lattice, 0, cx).map(|cell| lattice.first(cell));
-    let rows = sides(lattice, 1, cy).map(|cell| shares.map(|share| lattice.join(share, 1, cell)));
-    let layers = sides(lattice, 2, cz);
-    let (fx, fy, fz) = (fade(tx), fade(ty), fade(tz));
-    let [first, last] = sides(lattice, 3, cw).map(|time| {
-        let [near, far] = layers.map(|cell| {
-            let [low, high] = rows.map(|row| {
-                let [left, right] =
-                    row.map(|share| number(lattice.word(lattice.join(lattice.join(share, 2, cell), 3, time))));
-                mix(left, right, fx)
-            });
-            mix(low, high, fy)
-        });
-        mix(near, far, fz)
-    });
-    mix(first, last, fade(tw))
+    let corners = shares(lattice, sides(lattice, 0, cx), sides(lattice, 1, cy));
+    let ([z0, z1], [w0, w1]) = (sides(lattice, 2, cz), sides(lattice, 3, cw));
+    let (near, far) = (joined(lattice, corners, 2, z0), joined(lattice, corners, 2, z1));
+    let (fades, fz) = ([fade(tx), fade(ty)], fade(tz));
+    let a = face(lattice, joined(lattice, near, 3, w0), fades);
+    let b = face(lattice, joined(lattice, far, 3, w0), fades);
+    let c = face(lattice, joined(lattice, near, 3, w1), fades);
+    let d = face(lattice, joined(lattice, far, 3, w1), fades);
+    mix(mix(a, b, fz), mix(c, d, fz), fade(tw))
 }

@@ -1,0 +1,159 @@
+//! The device's noise beside the CPU's, under the validation layer.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use super::generated::FARTHEST_BITS;
+use super::*;
+use crate::gpu::{Device, DeviceSettings, Instance, Memory, Timing, Validation, ValidationLog, by_name};
+use crate::texture::noise::{
+    FARTHEST, HashLattice, Lattice, Noise, Octaves, Perlin, Sum, TableLattice, Tables, Value, hard_coordinates,
+};
+
+fn device(name: &str, validation: Validation) -> Option<(Device, ValidationLog)> {
+    match Instance::open(validation) {
+        Ok(instance) => Some((Device::open(&instance, DeviceSettings::default()).unwrap(), instance.validation_log())),
+        Err(error) => {
+            assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
+            println!("SKIPPED {name}: {error:#}");
+            None
+        }
+    }
+}
+
+/// Values and words of a request at points, and the milliseconds of the dispatch.
+fn on_device(device: &Device, request: &NoiseRequest<'_>, points: &[[f32; 4]]) -> (Vec<f32>, Vec<u32>, f64) {
+    let stage = NoiseStage::new(device, request).unwrap();
+    let input = device.buffer::<[f32; 4]>("points", points.len(), Memory::Upload).unwrap();
+    input.write(0, points).unwrap();
+    let values = device.buffer::<f32>("values", points.len(), Memory::Readback).unwrap();
+    let words = device.buffer::<u32>("words", points.len(), Memory::Readback).unwrap();
+    let mut recorder = device.recorder(Timing::Stamps).unwrap();
+    stage.record(&mut recorder, &input, &values, &words, points.len() as u32).unwrap();
+    let mut recording = recorder.finish().unwrap();
+    let mut best = f64::MAX;
+    for _ in 0..3 {
+        recording.run().unwrap();
+        best = by_name(&recording.timings().unwrap()).first().map_or(best, |(_, ms, _)| best.min(*ms));
+    }
+    let (mut found, mut found_words) = (vec![0.0; points.len()], vec![0; points.len()]);
+    values.read(0, &mut found).unwrap();
+    words.read(0, &mut found_words).unwrap();
+    (found, found_words, best)
+}
+
+/// The word of a point's cell in the first octave, by the lattice alone.
+fn word(lattice: &impl Lattice, dimensions: usize, p: [f32; 4], octaves: &Octaves, tile: [f32; 4]) -> u32 {
+    let row = octaves.rows(tile).next().unwrap();
+    let cell = |axis: usize| {
+        let cell = (p[axis].clamp(-FARTHEST, FARTHEST) * row.frequency[axis]).floor() as i32;
+        if row.period[axis] > 0 { cell.rem_euclid(row.period[axis]) } else { cell }
+    };
+    lattice.word((1..dimensions).fold(lattice.first(cell(0)), |share, axis| lattice.join(share, axis, cell(axis))))
+}
+
+fn agree<const N: usize>(device: &Device, points: &[[f32; 4]], request: &NoiseRequest<'_>) -> usize
+where
+    Perlin: Noise<N>,
+    Value: Noise<N>,
+{
+    let (values, words, _) = on_device(device, request, points);
+    let mut unequal = 0;
+    for (i, p) in points.iter().enumerate() {
+        let first: [f32; N] = std::array::from_fn(|axis| p[axis]);
+        let tile: [f32; N] = std::array::from_fn(|axis| request.tile[axis]);
+        macro_rules! with {
+            ($lattice:expr) => {{
+                let lattice = $lattice;
+                let value = match request.kind {
+                    NoiseKind::Perlin => request.octaves.at(Perlin, &lattice, tile, first),
+                    NoiseKind::Value => request.octaves.at(Value, &lattice, tile, first),
+                };
+                (value, word(&lattice.octave(0), N, *p, &request.octaves, request.tile))
+            }};
+        }
+        let (value, word) = match request.source {
+            NoiseSource::Hash(lattice) => with!(lattice),
+            NoiseSource::Tables(tables) => with!(TableLattice::new(tables)),
+        };
+        assert_eq!(words[i], word, "{request:?} at {p:?}");
+        assert!((values[i] - value).abs() <= 1e-5, "{request:?} at {p:?}: {} on the device, {value} here", values[i]);
+        unequal += usize::from(values[i].to_bits() != value.to_bits());
+    }
+    unequal
+}
+
+#[test]
+fn a_device_has_the_words_and_values_of_the_cpu() {
+    let name = "a_device_has_the_words_and_values_of_the_cpu";
+    let Some((device, log)) = device(name, Validation::Synchronisation) else { return };
+    assert_eq!(f32::from_bits(FARTHEST_BITS), FARTHEST);
+    let rows: Vec<Vec<f32>> = (0..4).map(|axis| hard_coordinates(100_000, 40 + axis)).collect();
+    let points: Vec<[f32; 4]> = (0..100_000).map(|i| [rows[0][i], rows[1][i], rows[2][i], rows[3][i]]).collect();
+    let tables = Tables::new(3);
+    let (hash, table) = (NoiseSource::Hash(HashLattice::new(3)), NoiseSource::Tables(&tables));
+    let one = Octaves { count: 1, ..Octaves::default() };
+    let four = |sum| Octaves { sum, frequency: 1.3, ..Octaves::default() };
+    let mut unequal = 0;
+    for kind in [NoiseKind::Perlin, NoiseKind::Value] {
+        let request = |dimensions, octaves, source, tile| NoiseRequest { dimensions, kind, octaves, source, tile };
+        unequal += agree::<1>(&device, &points, &request(1, one, hash, [0.0; 4]));
+        unequal += agree::<2>(&device, &points, &request(2, one, hash, [0.0; 4]));
+        unequal += agree::<3>(&device, &points, &request(3, one, hash, [0.0; 4]));
+        unequal += agree::<4>(&device, &points, &request(4, one, hash, [0.0; 4]));
+        unequal += agree::<3>(&device, &points, &request(3, one, table, [0.0; 4]));
+        unequal += agree::<3>(&device, &points, &request(3, four(Sum::Turbulence), hash, [0.0; 4]));
+        unequal += agree::<2>(&device, &points, &request(2, four(Sum::Ridged), table, [0.0; 4]));
+        unequal += agree::<3>(&device, &points, &request(3, four(Sum::Fbm), hash, [7.0, 3.5, 0.0, 0.0]));
+    }
+    println!("{unequal} of 1600000 values differ in a bit");
+    drop(device);
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+#[test]
+fn wrong_requests_and_short_buffers_are_refused() {
+    let Some((device, log)) = device("wrong_requests_and_short_buffers_are_refused", Validation::Synchronisation)
+    else {
+        return;
+    };
+    let request = NoiseRequest {
+        dimensions: 3,
+        kind: NoiseKind::Perlin,
+        octaves: Octaves::default(),
+        source: NoiseSource::Hash(HashLattice::new(0)),
+        tile: [0.0; 4],
+    };
+    let message = |request: NoiseRequest<'_>| NoiseStage::new(&device, &request).unwrap_err().to_string();
+    assert!(message(NoiseRequest { dimensions: 5, ..request }).contains("noise of 5 dimensions"));
+    assert!(
+        message(NoiseRequest { octaves: Octaves { count: 0, ..Octaves::default() }, ..request }).contains("0 octaves")
+    );
+    let stage = NoiseStage::new(&device, &request).unwrap();
+    let short = device.buffer::<f32>("short", 8, Memory::Device).unwrap();
+    let mut recorder = device.recorder(Timing::Off).unwrap();
+    let error = stage.record(&mut recorder, &short, &short, &short, 8).unwrap_err().to_string();
+    assert!(error.contains("too short"), "{error}");
+    drop((recorder, stage, short, device));
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+/// Prints samples a second by the time stamps around the dispatch: `cargo test --release noise_speed -- --ignored --nocapture`.
+#[test]
+#[ignore = "a measurement"]
+fn noise_speed_on_the_device() {
+    let Some((device, _)) = device("noise_speed_on_the_device", Validation::Off) else { return };
+    let points: Vec<[f32; 4]> =
+        (0..1 << 20).map(|i| [(i % 1024) as f32 * 0.037, (i / 1024) as f32 * 0.037, 0.4, 0.0]).collect();
+    for (name, count, source) in [("perlin 3D", 1, true), ("perlin 3D fbm, 4 octaves", 4, true), ("tables", 4, false)] {
+        let tables = Tables::new(1);
+        let request = NoiseRequest {
+            dimensions: 3,
+            kind: NoiseKind::Perlin,
+            octaves: Octaves { count, ..Octaves::default() },
+            source: if source { NoiseSource::Hash(HashLattice::new(1)) } else { NoiseSource::Tables(&tables) },
+            tile: [0.0; 4],
+        };
+        let (_, _, ms) = on_device(&device, &request, &points);
+        println!("{name}: {:.1} million samples a second", points.len() as f64 / ms / 1e3);
+    }
+}
