@@ -83,7 +83,7 @@ impl Searcher {
             Some(_) => {
                 settings.check_room(space)?;
                 Self::Device(Box::new(OnDevice {
-                    settings: settings.clone(),
+                    settings: *settings,
                     space: space.clone(),
                     objective: *objective,
                     timing,
