@@ -148,7 +148,12 @@ fn measure(preset: Preset, task: &Task, scene: &Scene, evaluators: Vec<Box<dyn E
                 if is_slow && preset == Preset::Quick {
                     fitness.truncate(few);
                 }
-                entries.push(Entry { evaluator, fitness });
+                // Once in the size that is measured: rooms are made and their memory is touched for the first time.
+                let warm = evaluator.fitness(&poses[..fitness.len() * scene.pose.len()], &objective, &mut fitness);
+                match warm {
+                    Ok(()) => entries.push(Entry { evaluator, fitness }),
+                    Err(error) => report.unavailable.push(refusal(task, evaluator.as_ref(), &error)),
+                }
             }
             Err(error) => report.unavailable.push(refusal(task, evaluator.as_ref(), &error)),
         }
