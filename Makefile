@@ -37,6 +37,8 @@ HAS_LAYER = { [ -n "$$VK_LAYER_PATH" ] || ls /usr/share/vulkan/explicit_layer.d 
 # With both, a test that finds no device fails instead of being skipped.
 NEEDS_VULKAN = $$(if $(HAS_DRIVER) && $(HAS_LAYER); then echo PANTIN_NEEDS_VULKAN=1; fi)
 
+# One seed for the property tests: whoever runs them twice gets one answer. A plain `cargo test` draws new cases each time.
+test: export PROPTEST_RNG_SEED = 1
 test: toolchain shaderc ffmpeg vulkan
 	$(CARGO) fmt --check
 	$(CARGO) clippy --locked --all-targets -- -D warnings

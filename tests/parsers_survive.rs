@@ -211,6 +211,23 @@ fn answers(format: &str, parse: Parser, bytes: &[u8]) -> Result<(), TestCaseErro
     Ok(())
 }
 
+/// What a parser's own message once carried over from the file: line ends, and numbers without an end.
+#[test]
+fn a_quoted_piece_keeps_the_line() {
+    let cases = [
+        ("opencv", "units>mm", "units>m\nm"),
+        ("opencv", "</opencv_storage", "</opencv_storage\n<"),
+        ("qualisys", "</calibration", "</calibration\n<"),
+        ("bvh", "OFFSET 0", "OFFSET 1e300"),
+    ];
+    for (format, whole, damaged) in cases {
+        let text = String::from_utf8(seeds(format).swap_remove(0)).unwrap().replacen(whole, damaged, 1);
+        let (_, parse) = PARSERS.iter().find(|(name, _)| *name == format).unwrap();
+        assert!(parse(text.as_bytes()).is_err(), "{format}: {text}");
+        answers(format, *parse, text.as_bytes()).unwrap();
+    }
+}
+
 #[test]
 fn every_truncation_is_answered() {
     for (format, parse) in PARSERS {

@@ -252,7 +252,7 @@ impl fmt::Display for Ended {
         match (&self.status, self.last_line.as_str()) {
             (Some(status), "") => write!(f, "ffmpeg gave no reason ({status})"),
             (None, "") => write!(f, "ffmpeg gave no reason"),
-            (_, line) => write!(f, "ffmpeg says \"{line}\""),
+            (_, line) => write!(f, "ffmpeg says {line:?}"),
         }
     }
 }

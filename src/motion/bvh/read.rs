@@ -102,7 +102,7 @@ impl<'a> Words<'a> {
         let offset = DVec3::new(self.number("OFFSET")?, self.number("OFFSET")?, self.number("OFFSET")?);
         ensure!(
             offset.abs().max_element() <= LARGEST_COORDINATE,
-            "OFFSET is {offset}, expected numbers below {LARGEST_COORDINATE:e}"
+            "OFFSET is {offset:?}, expected numbers below {LARGEST_COORDINATE:e}"
         );
         Ok(offset)
     }
@@ -196,7 +196,10 @@ fn values(row: &str, channels: usize) -> Result<Vec<f64>> {
         .split_whitespace()
         .map(|cell| {
             let value = finite(cell)?;
-            ensure!(value.abs() <= LARGEST_COORDINATE, "found {value}, expected numbers below {LARGEST_COORDINATE:e}");
+            ensure!(
+                value.abs() <= LARGEST_COORDINATE,
+                "found {value:?}, expected numbers below {LARGEST_COORDINATE:e}"
+            );
             Ok(value)
         })
         .collect::<Result<Vec<f64>>>()?;
@@ -245,7 +248,7 @@ mod tests {
             (until(" 8\n"), "line 20: found 3 values, expected 4"),
             (SMALL.replace("7 8", "7 8 9"), "line 20: found 5 values, expected 4"),
             (SMALL.replace("7 8", "7 nan"), "line 20: found `nan`, expected a finite number"),
-            (SMALL.replace("7 8", "7 1e12"), "line 20: found 1000000000000, expected numbers below 1e9"),
+            (SMALL.replace("7 8", "7 1e12"), "line 20: found 1000000000000.0, expected numbers below 1e9"),
             (SMALL.replace("Frames: 2", "Frames: two"), "line 17: Frames: found `two`"),
             (SMALL.replace("Frames: 2", "Frames: 4000000000"), "holds 2 frames, expected 4000000000"),
             (SMALL.replace("Frames: 2", "Frames 2"), "line 17: found `Frames 2`, expected `Frames:`"),

@@ -78,7 +78,7 @@ fn refuse_other_models(storage: &Storage, file: &str) -> Result<()> {
     for Entry { key, line, value } in &storage.entries {
         match (key.as_str(), value) {
             ("distortion_model", Value::Text(model)) if model != "plumb_bob" => {
-                bail!("{file}, line {line}: distortion_model is \"{model}\", expected \"plumb_bob\"")
+                bail!("{file}, line {line}: distortion_model is {model:?}, expected \"plumb_bob\"")
             }
             ("fisheye_model", Value::Numbers(flag)) if flag.iter().any(|&flag| flag != 0.0) => {
                 bail!("{file}, line {line}: fisheye_model is set, expected 0: fisheye lenses are not supported")

@@ -2,8 +2,10 @@
 //! pictures, points, statistics) is passed over.
 
 use anyhow::{Result, anyhow, bail, ensure};
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 use saphyr_parser::{Event, Parser, Span};
+
+use super::checks::parse_xml;
 
 /// Calibrations are three levels deep; a file built to exhaust memory is much deeper.
 const DEEPEST: usize = 16;
@@ -39,7 +41,7 @@ pub(super) enum Value {
 impl Storage {
     /// Reads OpenCV's XML.
     pub(super) fn from_xml(text: &str, name: &str) -> Result<Self> {
-        let document = Document::parse(text).map_err(|error| anyhow!("{name} is not XML: {error}"))?;
+        let document = parse_xml(text, name)?;
         let root = document.root_element();
         ensure!(
             root.has_tag_name("opencv_storage"),

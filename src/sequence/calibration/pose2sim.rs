@@ -122,7 +122,7 @@ fn camera(name: &str, entry: &CameraEntry) -> Result<Camera> {
     match entry.model.as_deref() {
         None | Some("brown-conrady") => {}
         Some("tsai") => return tsai_camera(name, size, entry),
-        Some(model) => bail!("model is \"{model}\", expected \"tsai\" or no such key"),
+        Some(model) => bail!("model is {model:?}, expected \"tsai\" or no such key"),
     }
     ensure!(entry.tsai.is_none(), "tsai is given without model = \"tsai\", expected both or neither");
     ensure!(!entry.fisheye, "fisheye is true, expected false: fisheye lenses are not supported, calibrate without");

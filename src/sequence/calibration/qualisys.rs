@@ -4,9 +4,9 @@ use std::str::FromStr;
 
 use anyhow::{Context, Result, anyhow, ensure};
 use glam::{DAffine3, DMat3, DVec3};
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 
-use super::checks::{brown_conrady, names, picture_size, rotation_matrix, translation};
+use super::checks::{brown_conrady, names, parse_xml, picture_size, rotation_matrix, translation};
 use super::units::{Units, to_mm};
 use crate::geometry::Camera;
 
@@ -19,7 +19,7 @@ const STEPS_PER_PIXEL: f64 = 64.0;
 /// # Errors
 /// As [`super::read_cameras`].
 pub fn parse_qualisys(text: &str, name: &str) -> Result<Vec<Camera>> {
-    let document = Document::parse(text).map_err(|error| anyhow!("{name} is not XML: {error}"))?;
+    let document = parse_xml(text, name)?;
     let root = document.root_element();
     ensure!(
         root.has_tag_name("calibration"),
@@ -87,5 +87,5 @@ fn attribute(node: Node, key: &str) -> Result<f64> {
     let tag = node.tag_name().name();
     let text = node.attribute(key).ok_or_else(|| anyhow!("{key} is missing from `{tag}`"))?;
     let value = f64::from_str(text.trim()).ok().filter(|value| value.is_finite());
-    value.ok_or_else(|| anyhow!("{key} of `{tag}` is \"{text}\", expected a finite number"))
+    value.ok_or_else(|| anyhow!("{key} of `{tag}` is {text:?}, expected a finite number"))
 }

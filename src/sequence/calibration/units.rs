@@ -22,7 +22,7 @@ impl Units {
         match name {
             "m" => Ok(Self::Metres),
             "mm" => Ok(Self::Millimetres),
-            _ => Err(anyhow!("units is \"{name}\", expected \"m\" or \"mm\"")),
+            _ => Err(anyhow!("units is {name:?}, expected \"m\" or \"mm\"")),
         }
     }
 
