@@ -104,7 +104,7 @@ fn main() {
             .map(|view| {
                 let image = reference.draw(&poses[..body.dof_count()], view);
                 let bytes = image.bytes.iter().map(|&drawn| if drawn == 0 { 0 } else { 0x80 | drawn }).collect();
-                Observation { width: image.width, height: image.height, bytes }
+                Observation { width: image.width, height: image.height, bytes, segmentation: None }
             })
             .collect();
         let mut graphics = Graphics::of_mesh(&device, &body, mesh, &cameras, GraphicsSettings::default()).unwrap();

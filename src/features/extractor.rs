@@ -5,8 +5,8 @@ use image::{GrayImage, RgbImage};
 use rayon::prelude::*;
 
 use super::edges::EdgeDetector;
+use super::foreground::Foreground;
 use super::morphology::Morphology;
-use super::segmentation::Segmentation;
 use super::settings::EdgeSettings;
 use super::{BitImage, DistanceMap, FeatureSettings, Observation, Region};
 
@@ -58,7 +58,7 @@ impl ViewFeatures {
 struct View {
     width: u32,
     height: u32,
-    segmentation: Segmentation,
+    foreground: Foreground,
     near: BitImage,
     morphology: Morphology,
     detector: EdgeDetector,
@@ -108,7 +108,7 @@ impl Extractor {
         self.check_frame(pictures, None)?;
         let settings = &self.settings;
         self.views.par_iter_mut().zip(pictures).for_each(|(view, picture)| {
-            view.segmentation.learn(picture, settings);
+            view.foreground.learn(picture, settings);
         });
         Ok(())
     }
@@ -197,7 +197,7 @@ impl View {
         Ok(Self {
             width,
             height,
-            segmentation: Segmentation::new(width, height, source.plate, settings),
+            foreground: Foreground::new(width, height, source.plate, settings),
             near: BitImage::new(width, height),
             morphology: Morphology::default(),
             detector: EdgeDetector::default(),
@@ -218,7 +218,7 @@ impl View {
                 features.silhouette.copy_from(&features.foreground);
             }
             None => {
-                self.segmentation.segment(picture, settings, &mut features.foreground, &mut features.silhouette);
+                self.foreground.find(picture, settings, &mut features.foreground, &mut features.silhouette);
             }
         }
         let bounds = features.silhouette.bounds();

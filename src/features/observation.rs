@@ -2,15 +2,16 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use image::codecs::png::PngEncoder;
 use image::{DynamicImage, ExtendedColorType, GrayImage, ImageEncoder, ImageReader};
 
-use super::{BitImage, DistanceMap};
+use super::{BitImage, DistanceMap, Segmentation};
 use crate::files::{Overwrite, write_atomically};
 
-/// One camera's packed observation: bit 7 the silhouette, bits 0..=6 the edge proximity (127 on an edge, 0 far away).
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// One camera's packed observation: bit 7 the silhouette, bits 0..=6 the edge proximity (127 on an edge, 0 far away); and
+/// the body parts in a second plane, where they are told apart.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
     /// Width, pixels.
     pub width: u32,
@@ -18,6 +19,8 @@ pub struct Observation {
     pub height: u32,
     /// Row-major bytes, `width * height` of them.
     pub bytes: Vec<u8>,
+    /// The segment of each pixel, of the same size; [`Self::with_segmentation`] checks that. `None` without segments.
+    pub segmentation: Option<Segmentation>,
 }
 
 impl Observation {
@@ -28,7 +31,28 @@ impl Observation {
 
     /// An observation of nothing.
     pub fn empty(width: u32, height: u32) -> Self {
-        Self { width, height, bytes: vec![0; width as usize * height as usize] }
+        Self { width, height, bytes: vec![0; width as usize * height as usize], segmentation: None }
+    }
+
+    /// The observation with its body parts told apart.
+    ///
+    /// # Errors
+    /// When the segmentation is of another size, or a pixel outside the silhouette has a segment.
+    pub fn with_segmentation(mut self, segmentation: Segmentation) -> Result<Self> {
+        let (width, height) = segmentation.dimensions();
+        ensure!(
+            (width, height) == (self.width, self.height) && self.bytes.len() == segmentation.numbers().len(),
+            "a segmentation of {width} x {height} pixels was given for an observation of {} x {}",
+            self.width,
+            self.height
+        );
+        let mut pairs = self.bytes.iter().zip(segmentation.numbers());
+        if let Some(at) = pairs.position(|(byte, &number)| number != 0 && byte & Self::SILHOUETTE == 0) {
+            let (x, y) = (at % width as usize, at / width as usize);
+            bail!("pixel ({x}, {y}) has a segment and lies outside the silhouette, expected segments only inside");
+        }
+        self.segmentation = Some(segmentation);
+        Ok(self)
     }
 
     /// The number of silhouette pixels.
@@ -98,7 +122,7 @@ impl Observation {
             .with_context(|| format!("cannot read the packed observation {}", path.display()))?;
         match picture {
             DynamicImage::ImageLuma8(gray) => {
-                Ok(Self { width: gray.width(), height: gray.height(), bytes: gray.into_raw() })
+                Ok(Self { width: gray.width(), height: gray.height(), bytes: gray.into_raw(), segmentation: None })
             }
             other => bail!(
                 "{} holds pixels of the kind {:?}, expected a packed observation: one 8-bit grey value a pixel",
@@ -111,8 +135,10 @@ impl Observation {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ProximitySettings;
+    use std::sync::Arc;
+
     use super::super::bit_image::any_bit_image;
+    use super::super::{ProximitySettings, Segment, Segments};
     use super::*;
     use proptest::prelude::*;
 
@@ -136,7 +162,7 @@ mod tests {
     fn png_round_trip_and_a_changed_byte_shows() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("cam01.png");
-        let mut observation = Observation { width: 16, height: 16, bytes: (0..=255).collect() };
+        let mut observation = Observation { bytes: (0..=255).collect(), ..Observation::empty(16, 16) };
         observation.write_png(&path, Overwrite::Refuse).unwrap();
         assert_eq!(Observation::read_png(&path).unwrap(), observation);
         observation.bytes[77] ^= 1;
@@ -159,8 +185,24 @@ mod tests {
             assert!(error.contains(name), "{error}");
         }
         assert!(Observation::read_png(&folder.path().join("none.png")).is_err());
-        let broken = Observation { width: 3, height: 3, bytes: vec![0; 8] };
+        let broken = Observation { bytes: vec![0; 8], ..Observation::empty(3, 3) };
         let error = broken.write_png(&folder.path().join("broken.png"), Overwrite::Refuse).unwrap_err().to_string();
         assert!(error.contains("3 x 3") && error.contains('8'), "{error}");
+    }
+
+    #[test]
+    fn segments_lie_inside_the_silhouette() {
+        let segment = Segment { name: "skin".to_owned(), labels: vec![4], weight: 1.0 };
+        let segments = Arc::new(Segments::new(vec![segment]).unwrap());
+        let seen = Observation { bytes: vec![0x80, 0x85, 0x7f, 0], ..Observation::empty(2, 2) };
+        let plane = |width, height, numbers: &[u8]| {
+            Segmentation::new(Arc::clone(&segments), width, height, numbers.to_vec()).unwrap()
+        };
+        let segmented = seen.clone().with_segmentation(plane(2, 2, &[1, 0, 0, 0])).unwrap();
+        assert_eq!(segmented.segmentation.unwrap().areas(), [1]);
+        let outside = seen.clone().with_segmentation(plane(2, 2, &[1, 1, 1, 0])).unwrap_err().to_string();
+        assert!(outside.contains("(0, 1)") && outside.contains("outside the silhouette"), "{outside}");
+        let wider = seen.with_segmentation(plane(4, 1, &[0; 4])).unwrap_err().to_string();
+        assert!(wider.contains("4 x 1") && wider.contains("2 x 2"), "{wider}");
     }
 }

@@ -280,7 +280,7 @@ fn observed(image: &CandidateImage) -> Observation {
         let silhouette = if drawn != 0 { Observation::SILHOUETTE } else { 0 };
         silhouette | (index as u32).wrapping_mul(2_654_435_761).to_be_bytes()[0] & Observation::PROXIMITY
     });
-    Observation { width: image.width, height: image.height, bytes: bytes.collect() }
+    Observation { width: image.width, height: image.height, bytes: bytes.collect(), segmentation: None }
 }
 
 fn row<'a>(poses: &'a [f32], body: &Body, candidate: usize) -> &'a [f32] {
