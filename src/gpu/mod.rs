@@ -6,12 +6,16 @@
 
 mod buffer;
 mod capability;
+mod copies;
+mod descriptors;
 mod device;
+mod drawing;
 mod hazards;
 mod image;
 mod instance;
 mod loss;
 mod memory;
+mod pass;
 mod pipeline;
 mod recorder;
 mod recording;
@@ -29,8 +33,9 @@ pub use image::{Format, Image, ImageUse};
 pub use instance::Instance;
 pub use loss::{DeviceLost, OutOfMemory};
 pub use memory::Memory;
+pub use pass::{Clear, Dispatch, Draw, Feedback, Groups, Target, Viewport};
 pub use pipeline::{Blend, Drawing, Pipeline, Stage, Topology};
-pub use recorder::{Clear, Dispatch, Draw, Feedback, Groups, Recorder, Target, Viewport};
+pub use recorder::Recorder;
 pub use recording::Recording;
 pub use shader::{Access, Binding, BindingKind, BindingLayout, Bound, Shader, ShaderKind, SpecConstant};
 pub use timing::{DevicePass, PassStatistics, PassTiming, Timing, by_name};

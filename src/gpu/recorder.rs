@@ -1,128 +1,37 @@
 //! The one way to run anything: passes are recorded with their label, breadcrumb, timestamps and the barriers they need.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ffi::CString;
-use std::ops::Range;
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, ensure};
 use ash::vk;
 use ash::vk::Handle as _;
 
 use super::buffer::Buffer;
+use super::descriptors::Descriptors;
 use super::device::Device;
 use super::hazards::{Hazards, Use};
 use super::image::{Image, whole};
 use super::memory::Memory;
-use super::pipeline::{Pipeline, descriptor_type};
+use super::pass::{Dispatch, Groups};
+use super::pipeline::Pipeline;
 use super::recording::{Recording, RecordingParts};
-use super::shader::{Access, Binding, BindingKind, Bound};
+use super::shader::{Binding, Bound};
 use super::timing::Timing;
 
 /// Most passes of a recording: its queries and breadcrumbs are made for so many.
 const MOST_PASSES: usize = 4096;
-/// Descriptor sets of a pool; a recording takes another pool when one is used up.
-const SETS_A_POOL: u32 = 128;
-
-/// How many workgroups are run.
-#[derive(Clone, Copy, Debug)]
-pub enum Groups<'a> {
-    /// So many in x, y, z.
-    Count([u32; 3]),
-    /// Three words of a buffer, from this byte on.
-    Indirect(&'a Buffer, u64),
-}
-
-/// One run of a compute pipeline.
-#[derive(Clone, Copy, Debug)]
-pub struct Dispatch<'a> {
-    /// The pipeline.
-    pub pipeline: &'a Pipeline,
-    /// What its descriptors point to.
-    pub bindings: &'a [Binding<'a>],
-    /// Its push constants.
-    pub push: &'a [u8],
-    /// Its workgroups.
-    pub groups: Groups<'a>,
-}
-
-/// Part of a target in pixels, and the range that depths 0 to 1 are mapped to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Viewport {
-    /// Left, top, width, height, pixels.
-    pub area: [f32; 4],
-    /// Nearest and farthest depth.
-    pub depth: [f32; 2],
-}
-
-/// One draw of a graphics pipeline.
-#[derive(Clone, Debug)]
-pub struct Draw<'a> {
-    /// The pipeline.
-    pub pipeline: &'a Pipeline,
-    /// What its descriptors point to.
-    pub bindings: &'a [Binding<'a>],
-    /// Its push constants.
-    pub push: &'a [u8],
-    /// Where clip coordinates land.
-    pub viewport: Viewport,
-    /// Left, top, width, height of what may be touched, pixels.
-    pub scissor: [u32; 4],
-    /// Vertex numbers, or places in the index buffer.
-    pub vertices: Range<u32>,
-    /// Instance numbers.
-    pub instances: Range<u32>,
-    /// A buffer of 32-bit vertex numbers.
-    pub indices: Option<&'a Buffer>,
-    /// Four words of a buffer, from this byte on, that an earlier pass wrote, instead of `vertices` and `instances`: how many
-    /// vertices, how many instances, the first vertex, and 0. Not together with `indices`.
-    pub indirect: Option<(&'a Buffer, u64)>,
-}
-
-/// What becomes of a target's contents before it is drawn into.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Clear {
-    /// They stay.
-    Keep,
-    /// They may be anything.
-    Discard,
-    /// The area is set to a colour; of a depth target, to the first number.
-    Value([f32; 4]),
-}
-
-/// What a pass draws into.
-#[derive(Clone, Copy, Debug)]
-pub struct Target<'a> {
-    /// The colour image.
-    pub colour: (&'a Image, Clear),
-    /// The depth image.
-    pub depth: Option<(&'a Image, Clear)>,
-    /// Left, top, width, height of what is cleared and drawn, pixels.
-    pub area: [u32; 4],
-}
-
-/// Where transform feedback writes: everything behind an offset, in bytes.
-#[derive(Clone, Copy, Debug)]
-pub struct Feedback<'a> {
-    /// The buffer.
-    pub buffer: &'a Buffer,
-    /// First byte.
-    pub offset: u64,
-    /// Bytes.
-    pub size: u64,
-}
 
 /// A sequence of passes being recorded.
 pub struct Recorder {
-    device: Device,
-    parts: RecordingParts,
+    pub(super) device: Device,
+    pub(super) parts: RecordingParts,
     timing: Timing,
     hazards: Hazards,
     /// Layouts of images that are not in GENERAL.
     layouts: HashMap<u64, (Image, vk::ImageLayout)>,
-    /// Descriptor sets written so far, by layout and what is bound.
-    sets: HashMap<(vk::DescriptorSetLayout, Vec<(u32, u64)>), vk::DescriptorSet>,
-    sets_left: u32,
-    kept: std::collections::HashSet<u64>,
+    descriptors: Descriptors,
+    kept: HashSet<u64>,
 }
 
 impl std::fmt::Debug for Recorder {
@@ -206,9 +115,8 @@ impl Device {
             timing,
             hazards: Hazards::default(),
             layouts: HashMap::new(),
-            sets: HashMap::new(),
-            sets_left: 0,
-            kept: std::collections::HashSet::new(),
+            descriptors: Descriptors::default(),
+            kept: HashSet::new(),
         };
         // What ran before, this recording's own last run included, comes first.
         recorder.barrier(&[]);
@@ -246,7 +154,7 @@ impl Recorder {
             uses.push(Use { resource: buffer_id(buffer), writes: false });
             self.keep_buffer(buffer);
         }
-        self.wait_for(&uses, &self.readable(dispatch.bindings));
+        self.wait_for(&uses, &readable(dispatch.bindings));
         self.bind(name, dispatch.pipeline, dispatch.bindings, dispatch.push)?;
         let raw = &self.device.shared.raw;
         match dispatch.groups {
@@ -273,235 +181,6 @@ impl Recorder {
         Ok(())
     }
 
-    /// A pass that draws into a target, in the order of the draws.
-    ///
-    /// # Errors
-    /// As [`Self::compute`]; also when the area leaves the target.
-    pub fn draw(&mut self, name: &str, target: &Target<'_>, draws: &[Draw<'_>]) -> Result<()> {
-        let (colour, _) = target.colour;
-        let [left, top, width, height] = target.area;
-        for image in std::iter::once(colour).chain(target.depth.map(|(image, _)| image)) {
-            let [w, h] = image.size();
-            ensure!(
-                left.saturating_add(width) <= w && top.saturating_add(height) <= h,
-                "the pass {name} draws into {width}x{height} pixels from {left}, {top}, and {} has {w}x{h}",
-                image.name()
-            );
-        }
-        self.begin(name)?;
-        let mut all = self.uses_of(draws);
-        let mut layouts: Vec<(Image, vk::ImageLayout)> = Vec::new();
-        for draw in draws {
-            layouts.extend(self.readable(draw.bindings));
-        }
-        all.push(Use { resource: image_id(colour), writes: true });
-        layouts.push((colour.clone(), vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL));
-        self.keep_image(colour);
-        if let Some((depth, _)) = target.depth {
-            all.push(Use { resource: image_id(depth), writes: true });
-            layouts.push((depth.clone(), vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL));
-            self.keep_image(depth);
-        }
-        self.wait_for(&all, &layouts);
-        let sets = self.prepare(name, draws)?;
-        let attachment = |image: &Image, clear: Clear, layout, is_depth: bool| {
-            let info = vk::RenderingAttachmentInfo::default()
-                .image_view(image.shared.view)
-                .image_layout(layout)
-                .store_op(vk::AttachmentStoreOp::STORE);
-            match clear {
-                Clear::Keep => info.load_op(vk::AttachmentLoadOp::LOAD),
-                Clear::Discard => info.load_op(vk::AttachmentLoadOp::DONT_CARE),
-                Clear::Value(value) => info.load_op(vk::AttachmentLoadOp::CLEAR).clear_value(if is_depth {
-                    vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: value[0], stencil: 0 } }
-                } else {
-                    vk::ClearValue { color: vk::ClearColorValue { float32: value } }
-                }),
-            }
-        };
-        let colours = [attachment(colour, target.colour.1, vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL, false)];
-        let depth = target
-            .depth
-            .map(|(image, clear)| attachment(image, clear, vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL, true));
-        let mut info =
-            vk::RenderingInfo::default().render_area(rectangle(target.area)).layer_count(1).color_attachments(&colours);
-        if let Some(depth) = &depth {
-            info = info.depth_attachment(depth);
-        }
-        // SAFETY: recording; images are in the layouts named and live as long as the recording.
-        unsafe { self.device.shared.raw.cmd_begin_rendering(self.parts.commands, &info) };
-        for (draw, sets) in draws.iter().zip(&sets) {
-            self.record_draw(draw, sets);
-        }
-        // SAFETY: rendering was begun above.
-        unsafe { self.device.shared.raw.cmd_end_rendering(self.parts.commands) };
-        self.end();
-        Ok(())
-    }
-
-    /// A pass whose vertex stages write to a buffer, and that draws nothing: pipelines without a colour format.
-    ///
-    /// # Errors
-    /// As [`Self::compute`]; also when the device has no transform feedback, or the range leaves the buffer.
-    pub fn feedback(&mut self, name: &str, target: &Feedback<'_>, draws: &[Draw<'_>]) -> Result<()> {
-        let Some(functions) = self.device.shared.feedback else {
-            bail!("the pass {name} needs transform feedback, which this device does not have");
-        };
-        let buffer = target.buffer;
-        ensure!(
-            target.offset.is_multiple_of(4) && target.offset.saturating_add(target.size) <= buffer.size(),
-            "the pass {name} writes {} bytes from byte {} of {}, which has {}",
-            target.size,
-            target.offset,
-            buffer.name(),
-            buffer.size()
-        );
-        self.begin(name)?;
-        let mut all = self.uses_of(draws);
-        all.push(Use { resource: buffer_id(buffer), writes: true });
-        self.keep_buffer(buffer);
-        let layouts: Vec<_> = draws.iter().flat_map(|draw| self.readable(draw.bindings)).collect();
-        self.wait_for(&all, &layouts);
-        let sets = self.prepare(name, draws)?;
-        let info = vk::RenderingInfo::default().render_area(rectangle([0, 0, 1, 1])).layer_count(1);
-        let commands = self.parts.commands;
-        // SAFETY: recording; the extension is enabled and the range lies inside of the buffer.
-        unsafe {
-            self.device.shared.raw.cmd_begin_rendering(commands, &info);
-            (functions.bind_buffers)(commands, 0, 1, &buffer.shared.handle, &target.offset, &target.size);
-        }
-        for (draw, sets) in draws.iter().zip(&sets) {
-            self.bind_draw(draw, sets);
-            // SAFETY: as above; the pipeline has a vertex stage that declares its outputs.
-            unsafe { (functions.begin)(commands, 0, 0, std::ptr::null(), std::ptr::null()) };
-            self.record_vertices(draw);
-            // SAFETY: begun above.
-            unsafe { (functions.end)(commands, 0, 0, std::ptr::null(), std::ptr::null()) };
-        }
-        // SAFETY: rendering was begun above.
-        unsafe { self.device.shared.raw.cmd_end_rendering(commands) };
-        self.end();
-        Ok(())
-    }
-
-    /// A pass that copies bytes between buffers.
-    ///
-    /// # Errors
-    /// When a range leaves its buffer.
-    pub fn copy(&mut self, name: &str, from: (&Buffer, u64), to: (&Buffer, u64), bytes: u64) -> Result<()> {
-        for (buffer, offset) in [from, to] {
-            ensure!(
-                offset.saturating_add(bytes) <= buffer.size(),
-                "the pass {name} copies {bytes} bytes from byte {offset} of {}, which has {}",
-                buffer.name(),
-                buffer.size()
-            );
-        }
-        self.begin(name)?;
-        let uses =
-            [Use { resource: buffer_id(from.0), writes: false }, Use { resource: buffer_id(to.0), writes: true }];
-        self.wait_for(&uses, &[]);
-        self.keep_buffer(from.0);
-        self.keep_buffer(to.0);
-        let region = [vk::BufferCopy { src_offset: from.1, dst_offset: to.1, size: bytes }];
-        // SAFETY: recording; both ranges lie inside of their buffers.
-        unsafe {
-            self.device.shared.raw.cmd_copy_buffer(
-                self.parts.commands,
-                from.0.shared.handle,
-                to.0.shared.handle,
-                &region,
-            );
-        }
-        self.end();
-        Ok(())
-    }
-
-    /// A pass that sets every word of a buffer.
-    ///
-    /// # Errors
-    /// None of its own; those of beginning a pass.
-    pub fn fill(&mut self, name: &str, buffer: &Buffer, word: u32) -> Result<()> {
-        self.begin(name)?;
-        self.wait_for(&[Use { resource: buffer_id(buffer), writes: true }], &[]);
-        self.keep_buffer(buffer);
-        // SAFETY: recording; the whole buffer is a multiple of four bytes long.
-        unsafe {
-            self.device.shared.raw.cmd_fill_buffer(self.parts.commands, buffer.shared.handle, 0, vk::WHOLE_SIZE, word);
-        }
-        self.end();
-        Ok(())
-    }
-
-    /// A pass that copies part of an image (left, top, width, height) to a buffer, rows one after the other.
-    ///
-    /// # Errors
-    /// When the part leaves the image, or does not fit the buffer.
-    pub fn read_image(&mut self, name: &str, image: &Image, area: [u32; 4], to: (&Buffer, u64)) -> Result<()> {
-        self.copy_image(name, image, area, to, true)
-    }
-
-    /// A pass that copies rows of a buffer to part of an image (left, top, width, height).
-    ///
-    /// # Errors
-    /// As [`Self::read_image`].
-    pub fn write_image(&mut self, name: &str, image: &Image, area: [u32; 4], from: (&Buffer, u64)) -> Result<()> {
-        self.copy_image(name, image, area, from, false)
-    }
-
-    fn copy_image(
-        &mut self,
-        name: &str,
-        image: &Image,
-        area: [u32; 4],
-        (buffer, offset): (&Buffer, u64),
-        reads: bool,
-    ) -> Result<()> {
-        let [left, top, width, height] = area;
-        let [w, h] = image.size();
-        let bytes = u64::from(width) * u64::from(height) * image.format().bytes();
-        ensure!(
-            left.saturating_add(width) <= w && top.saturating_add(height) <= h && width > 0 && height > 0,
-            "the pass {name} copies {width}x{height} pixels at {left}, {top} of {}, which has {w}x{h}",
-            image.name()
-        );
-        ensure!(
-            offset % 4 == 0 && offset.saturating_add(bytes) <= buffer.size(),
-            "the pass {name} copies {bytes} bytes at byte {offset} of {}, which has {}",
-            buffer.name(),
-            buffer.size()
-        );
-        self.begin(name)?;
-        let uses =
-            [Use { resource: image_id(image), writes: !reads }, Use { resource: buffer_id(buffer), writes: reads }];
-        let layout = if reads { vk::ImageLayout::TRANSFER_SRC_OPTIMAL } else { vk::ImageLayout::TRANSFER_DST_OPTIMAL };
-        self.wait_for(&uses, &[(image.clone(), layout)]);
-        self.keep_buffer(buffer);
-        self.keep_image(image);
-        let region = [vk::BufferImageCopy {
-            buffer_offset: offset,
-            image_subresource: vk::ImageSubresourceLayers {
-                aspect_mask: image.format().aspect(),
-                layer_count: 1,
-                ..Default::default()
-            },
-            image_offset: vk::Offset3D { x: left as i32, y: top as i32, z: 0 },
-            image_extent: vk::Extent3D { width, height, depth: 1 },
-            ..Default::default()
-        }];
-        let (raw, commands) = (&self.device.shared.raw, self.parts.commands);
-        // SAFETY: recording; the region lies inside of the image and the buffer, and the image is in the layout named.
-        unsafe {
-            if reads {
-                raw.cmd_copy_image_to_buffer(commands, image.shared.handle, layout, buffer.shared.handle, &region);
-            } else {
-                raw.cmd_copy_buffer_to_image(commands, buffer.shared.handle, image.shared.handle, layout, &region);
-            }
-        }
-        self.end();
-        Ok(())
-    }
-
     /// Ends the recording.
     ///
     /// # Errors
@@ -522,7 +201,7 @@ impl Recorder {
         Ok(Recording { device: self.device, parts: Some(self.parts), submitted: 0 })
     }
 
-    fn begin(&mut self, name: &str) -> Result<()> {
+    pub(super) fn begin(&mut self, name: &str) -> Result<()> {
         let pass = self.parts.passes.len();
         ensure!(pass < MOST_PASSES, "a recording holds at most {MOST_PASSES} passes");
         self.parts.passes.push(name.to_string());
@@ -551,7 +230,7 @@ impl Recorder {
         Ok(())
     }
 
-    fn end(&mut self) {
+    pub(super) fn end(&mut self) {
         let pass = self.parts.passes.len() as u32 - 1;
         let (raw, commands) = (&self.device.shared.raw, self.parts.commands);
         // SAFETY: as in `begin`, which began the query and the label.
@@ -570,7 +249,7 @@ impl Recorder {
     }
 
     /// Inserts the barrier that a pass of these uses needs, if any, and brings images into the layouts it wants.
-    fn wait_for(&mut self, uses: &[Use], layouts: &[(Image, vk::ImageLayout)]) {
+    pub(super) fn wait_for(&mut self, uses: &[Use], layouts: &[(Image, vk::ImageLayout)]) {
         let mut transitions = Vec::new();
         for (image, wanted) in layouts {
             let id = image_id(image);
@@ -623,88 +302,20 @@ impl Recorder {
         unsafe { self.device.shared.raw.cmd_pipeline_barrier2(self.parts.commands, &info) };
     }
 
-    /// The images among `bindings`, in the layout that stages read and write them in.
-    fn readable(&self, bindings: &[Binding<'_>]) -> Vec<(Image, vk::ImageLayout)> {
-        bindings
-            .iter()
-            .filter_map(|binding| match binding.bound {
-                Bound::Image(image) => Some((image.clone(), vk::ImageLayout::GENERAL)),
-                Bound::Buffer(_) => None,
-            })
-            .collect()
-    }
-
-    fn uses_of(&mut self, draws: &[Draw<'_>]) -> Vec<Use> {
-        let mut all = Vec::new();
-        for draw in draws {
-            all.extend(uses(draw.bindings));
-            if let Some(indices) = draw.indices {
-                all.push(Use { resource: buffer_id(indices), writes: false });
-                self.keep_buffer(indices);
-            }
-            if let Some((counts, _)) = draw.indirect {
-                all.push(Use { resource: buffer_id(counts), writes: false });
-                self.keep_buffer(counts);
+    /// The descriptor sets of a pipeline with these bindings, which are kept alive.
+    pub(super) fn descriptor_sets(
+        &mut self,
+        name: &str,
+        pipeline: &Pipeline,
+        bindings: &[Binding<'_>],
+    ) -> Result<Vec<vk::DescriptorSet>> {
+        for binding in bindings {
+            match binding.bound {
+                Bound::Buffer(buffer) => self.keep_buffer(buffer),
+                Bound::Image(image) => self.keep_image(image),
             }
         }
-        all
-    }
-
-    /// Descriptor sets of all draws, written before rendering begins.
-    fn prepare(&mut self, name: &str, draws: &[Draw<'_>]) -> Result<Vec<Vec<vk::DescriptorSet>>> {
-        draws
-            .iter()
-            .map(|draw| {
-                check_push(name, draw.pipeline, draw.push)?;
-                if let Some((counts, offset)) = draw.indirect {
-                    ensure!(
-                        offset % 4 == 0 && offset + 16 <= counts.size() && draw.indices.is_none(),
-                        "the pass {name} reads its vertex count at byte {offset} of {}, which has {}, expected four words and no \
-                         indices",
-                        counts.name(),
-                        counts.size()
-                    );
-                }
-                self.keep_pipeline(draw.pipeline);
-                self.descriptor_sets(name, draw.pipeline, draw.bindings)
-            })
-            .collect()
-    }
-
-    fn record_draw(&self, draw: &Draw<'_>, sets: &[vk::DescriptorSet]) {
-        self.bind_draw(draw, sets);
-        self.record_vertices(draw);
-    }
-
-    fn bind_draw(&self, draw: &Draw<'_>, sets: &[vk::DescriptorSet]) {
-        let (raw, commands) = (&self.device.shared.raw, self.parts.commands);
-        self.bind_sets(draw.pipeline, sets, draw.push);
-        let [x, y, width, height] = draw.viewport.area;
-        let [min_depth, max_depth] = draw.viewport.depth;
-        let viewport = [vk::Viewport { x, y, width, height, min_depth, max_depth }];
-        // SAFETY: recording, inside of rendering; the states are dynamic in every graphics pipeline.
-        unsafe {
-            raw.cmd_set_viewport(commands, 0, &viewport);
-            raw.cmd_set_scissor(commands, 0, &[rectangle(draw.scissor)]);
-            if let Some(indices) = draw.indices {
-                raw.cmd_bind_index_buffer(commands, indices.shared.handle, 0, vk::IndexType::UINT32);
-            }
-        }
-    }
-
-    fn record_vertices(&self, draw: &Draw<'_>) {
-        let (raw, commands) = (&self.device.shared.raw, self.parts.commands);
-        let (vertices, instances) = (draw.vertices.len() as u32, draw.instances.len() as u32);
-        // SAFETY: recording, with everything bound; the four words of an indirect draw lie inside of their buffer.
-        unsafe {
-            if let Some((counts, offset)) = draw.indirect {
-                raw.cmd_draw_indirect(commands, counts.shared.handle, offset, 1, 0);
-            } else if draw.indices.is_some() {
-                raw.cmd_draw_indexed(commands, vertices, instances, draw.vertices.start, 0, draw.instances.start);
-            } else {
-                raw.cmd_draw(commands, vertices, instances, draw.vertices.start, draw.instances.start);
-            }
-        }
+        self.descriptors.of(&mut self.parts, name, pipeline, bindings)
     }
 
     fn bind(&mut self, name: &str, pipeline: &Pipeline, bindings: &[Binding<'_>], push: &[u8]) -> Result<()> {
@@ -715,7 +326,7 @@ impl Recorder {
         Ok(())
     }
 
-    fn bind_sets(&self, pipeline: &Pipeline, sets: &[vk::DescriptorSet], push: &[u8]) {
+    pub(super) fn bind_sets(&self, pipeline: &Pipeline, sets: &[vk::DescriptorSet], push: &[u8]) {
         let (raw, commands, pipeline) = (&self.device.shared.raw, self.parts.commands, &pipeline.shared);
         // SAFETY: recording; the sets were made for the pipeline's layouts and the push constants have its size.
         unsafe {
@@ -729,117 +340,19 @@ impl Recorder {
         }
     }
 
-    /// The descriptor sets of a pipeline with these bindings; the same ones for the same resources.
-    fn descriptor_sets(
-        &mut self,
-        name: &str,
-        pipeline: &Pipeline,
-        bindings: &[Binding<'_>],
-    ) -> Result<Vec<vk::DescriptorSet>> {
-        let mut sets = Vec::new();
-        for (number, &layout) in pipeline.shared.set_layouts.iter().enumerate() {
-            let mut bound = Vec::new();
-            for &(set, slot, kind, variable) in &pipeline.shared.slots {
-                if set as usize != number {
-                    continue;
-                }
-                let Some(binding) =
-                    bindings.iter().find(|binding| (binding.layout.set, binding.layout.binding) == (set, slot))
-                else {
-                    bail!("the pass {name} binds nothing to {variable} of {}", pipeline.name());
-                };
-                let is_buffer = matches!(kind, BindingKind::StorageBuffer | BindingKind::UniformBuffer);
-                ensure!(
-                    is_buffer == matches!(binding.bound, Bound::Buffer(_)),
-                    "the pass {name} binds the wrong kind of resource to {variable} of {}",
-                    pipeline.name()
-                );
-                bound.push((slot, kind, binding.bound));
-            }
-            let key = (layout, bound.iter().map(|(slot, _, bound)| (*slot, id(bound))).collect());
-            for (_, _, bound) in &bound {
-                match bound {
-                    Bound::Buffer(buffer) => self.keep_buffer(buffer),
-                    Bound::Image(image) => self.keep_image(image),
-                }
-            }
-            if let Some(&set) = self.sets.get(&key) {
-                sets.push(set);
-                continue;
-            }
-            let set = self.new_set(layout)?;
-            for &(slot, kind, bound) in &bound {
-                let buffer = match bound {
-                    Bound::Buffer(buffer) => {
-                        [vk::DescriptorBufferInfo { buffer: buffer.shared.handle, offset: 0, range: vk::WHOLE_SIZE }]
-                    }
-                    Bound::Image(_) => [vk::DescriptorBufferInfo::default()],
-                };
-                let image = match bound {
-                    Bound::Image(image) => [vk::DescriptorImageInfo {
-                        image_view: image.read_view(),
-                        image_layout: vk::ImageLayout::GENERAL,
-                        ..Default::default()
-                    }],
-                    Bound::Buffer(_) => [vk::DescriptorImageInfo::default()],
-                };
-                let write = vk::WriteDescriptorSet::default()
-                    .dst_set(set)
-                    .dst_binding(slot)
-                    .descriptor_type(descriptor_type(kind));
-                let write = match bound {
-                    Bound::Buffer(_) => write.buffer_info(&buffer),
-                    Bound::Image(_) => write.image_info(&image),
-                };
-                // SAFETY: the set is new and of the layout; what is bound lives as long as the recording.
-                unsafe { self.device.shared.raw.update_descriptor_sets(&[write], &[]) };
-            }
-            self.sets.insert(key, set);
-            sets.push(set);
-        }
-        Ok(sets)
-    }
-
-    fn new_set(&mut self, layout: vk::DescriptorSetLayout) -> Result<vk::DescriptorSet> {
-        let device = self.device.shared.clone();
-        if self.sets_left == 0 {
-            let sizes = [
-                (vk::DescriptorType::STORAGE_BUFFER, 12),
-                (vk::DescriptorType::UNIFORM_BUFFER, 2),
-                (vk::DescriptorType::SAMPLED_IMAGE, 4),
-                (vk::DescriptorType::STORAGE_IMAGE, 4),
-            ]
-            .map(|(ty, a_set)| vk::DescriptorPoolSize { ty, descriptor_count: a_set * SETS_A_POOL });
-            let info = vk::DescriptorPoolCreateInfo::default().max_sets(SETS_A_POOL).pool_sizes(&sizes);
-            // SAFETY: the device is open.
-            let pool = unsafe { device.raw.create_descriptor_pool(&info, None) }
-                .map_err(|result| device.failure(result, "make descriptors", || None))?;
-            self.parts.descriptor_pools.push(pool);
-            self.sets_left = SETS_A_POOL;
-        }
-        let layouts = [layout];
-        let pool = self.parts.descriptor_pools.last().copied().unwrap_or_default();
-        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
-        // SAFETY: the pool has a set left, and descriptors for the largest stage.
-        let sets = unsafe { device.raw.allocate_descriptor_sets(&info) }
-            .map_err(|result| device.failure(result, "make a descriptor set", || None))?;
-        self.sets_left -= 1;
-        Ok(sets[0])
-    }
-
-    fn keep_buffer(&mut self, buffer: &Buffer) {
+    pub(super) fn keep_buffer(&mut self, buffer: &Buffer) {
         if self.kept.insert(buffer_id(buffer)) {
             self.parts.buffers.push(buffer.clone());
         }
     }
 
-    fn keep_image(&mut self, image: &Image) {
+    pub(super) fn keep_image(&mut self, image: &Image) {
         if self.kept.insert(image_id(image)) {
             self.parts.images.push(image.clone());
         }
     }
 
-    fn keep_pipeline(&mut self, pipeline: &Pipeline) {
+    pub(super) fn keep_pipeline(&mut self, pipeline: &Pipeline) {
         if !self.parts.pipelines.iter().any(|kept| kept.shared.handle == pipeline.shared.handle) {
             self.parts.pipelines.push(pipeline.clone());
         }
@@ -851,13 +364,18 @@ impl Recorder {
         self.hazards.clear();
     }
 
+    /// The device it is for.
+    pub fn device(&self) -> &Device {
+        &self.device
+    }
+
     /// What this recording measures, as far as the device can.
     pub fn timing(&self) -> Timing {
         self.timing
     }
 }
 
-fn check_push(name: &str, pipeline: &Pipeline, push: &[u8]) -> Result<()> {
+pub(super) fn check_push(name: &str, pipeline: &Pipeline, push: &[u8]) -> Result<()> {
     ensure!(
         push.len() as u32 == pipeline.shared.push_size,
         "the pass {name} pushes {} bytes, and {} takes {}",
@@ -868,14 +386,25 @@ fn check_push(name: &str, pipeline: &Pipeline, push: &[u8]) -> Result<()> {
     Ok(())
 }
 
-fn uses(bindings: &[Binding<'_>]) -> Vec<Use> {
+pub(super) fn uses(bindings: &[Binding<'_>]) -> Vec<Use> {
     bindings
         .iter()
-        .map(|binding| Use { resource: id(&binding.bound), writes: binding.layout.access != Access::Read })
+        .map(|binding| Use { resource: id(&binding.bound), writes: binding.layout.access.writes() })
         .collect()
 }
 
-fn id(bound: &Bound<'_>) -> u64 {
+/// The images among `bindings`, in the layout that stages read and write them in.
+pub(super) fn readable(bindings: &[Binding<'_>]) -> Vec<(Image, vk::ImageLayout)> {
+    bindings
+        .iter()
+        .filter_map(|binding| match binding.bound {
+            Bound::Image(image) => Some((image.clone(), vk::ImageLayout::GENERAL)),
+            Bound::Buffer(_) => None,
+        })
+        .collect()
+}
+
+pub(super) fn id(bound: &Bound<'_>) -> u64 {
     match bound {
         Bound::Buffer(buffer) => buffer_id(buffer),
         Bound::Image(image) => image_id(image),
@@ -883,14 +412,10 @@ fn id(bound: &Bound<'_>) -> u64 {
 }
 
 /// Handles of buffers and images may have the same value; their last bit tells the two apart.
-fn buffer_id(buffer: &Buffer) -> u64 {
+pub(super) fn buffer_id(buffer: &Buffer) -> u64 {
     buffer.shared.handle.as_raw() << 1
 }
 
-fn image_id(image: &Image) -> u64 {
+pub(super) fn image_id(image: &Image) -> u64 {
     image.shared.handle.as_raw() << 1 | 1
-}
-
-fn rectangle([x, y, width, height]: [u32; 4]) -> vk::Rect2D {
-    vk::Rect2D { offset: vk::Offset2D { x: x as i32, y: y as i32 }, extent: vk::Extent2D { width, height } }
 }

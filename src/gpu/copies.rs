@@ -1,0 +1,129 @@
+//! Passes that move bytes: between buffers, and between buffers and images.
+
+use anyhow::{Result, ensure};
+use ash::vk;
+
+use super::buffer::Buffer;
+use super::hazards::Use;
+use super::image::Image;
+use super::recorder::{Recorder, buffer_id, image_id};
+
+impl Recorder {
+    /// A pass that copies bytes between buffers.
+    ///
+    /// # Errors
+    /// When a range leaves its buffer.
+    pub fn copy(&mut self, name: &str, from: (&Buffer, u64), to: (&Buffer, u64), bytes: u64) -> Result<()> {
+        for (buffer, offset) in [from, to] {
+            ensure!(
+                offset.saturating_add(bytes) <= buffer.size(),
+                "the pass {name} copies {bytes} bytes from byte {offset} of {}, which has {}",
+                buffer.name(),
+                buffer.size()
+            );
+        }
+        self.begin(name)?;
+        let uses =
+            [Use { resource: buffer_id(from.0), writes: false }, Use { resource: buffer_id(to.0), writes: true }];
+        self.wait_for(&uses, &[]);
+        self.keep_buffer(from.0);
+        self.keep_buffer(to.0);
+        let region = [vk::BufferCopy { src_offset: from.1, dst_offset: to.1, size: bytes }];
+        // SAFETY: recording; both ranges lie inside of their buffers.
+        unsafe {
+            self.device.shared.raw.cmd_copy_buffer(
+                self.parts.commands,
+                from.0.shared.handle,
+                to.0.shared.handle,
+                &region,
+            );
+        }
+        self.end();
+        Ok(())
+    }
+
+    /// A pass that sets every word of a buffer.
+    ///
+    /// # Errors
+    /// None of its own; those of beginning a pass.
+    pub fn fill(&mut self, name: &str, buffer: &Buffer, word: u32) -> Result<()> {
+        self.begin(name)?;
+        self.wait_for(&[Use { resource: buffer_id(buffer), writes: true }], &[]);
+        self.keep_buffer(buffer);
+        // SAFETY: recording; the whole buffer is a multiple of four bytes long.
+        unsafe {
+            self.device.shared.raw.cmd_fill_buffer(self.parts.commands, buffer.shared.handle, 0, vk::WHOLE_SIZE, word);
+        }
+        self.end();
+        Ok(())
+    }
+
+    /// A pass that copies part of an image (left, top, width, height) to a buffer, rows one after the other.
+    ///
+    /// # Errors
+    /// When the part leaves the image, or does not fit the buffer.
+    pub fn read_image(&mut self, name: &str, image: &Image, area: [u32; 4], to: (&Buffer, u64)) -> Result<()> {
+        self.copy_image(name, image, area, to, true)
+    }
+
+    /// A pass that copies rows of a buffer to part of an image (left, top, width, height).
+    ///
+    /// # Errors
+    /// As [`Self::read_image`].
+    pub fn write_image(&mut self, name: &str, image: &Image, area: [u32; 4], from: (&Buffer, u64)) -> Result<()> {
+        self.copy_image(name, image, area, from, false)
+    }
+
+    fn copy_image(
+        &mut self,
+        name: &str,
+        image: &Image,
+        area: [u32; 4],
+        (buffer, offset): (&Buffer, u64),
+        reads: bool,
+    ) -> Result<()> {
+        let [left, top, width, height] = area;
+        let [w, h] = image.size();
+        let bytes = u64::from(width) * u64::from(height) * image.format().bytes();
+        ensure!(
+            left.saturating_add(width) <= w && top.saturating_add(height) <= h && width > 0 && height > 0,
+            "the pass {name} copies {width}x{height} pixels at {left}, {top} of {}, which has {w}x{h}",
+            image.name()
+        );
+        ensure!(
+            offset % 4 == 0 && offset.saturating_add(bytes) <= buffer.size(),
+            "the pass {name} copies {bytes} bytes at byte {offset} of {}, which has {}",
+            buffer.name(),
+            buffer.size()
+        );
+        self.begin(name)?;
+        let uses =
+            [Use { resource: image_id(image), writes: !reads }, Use { resource: buffer_id(buffer), writes: reads }];
+        let layout = if reads { vk::ImageLayout::TRANSFER_SRC_OPTIMAL } else { vk::ImageLayout::TRANSFER_DST_OPTIMAL };
+        self.wait_for(&uses, &[(image.clone(), layout)]);
+        self.keep_buffer(buffer);
+        self.keep_image(image);
+        let region = [vk::BufferImageCopy {
+            buffer_offset: offset,
+            image_subresource: vk::ImageSubresourceLayers {
+                aspect_mask: image.format().aspect(),
+                layer_count: 1,
+                ..Default::default()
+            },
+            image_offset: vk::Offset3D { x: left as i32, y: top as i32, z: 0 },
+            image_extent: vk::Extent3D { width, height, depth: 1 },
+            ..Default::default()
+        }];
+        let (raw, commands) = (&self.device.shared.raw, self.parts.commands);
+        // SAFETY: recording; the region lies inside of the image and the buffer, and the image is in the layout named.
+        unsafe {
+            if reads {
+                raw.cmd_copy_image_to_buffer(commands, image.shared.handle, layout, buffer.shared.handle, &region);
+            } else {
+                raw.cmd_copy_buffer_to_image(commands, buffer.shared.handle, image.shared.handle, layout, &region);
+            }
+        }
+        self.end();
+        Ok(())
+    }
+}
