@@ -6,6 +6,7 @@
 
 mod buffer;
 mod capability;
+mod compute_stage;
 mod copies;
 mod descriptors;
 mod device;
@@ -28,6 +29,7 @@ mod validation;
 
 pub use buffer::Buffer;
 pub use capability::{Capabilities, DeviceFacts, DeviceKind, devices};
+pub use compute_stage::ComputeStage;
 pub use device::{ClockPair, Device, DeviceSettings};
 pub use image::{Format, Image, ImageUse};
 pub use instance::Instance;

@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use crate::evaluate::vulkan::{DeviceModel, Framebuffer, Workspace};
-use crate::gpu::{Capabilities, Device, Dispatch, Groups, Pipeline, Recorder, Shader, Stage};
+use crate::gpu::{Capabilities, ComputeStage, Device, Groups, Recorder, Shader, Stage};
 
 use super::Share;
 use super::generated::{compare_shared_comp, compare_subgroup_comp, compare_texels_comp};
@@ -37,7 +37,7 @@ impl Gathering {
 /// The stage.
 #[derive(Debug)]
 pub(crate) struct CompareStage {
-    pipeline: Pipeline,
+    stage: ComputeStage,
     /// Workgroups a tile, each of which takes every nth row.
     bands: u32,
 }
@@ -49,7 +49,8 @@ impl CompareStage {
     /// Compiles it; `edge_bit` is the bit of a pixel's byte that says edge, `bands` the number of workgroups a tile.
     pub(crate) fn new(device: &Device, gathering: Gathering, edge_bit: u32, bands: u32) -> Result<Self> {
         let shader = gathering.shader();
-        Ok(Self { pipeline: device.compute_pipeline(Stage { shader, constants: &[(0, edge_bit)] })?, bands })
+        let stage = ComputeStage::new(device, Self::NAME, Stage { shader, constants: &[(0, edge_bit)] })?;
+        Ok(Self { stage, bands })
     }
 
     /// Records it: the framebuffer and the packed observations to `workspace.sums`.
@@ -63,22 +64,19 @@ impl CompareStage {
     ) -> Result<()> {
         let push: compare_texels_comp::Push = model.batch(share);
         // All variants have the same bindings.
-        recorder.compute(
-            Self::NAME,
-            &[Dispatch {
-                pipeline: &self.pipeline,
-                bindings: &compare_texels_comp::Bindings {
-                    placements: &framebuffer.placements,
-                    tiles: &framebuffer.tiles,
-                    cameras: &model.cameras,
-                    pixels: &model.pixels,
-                    all_sums: &workspace.sums,
-                    framebuffer: &framebuffer.words,
-                }
-                .bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: Groups::Count([share.candidates.div_ceil(4) * model.counts.views, self.bands, 1]),
-            }],
+        let bindings = compare_texels_comp::Bindings {
+            placements: &framebuffer.placements,
+            tiles: &framebuffer.tiles,
+            cameras: &model.cameras,
+            pixels: &model.pixels,
+            all_sums: &workspace.sums,
+            framebuffer: &framebuffer.words,
+        };
+        self.stage.record(
+            recorder,
+            &bindings.bound(),
+            &push,
+            Groups::Count([share.candidates.div_ceil(4) * model.counts.views, self.bands, 1]),
         )
     }
 }

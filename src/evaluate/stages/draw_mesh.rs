@@ -5,7 +5,7 @@ use anyhow::Result;
 
 use crate::evaluate::vulkan::{CANDIDATES_A_TILE, DeviceMesh, DeviceModel, Framebuffer, MeshRoom};
 use crate::gpu::{
-    Blend, Clear, Device, Dispatch, Draw, Drawing, Format, Groups, Pipeline, Recorder, Stage, Target, Topology,
+    Blend, Clear, ComputeStage, Device, Draw, Drawing, Format, Groups, Pipeline, Recorder, Stage, Target, Topology,
     Viewport,
 };
 
@@ -15,7 +15,7 @@ use super::generated::{MESH_GROUP, PACK_DEPTH, draw_plain_frag, mesh_edge_vert, 
 /// The stage.
 #[derive(Debug)]
 pub(crate) struct DrawMeshStage {
-    outline: Pipeline,
+    outline: ComputeStage,
     /// Triangles and silhouette edges, one pair a channel, in the order in which they are drawn: an edge is compared with its own
     /// candidate's fills before the next channel's nearer depths cover them.
     channels: Vec<[Pipeline; 2]>,
@@ -53,7 +53,11 @@ impl DrawMeshStage {
             ])
         };
         Ok(Self {
-            outline: device.compute_pipeline(Stage { shader: &outline_comp::SHADER, constants: &[] })?,
+            outline: ComputeStage::new(
+                device,
+                Self::OUTLINE_NAME,
+                Stage { shader: &outline_comp::SHADER, constants: &[] },
+            )?,
             channels: (0..CANDIDATES_A_TILE).map(channel).collect::<Result<_>>()?,
         })
     }
@@ -68,24 +72,21 @@ impl DrawMeshStage {
         share: Share,
     ) -> Result<()> {
         let push = room.push(model.counts, mesh, share);
-        let push = bytemuck::bytes_of(&push);
         let images = share.candidates * model.counts.views;
-        recorder.compute(
-            Self::OUTLINE_NAME,
-            &[Dispatch {
-                pipeline: &self.outline,
-                bindings: &outline_comp::Bindings {
-                    edges: &mesh.edges,
-                    all_seen: &room.seen,
-                    placements: &framebuffer.placements,
-                    outlines: &room.outlines,
-                    counts: &room.counts,
-                }
-                .bound(),
-                push,
-                groups: Groups::Count([mesh.edge_count.div_ceil(MESH_GROUP), images, 1]),
-            }],
+        let bindings = outline_comp::Bindings {
+            edges: &mesh.edges,
+            all_seen: &room.seen,
+            placements: &framebuffer.placements,
+            outlines: &room.outlines,
+            counts: &room.counts,
+        };
+        self.outline.record(
+            recorder,
+            &bindings.bound(),
+            &push,
+            Groups::Count([mesh.edge_count.div_ceil(MESH_GROUP), images, 1]),
         )?;
+        let push = bytemuck::bytes_of(&push);
         let fill = mesh_fill_vert::Bindings {
             vertices: &mesh.vertices,
             all_seen: &room.seen,

@@ -4,7 +4,7 @@ use anyhow::Result;
 
 use crate::evaluate::vulkan::{DeviceModel, Workspace};
 use crate::evaluate::{Objective, ObjectiveKind};
-use crate::gpu::{Buffer, Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+use crate::gpu::{Buffer, ComputeStage, Device, Groups, Recorder, Stage};
 
 use super::generated::{
     OBJECTIVE_AOSP, OBJECTIVE_AOWS, OBJECTIVE_GROUP, OBJECTIVE_POSP, OBJECTIVE_SP, OBJECTIVE_WS, objective_comp,
@@ -13,7 +13,7 @@ use super::generated::{
 /// The stage.
 #[derive(Debug)]
 pub(crate) struct ObjectiveStage {
-    pipeline: Pipeline,
+    stage: ComputeStage,
 }
 
 impl ObjectiveStage {
@@ -22,7 +22,9 @@ impl ObjectiveStage {
 
     /// Compiles it.
     pub(crate) fn new(device: &Device) -> Result<Self> {
-        Ok(Self { pipeline: device.compute_pipeline(Stage { shader: &objective_comp::SHADER, constants: &[] })? })
+        Ok(Self {
+            stage: ComputeStage::new(device, Self::NAME, Stage { shader: &objective_comp::SHADER, constants: &[] })?,
+        })
     }
 
     /// Records it for the first `candidates` of the run, in one go however many batches they took: `workspace.sums` to
@@ -50,15 +52,12 @@ impl ObjectiveStage {
             w1: objective.w1,
             w2: objective.w2,
         };
-        recorder.compute(
-            Self::NAME,
-            &[Dispatch {
-                pipeline: &self.pipeline,
-                bindings: &objective_comp::Bindings { cameras: &model.cameras, all_sums: &workspace.sums, fitness }
-                    .bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: Groups::Count([candidates.div_ceil(OBJECTIVE_GROUP), 1, 1]),
-            }],
+        let bindings = objective_comp::Bindings { cameras: &model.cameras, all_sums: &workspace.sums, fitness };
+        self.stage.record(
+            recorder,
+            &bindings.bound(),
+            &push,
+            Groups::Count([candidates.div_ceil(OBJECTIVE_GROUP), 1, 1]),
         )
     }
 }

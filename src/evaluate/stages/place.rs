@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use crate::evaluate::vulkan::{DeviceModel, Framebuffer, Workspace};
-use crate::gpu::{Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+use crate::gpu::{ComputeStage, Device, Groups, Recorder, Stage};
 
 use super::Share;
 use super::generated::{PLACE_GROUP, place_comp};
@@ -11,7 +11,7 @@ use super::generated::{PLACE_GROUP, place_comp};
 /// The stage.
 #[derive(Debug)]
 pub(crate) struct PlaceStage {
-    pipeline: Pipeline,
+    stage: ComputeStage,
 }
 
 impl PlaceStage {
@@ -20,7 +20,9 @@ impl PlaceStage {
 
     /// Compiles it.
     pub(crate) fn new(device: &Device) -> Result<Self> {
-        Ok(Self { pipeline: device.compute_pipeline(Stage { shader: &place_comp::SHADER, constants: &[] })? })
+        Ok(Self {
+            stage: ComputeStage::new(device, Self::NAME, Stage { shader: &place_comp::SHADER, constants: &[] })?,
+        })
     }
 
     /// Records it: `workspace.bounds` and `quads` to the framebuffer's placements and list, and zeros to `workspace.sums`.
@@ -59,23 +61,15 @@ impl PlaceStage {
         let images = share.candidates * model.counts.views;
         let empty = &framebuffer.empty_list;
         recorder.copy(Self::NAME, (empty, 0), (&framebuffer.listed, 0), empty.size())?;
-        recorder.compute(
-            Self::NAME,
-            &[Dispatch {
-                pipeline: &self.pipeline,
-                bindings: &place_comp::Bindings {
-                    all_bounds: &workspace.bounds,
-                    tiles: &framebuffer.tiles,
-                    cameras: &model.cameras,
-                    quads: &workspace.quads,
-                    placements: &framebuffer.placements,
-                    all_sums: &workspace.sums,
-                    listed: &framebuffer.listed,
-                }
-                .bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: Groups::Count([images.div_ceil(PLACE_GROUP), 1, 1]),
-            }],
-        )
+        let bindings = place_comp::Bindings {
+            all_bounds: &workspace.bounds,
+            tiles: &framebuffer.tiles,
+            cameras: &model.cameras,
+            quads: &workspace.quads,
+            placements: &framebuffer.placements,
+            all_sums: &workspace.sums,
+            listed: &framebuffer.listed,
+        };
+        self.stage.record(recorder, &bindings.bound(), &push, Groups::Count([images.div_ceil(PLACE_GROUP), 1, 1]))
     }
 }

@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use crate::evaluate::vulkan::{DeviceModel, Workspace};
-use crate::gpu::{Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+use crate::gpu::{ComputeStage, Device, Groups, Recorder, Stage};
 
 use super::Share;
 use super::generated::pose_comp;
@@ -11,7 +11,7 @@ use super::generated::pose_comp;
 /// The stage.
 #[derive(Debug)]
 pub(crate) struct PoseStage {
-    pipeline: Pipeline,
+    stage: ComputeStage,
 }
 
 impl PoseStage {
@@ -20,7 +20,7 @@ impl PoseStage {
 
     /// Compiles it.
     pub(crate) fn new(device: &Device) -> Result<Self> {
-        Ok(Self { pipeline: device.compute_pipeline(Stage { shader: &pose_comp::SHADER, constants: &[] })? })
+        Ok(Self { stage: ComputeStage::new(device, Self::NAME, Stage { shader: &pose_comp::SHADER, constants: &[] })? })
     }
 
     /// Records it: `workspace.poses` to `workspace.world`.
@@ -32,19 +32,12 @@ impl PoseStage {
         share: Share,
     ) -> Result<()> {
         let push: pose_comp::Push = model.batch(share);
-        recorder.compute(
-            Self::NAME,
-            &[Dispatch {
-                pipeline: &self.pipeline,
-                bindings: &pose_comp::Bindings {
-                    bones: &model.bones,
-                    poses: &workspace.poses,
-                    world: &workspace.world,
-                }
-                .bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: Groups::Count([share.candidates.div_ceil(pose_comp::SHADER.workgroup_size[0]), 1, 1]),
-            }],
+        let bindings = pose_comp::Bindings { bones: &model.bones, poses: &workspace.poses, world: &workspace.world };
+        self.stage.record(
+            recorder,
+            &bindings.bound(),
+            &push,
+            Groups::Count([share.candidates.div_ceil(pose_comp::SHADER.workgroup_size[0]), 1, 1]),
         )
     }
 }

@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use crate::evaluate::vulkan::{DeviceModel, Workspace};
-use crate::gpu::{Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+use crate::gpu::{ComputeStage, Device, Groups, Recorder, Stage};
 
 use super::Share;
 use super::generated::{PROJECT_GROUP, project_comp};
@@ -14,7 +14,7 @@ pub(crate) const MOST_PARTS: usize = PROJECT_GROUP as usize;
 /// The stage.
 #[derive(Debug)]
 pub(crate) struct ProjectStage {
-    pipeline: Pipeline,
+    stage: ComputeStage,
 }
 
 impl ProjectStage {
@@ -23,7 +23,9 @@ impl ProjectStage {
 
     /// Compiles it.
     pub(crate) fn new(device: &Device) -> Result<Self> {
-        Ok(Self { pipeline: device.compute_pipeline(Stage { shader: &project_comp::SHADER, constants: &[] })? })
+        Ok(Self {
+            stage: ComputeStage::new(device, Self::NAME, Stage { shader: &project_comp::SHADER, constants: &[] })?,
+        })
     }
 
     /// Records it: `workspace.world` to `workspace.quads` and `workspace.bounds`.
@@ -37,21 +39,13 @@ impl ProjectStage {
         let push: project_comp::Push = model.batch(share);
         let images_a_group = PROJECT_GROUP / model.counts.parts;
         let images = share.candidates * model.counts.views;
-        recorder.compute(
-            Self::NAME,
-            &[Dispatch {
-                pipeline: &self.pipeline,
-                bindings: &project_comp::Bindings {
-                    parts: &model.parts,
-                    cameras: &model.cameras,
-                    world: &workspace.world,
-                    quads: &workspace.quads,
-                    all_bounds: &workspace.bounds,
-                }
-                .bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: Groups::Count([images.div_ceil(images_a_group), 1, 1]),
-            }],
-        )
+        let bindings = project_comp::Bindings {
+            parts: &model.parts,
+            cameras: &model.cameras,
+            world: &workspace.world,
+            quads: &workspace.quads,
+            all_bounds: &workspace.bounds,
+        };
+        self.stage.record(recorder, &bindings.bound(), &push, Groups::Count([images.div_ceil(images_a_group), 1, 1]))
     }
 }

@@ -5,7 +5,7 @@ use anyhow::Result;
 
 use crate::evaluate::vulkan::{Counts, DeviceModel, Workspace};
 use crate::gpu::{
-    Blend, Buffer, Device, Dispatch, Draw, Drawing, Feedback, Groups, Memory, Pipeline, Recorder, Stage, Topology,
+    Blend, Buffer, ComputeStage, Device, Draw, Drawing, Feedback, Groups, Memory, Pipeline, Recorder, Stage, Topology,
     Viewport,
 };
 
@@ -16,7 +16,7 @@ use super::generated::{PROJECT_GROUP, layout, order_comp, project_feedback_vert}
 #[derive(Debug)]
 pub(crate) struct ProjectFeedbackStage {
     capture: Pipeline,
-    order: Pipeline,
+    order: ComputeStage,
 }
 
 impl ProjectFeedbackStage {
@@ -38,7 +38,7 @@ impl ProjectFeedbackStage {
         let vertex = Stage { shader: &project_feedback_vert::SHADER, constants: &[] };
         Ok(Self {
             capture: device.graphics_pipeline("project feedback", &[vertex], &drawing)?,
-            order: device.compute_pipeline(Stage { shader: &order_comp::SHADER, constants: &[] })?,
+            order: ComputeStage::new(device, Self::NAMES[1], Stage { shader: &order_comp::SHADER, constants: &[] })?,
         })
     }
 
@@ -81,20 +81,17 @@ impl ProjectFeedbackStage {
                 indirect: None,
             }],
         )?;
-        recorder.compute(
-            Self::NAMES[1],
-            &[Dispatch {
-                pipeline: &self.order,
-                bindings: &order_comp::Bindings {
-                    cameras: &model.cameras,
-                    captured,
-                    quads: &workspace.quads,
-                    all_bounds: &workspace.bounds,
-                }
-                .bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: Groups::Count([images.div_ceil(PROJECT_GROUP / model.counts.parts), 1, 1]),
-            }],
+        let bindings = order_comp::Bindings {
+            cameras: &model.cameras,
+            captured,
+            quads: &workspace.quads,
+            all_bounds: &workspace.bounds,
+        };
+        self.order.record(
+            recorder,
+            &bindings.bound(),
+            &push,
+            Groups::Count([images.div_ceil(PROJECT_GROUP / model.counts.parts), 1, 1]),
         )
     }
 }

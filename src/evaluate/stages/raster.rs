@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use crate::evaluate::vulkan::{DeviceModel, Workspace};
-use crate::gpu::{Buffer, Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+use crate::gpu::{Buffer, ComputeStage, Device, Groups, Recorder, Stage};
 
 use super::Share;
 use super::generated::{RASTER_GROUP, raster_comp, raster_shared_comp};
@@ -12,9 +12,9 @@ use super::generated::{RASTER_GROUP, raster_comp, raster_shared_comp};
 #[derive(Debug)]
 pub(crate) struct RasterStage {
     /// For all images of a batch.
-    all: Pipeline,
+    all: ComputeStage,
     /// For the images of a list.
-    listed: Pipeline,
+    listed: ComputeStage,
     has_subgroups: bool,
 }
 
@@ -29,7 +29,7 @@ impl RasterStage {
     pub(crate) fn new(device: &Device) -> Result<Self> {
         let has_subgroups = device.capabilities().subgroup_arithmetic;
         let shader = if has_subgroups { &raster_comp::SHADER } else { &raster_shared_comp::SHADER };
-        let compile = |listed: u32| device.compute_pipeline(Stage { shader, constants: &[(0, listed)] });
+        let compile = |listed: u32| ComputeStage::new(device, Self::NAME, Stage { shader, constants: &[(0, listed)] });
         Ok(Self { all: compile(0)?, listed: compile(1)?, has_subgroups })
     }
 
@@ -53,7 +53,6 @@ impl RasterStage {
 
     /// Records it for some images of the share alone: `list` holds how many there are, 1, 1, and their numbers,
     /// (candidate - first) * views + view.
-    #[allow(dead_code, reason = "hardware drawing gives it what overflows its tile")]
     pub(crate) fn record_listed(
         &self,
         recorder: &mut Recorder,
@@ -68,29 +67,21 @@ impl RasterStage {
     fn dispatch(
         &self,
         recorder: &mut Recorder,
-        pipeline: &Pipeline,
+        stage: &ComputeStage,
         (model, workspace, share): (&DeviceModel, &Workspace, Share),
         list: &Buffer,
         groups: Groups<'_>,
     ) -> Result<()> {
         let push: raster_comp::Push = model.batch(share);
         // Both variants have the same bindings.
-        recorder.compute(
-            Self::NAME,
-            &[Dispatch {
-                pipeline,
-                bindings: &raster_comp::Bindings {
-                    cameras: &model.cameras,
-                    quads: &workspace.quads,
-                    all_bounds: &workspace.bounds,
-                    planes: &model.planes,
-                    list,
-                    all_sums: &workspace.sums,
-                }
-                .bound(),
-                push: bytemuck::bytes_of(&push),
-                groups,
-            }],
-        )
+        let bindings = raster_comp::Bindings {
+            cameras: &model.cameras,
+            quads: &workspace.quads,
+            all_bounds: &workspace.bounds,
+            planes: &model.planes,
+            list,
+            all_sums: &workspace.sums,
+        };
+        stage.record(recorder, &bindings.bound(), &push, groups)
     }
 }

@@ -4,7 +4,7 @@ use anyhow::Result;
 
 use crate::body::Skinning;
 use crate::evaluate::vulkan::{DeviceMesh, DeviceModel, MeshRoom, Workspace};
-use crate::gpu::{Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+use crate::gpu::{ComputeStage, Device, Groups, Recorder, Stage};
 
 use super::Share;
 use super::generated::{MESH_GROUP, bind_comp, skin_comp};
@@ -12,8 +12,8 @@ use super::generated::{MESH_GROUP, bind_comp, skin_comp};
 /// The stage.
 #[derive(Debug)]
 pub(crate) struct SkinStage {
-    bind: Pipeline,
-    skin: Pipeline,
+    bind: ComputeStage,
+    skin: ComputeStage,
 }
 
 impl SkinStage {
@@ -24,8 +24,12 @@ impl SkinStage {
     pub(crate) fn new(device: &Device, skinning: Skinning) -> Result<Self> {
         let is_smooth = u32::from(skinning == Skinning::Smooth);
         Ok(Self {
-            bind: device.compute_pipeline(Stage { shader: &bind_comp::SHADER, constants: &[] })?,
-            skin: device.compute_pipeline(Stage { shader: &skin_comp::SHADER, constants: &[(0, is_smooth)] })?,
+            bind: ComputeStage::new(device, Self::NAME, Stage { shader: &bind_comp::SHADER, constants: &[] })?,
+            skin: ComputeStage::new(
+                device,
+                Self::NAME,
+                Stage { shader: &skin_comp::SHADER, constants: &[(0, is_smooth)] },
+            )?,
         })
     }
 
@@ -40,36 +44,27 @@ impl SkinStage {
         let push = room.push(model.counts, mesh, share);
         // Counts and bounds are started by the same invocations.
         let starts = (share.candidates * model.counts.bones.max(model.counts.views)).max(16);
+        let bind = bind_comp::Bindings {
+            world: &workspace.world,
+            inverse_bind: &mesh.inverse_bind,
+            cameras: &model.cameras,
+            skin: &room.skin,
+            all_bounds: &workspace.bounds,
+            counts: &room.counts,
+        };
+        let skin = skin_comp::Bindings {
+            vertices: &mesh.vertices,
+            skin: &room.skin,
+            cameras: &model.cameras,
+            all_seen: &room.seen,
+            all_bounds: &workspace.bounds,
+        };
+        let vertex_groups = Groups::Count([mesh.vertex_count.div_ceil(MESH_GROUP), share.candidates, 1]);
         recorder.compute(
             Self::NAME,
             &[
-                Dispatch {
-                    pipeline: &self.bind,
-                    bindings: &bind_comp::Bindings {
-                        world: &workspace.world,
-                        inverse_bind: &mesh.inverse_bind,
-                        cameras: &model.cameras,
-                        skin: &room.skin,
-                        all_bounds: &workspace.bounds,
-                        counts: &room.counts,
-                    }
-                    .bound(),
-                    push: bytemuck::bytes_of(&push),
-                    groups: Groups::Count([starts.div_ceil(MESH_GROUP), 1, 1]),
-                },
-                Dispatch {
-                    pipeline: &self.skin,
-                    bindings: &skin_comp::Bindings {
-                        vertices: &mesh.vertices,
-                        skin: &room.skin,
-                        cameras: &model.cameras,
-                        all_seen: &room.seen,
-                        all_bounds: &workspace.bounds,
-                    }
-                    .bound(),
-                    push: bytemuck::bytes_of(&push),
-                    groups: Groups::Count([mesh.vertex_count.div_ceil(MESH_GROUP), share.candidates, 1]),
-                },
+                self.bind.dispatch(&bind.bound(), &push, Groups::Count([starts.div_ceil(MESH_GROUP), 1, 1])),
+                self.skin.dispatch(&skin.bound(), &push, vertex_groups),
             ],
         )
     }

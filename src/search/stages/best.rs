@@ -4,12 +4,12 @@ use anyhow::Result;
 
 use super::Extent;
 use super::generated::best_comp;
-use crate::gpu::{Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+use crate::gpu::{ComputeStage, Device, Groups, Recorder, Stage};
 
 /// The stage.
 #[derive(Debug)]
 pub(in crate::search) struct BestStage {
-    pipeline: Pipeline,
+    stage: ComputeStage,
 }
 
 impl BestStage {
@@ -18,8 +18,8 @@ impl BestStage {
 
     /// Compiles it.
     pub(in crate::search) fn new(device: &Device) -> Result<Self> {
-        let pipeline = device.compute_pipeline(Stage { shader: &best_comp::SHADER, constants: &[] })?;
-        Ok(Self { pipeline })
+        let stage = ComputeStage::new(device, Self::NAME, Stage { shader: &best_comp::SHADER, constants: &[] })?;
+        Ok(Self { stage })
     }
 
     /// Records it, after the fitness of `iteration`.
@@ -32,14 +32,6 @@ impl BestStage {
         iteration: u32,
     ) -> Result<()> {
         let push = best_comp::Push { particles: extent.candidates, dofs: extent.dofs, views, iteration };
-        recorder.compute(
-            Self::NAME,
-            &[Dispatch {
-                pipeline: &self.pipeline,
-                bindings: &bindings.bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: Groups::Count([1, 1, 1]),
-            }],
-        )
+        self.stage.record(recorder, &bindings.bound(), &push, Groups::Count([1, 1, 1]))
     }
 }

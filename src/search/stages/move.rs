@@ -4,7 +4,7 @@ use anyhow::Result;
 
 use super::Extent;
 use super::generated::move_comp;
-use crate::gpu::{Device, Dispatch, Pipeline, Recorder, Stage};
+use crate::gpu::{ComputeStage, Device, Recorder, Stage};
 
 /// What draws the particles in a move.
 #[derive(Clone, Copy, Debug)]
@@ -22,8 +22,7 @@ pub(in crate::search) struct Pull {
 /// The stage.
 #[derive(Debug)]
 pub(in crate::search) struct MoveStage {
-    pipeline: Pipeline,
-    device: Device,
+    stage: ComputeStage,
 }
 
 impl MoveStage {
@@ -32,8 +31,8 @@ impl MoveStage {
 
     /// Compiles it.
     pub(in crate::search) fn new(device: &Device) -> Result<Self> {
-        let pipeline = device.compute_pipeline(Stage { shader: &move_comp::SHADER, constants: &[] })?;
-        Ok(Self { pipeline, device: device.clone() })
+        let stage = ComputeStage::new(device, Self::NAME, Stage { shader: &move_comp::SHADER, constants: &[] })?;
+        Ok(Self { stage })
     }
 
     /// Records it; without a pull, particles only take note.
@@ -48,14 +47,7 @@ impl MoveStage {
             pull.unwrap_or(Pull { iteration: 0, inertia: 0.0, cognitive: 0.0, social: 0.0 });
         let Extent { candidates: particles, dofs } = extent;
         let push = move_comp::Push { particles, dofs, iteration, inertia, cognitive, social };
-        recorder.compute(
-            Self::NAME,
-            &[Dispatch {
-                pipeline: &self.pipeline,
-                bindings: &bindings.bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: extent.block_groups(&self.device),
-            }],
-        )
+        let groups = extent.block_groups(recorder.device());
+        self.stage.record(recorder, &bindings.bound(), &push, groups)
     }
 }

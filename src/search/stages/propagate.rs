@@ -4,13 +4,12 @@ use anyhow::Result;
 
 use super::Extent;
 use super::generated::propagate_comp;
-use crate::gpu::{Device, Dispatch, Pipeline, Recorder, Stage};
+use crate::gpu::{ComputeStage, Device, Recorder, Stage};
 
 /// The stage.
 #[derive(Debug)]
 pub(in crate::search) struct PropagateStage {
-    pipeline: Pipeline,
-    device: Device,
+    stage: ComputeStage,
 }
 
 impl PropagateStage {
@@ -19,8 +18,8 @@ impl PropagateStage {
 
     /// Compiles it.
     pub(in crate::search) fn new(device: &Device) -> Result<Self> {
-        let pipeline = device.compute_pipeline(Stage { shader: &propagate_comp::SHADER, constants: &[] })?;
-        Ok(Self { pipeline, device: device.clone() })
+        let stage = ComputeStage::new(device, Self::NAME, Stage { shader: &propagate_comp::SHADER, constants: &[] })?;
+        Ok(Self { stage })
     }
 
     /// Records it, for the candidates from particle `first` on, of `count`.
@@ -32,14 +31,7 @@ impl PropagateStage {
         [first, count]: [u32; 2],
     ) -> Result<()> {
         let push = propagate_comp::Push { first, batch: extent.candidates, count, dofs: extent.dofs };
-        recorder.compute(
-            Self::NAME,
-            &[Dispatch {
-                pipeline: &self.pipeline,
-                bindings: &bindings.bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: extent.block_groups(&self.device),
-            }],
-        )
+        let groups = extent.block_groups(recorder.device());
+        self.stage.record(recorder, &bindings.bound(), &push, groups)
     }
 }

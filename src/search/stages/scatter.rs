@@ -4,13 +4,12 @@ use anyhow::Result;
 
 use super::Extent;
 use super::generated::scatter_comp;
-use crate::gpu::{Device, Dispatch, Pipeline, Recorder, Stage};
+use crate::gpu::{ComputeStage, Device, Recorder, Stage};
 
 /// The stage.
 #[derive(Debug)]
 pub(in crate::search) struct ScatterStage {
-    pipeline: Pipeline,
-    device: Device,
+    stage: ComputeStage,
 }
 
 impl ScatterStage {
@@ -19,8 +18,8 @@ impl ScatterStage {
 
     /// Compiles it.
     pub(in crate::search) fn new(device: &Device) -> Result<Self> {
-        let pipeline = device.compute_pipeline(Stage { shader: &scatter_comp::SHADER, constants: &[] })?;
-        Ok(Self { pipeline, device: device.clone() })
+        let stage = ComputeStage::new(device, Self::NAME, Stage { shader: &scatter_comp::SHADER, constants: &[] })?;
+        Ok(Self { stage })
     }
 
     /// Records it, for every particle.
@@ -31,14 +30,7 @@ impl ScatterStage {
         extent: Extent,
     ) -> Result<()> {
         let push = scatter_comp::Push { particles: extent.candidates, dofs: extent.dofs };
-        recorder.compute(
-            Self::NAME,
-            &[Dispatch {
-                pipeline: &self.pipeline,
-                bindings: &bindings.bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: extent.block_groups(&self.device),
-            }],
-        )
+        let groups = extent.block_groups(recorder.device());
+        self.stage.record(recorder, &bindings.bound(), &push, groups)
     }
 }

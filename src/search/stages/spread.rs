@@ -4,12 +4,12 @@ use anyhow::Result;
 
 use super::Extent;
 use super::generated::spread_comp;
-use crate::gpu::{Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+use crate::gpu::{ComputeStage, Device, Groups, Recorder, Stage};
 
 /// The stage.
 #[derive(Debug)]
 pub(in crate::search) struct SpreadStage {
-    pipeline: Pipeline,
+    stage: ComputeStage,
 }
 
 impl SpreadStage {
@@ -18,8 +18,8 @@ impl SpreadStage {
 
     /// Compiles it.
     pub(in crate::search) fn new(device: &Device) -> Result<Self> {
-        let pipeline = device.compute_pipeline(Stage { shader: &spread_comp::SHADER, constants: &[] })?;
-        Ok(Self { pipeline })
+        let stage = ComputeStage::new(device, Self::NAME, Stage { shader: &spread_comp::SHADER, constants: &[] })?;
+        Ok(Self { stage })
     }
 
     /// Records it, over so many rows.
@@ -30,14 +30,6 @@ impl SpreadStage {
         extent: Extent,
     ) -> Result<()> {
         let push = spread_comp::Push { count: extent.candidates, dofs: extent.dofs };
-        recorder.compute(
-            Self::NAME,
-            &[Dispatch {
-                pipeline: &self.pipeline,
-                bindings: &bindings.bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: Groups::Count([extent.dofs, 1, 1]),
-            }],
-        )
+        self.stage.record(recorder, &bindings.bound(), &push, Groups::Count([extent.dofs, 1, 1]))
     }
 }

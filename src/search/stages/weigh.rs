@@ -4,12 +4,12 @@ use anyhow::Result;
 
 use super::Extent;
 use super::generated::weigh_comp;
-use crate::gpu::{Device, Dispatch, Groups, Pipeline, Recorder, Stage};
+use crate::gpu::{ComputeStage, Device, Groups, Recorder, Stage};
 
 /// The stage.
 #[derive(Debug)]
 pub(in crate::search) struct WeighStage {
-    pipeline: Pipeline,
+    stage: ComputeStage,
 }
 
 impl WeighStage {
@@ -18,8 +18,8 @@ impl WeighStage {
 
     /// Compiles it.
     pub(in crate::search) fn new(device: &Device) -> Result<Self> {
-        let pipeline = device.compute_pipeline(Stage { shader: &weigh_comp::SHADER, constants: &[] })?;
-        Ok(Self { pipeline })
+        let stage = ComputeStage::new(device, Self::NAME, Stage { shader: &weigh_comp::SHADER, constants: &[] })?;
+        Ok(Self { stage })
     }
 
     /// Records it, for fitness of all particles; `sharpness` is 1 / (2 sigma^2).
@@ -31,14 +31,6 @@ impl WeighStage {
         sharpness: f32,
     ) -> Result<()> {
         let push = weigh_comp::Push { count: extent.candidates, dofs: extent.dofs, sharpness };
-        recorder.compute(
-            Self::NAME,
-            &[Dispatch {
-                pipeline: &self.pipeline,
-                bindings: &bindings.bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: Groups::Count([1, 1, 1]),
-            }],
-        )
+        self.stage.record(recorder, &bindings.bound(), &push, Groups::Count([1, 1, 1]))
     }
 }

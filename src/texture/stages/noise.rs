@@ -4,7 +4,7 @@ use anyhow::{Result, ensure};
 
 use super::generated::noise_comp;
 use super::layout;
-use crate::gpu::{Buffer, Device, Dispatch, Groups, Memory, Pipeline, Recorder, Stage};
+use crate::gpu::{Buffer, ComputeStage, Device, Groups, Memory, Recorder, Stage};
 use crate::texture::noise::{HashLattice, Lattice, Octaves, TableLattice, Tables};
 
 /// Which noise.
@@ -43,7 +43,7 @@ pub struct NoiseRequest<'a> {
 /// The stage for one request, with the request's octaves and tables on the device.
 #[derive(Debug)]
 pub struct NoiseStage {
-    pipeline: Pipeline,
+    stage: ComputeStage,
     octaves: Buffer,
     tables: Buffer,
     count: u32,
@@ -67,7 +67,8 @@ impl NoiseStage {
             (id::SUM, octaves.sum as u32),
             (id::SOURCE, u32::from(matches!(request.source, NoiseSource::Tables(_)))),
         ];
-        let pipeline = device.compute_pipeline(Stage { shader: &noise_comp::SHADER, constants: &constants })?;
+        let stage = Stage { shader: &noise_comp::SHADER, constants: &constants };
+        let stage = ComputeStage::new(device, Self::NAME, stage)?;
         let rows: Vec<layout::Octave> = (0..)
             .zip(octaves.rows(request.tile))
             .map(|(octave, row)| layout::Octave {
@@ -89,7 +90,7 @@ impl NoiseStage {
         buffer.write(0, &rows)?;
         let tables = device.buffer::<u32>("noise tables", words.len(), Memory::Upload)?;
         tables.write(0, &words)?;
-        Ok(Self { pipeline, octaves: buffer, tables, count: octaves.count })
+        Ok(Self { stage, octaves: buffer, tables, count: octaves.count })
     }
 
     /// Records it: `points` (four coordinates each, the first `dimensions` count) to `values`, and the word of each point's cell
@@ -112,14 +113,7 @@ impl NoiseStage {
         );
         let push = noise_comp::Push { count, octaves: self.count };
         let bindings = noise_comp::Bindings { points, all_octaves: &self.octaves, tables: &self.tables, values, words };
-        recorder.compute(
-            Self::NAME,
-            &[Dispatch {
-                pipeline: &self.pipeline,
-                bindings: &bindings.bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: Groups::Count([count.div_ceil(noise_comp::SHADER.workgroup_size[0]), 1, 1]),
-            }],
-        )
+        let groups = Groups::Count([count.div_ceil(noise_comp::SHADER.workgroup_size[0]), 1, 1]);
+        self.stage.record(recorder, &bindings.bound(), &push, groups)
     }
 }
