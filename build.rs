@@ -6,6 +6,8 @@ mod compile;
 mod constants;
 #[path = "src/gpu/shaders/generate.rs"]
 mod generate;
+#[path = "src/gpu/interface.rs"]
+mod interface;
 #[path = "src/gpu/shaders/layouts.rs"]
 mod layouts;
 #[path = "src/gpu/shaders/reflect.rs"]
@@ -19,6 +21,7 @@ fn main() -> Result<()> {
     // A folder stands for every file in it, so includes and new stages count.
     println!("cargo:rerun-if-changed=glsl");
     println!("cargo:rerun-if-changed=src/gpu/shaders");
+    println!("cargo:rerun-if-changed=src/gpu/interface.rs");
     println!("cargo:rerun-if-changed=build.rs");
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?).join("glsl");
     let out = PathBuf::from(env::var("OUT_DIR")?);

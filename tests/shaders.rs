@@ -7,12 +7,15 @@ mod compile;
 mod constants;
 #[path = "../src/gpu/shaders/generate.rs"]
 mod generate;
+#[path = "../src/gpu/interface.rs"]
+mod interface;
 #[path = "../src/gpu/shaders/layouts.rs"]
 mod layouts;
 #[path = "../src/gpu/shaders/reflect.rs"]
 mod reflect;
 
-use reflect::{Access, Kind, Reflection};
+use interface::{Access, BindingKind};
+use reflect::Reflection;
 use std::path::PathBuf;
 use tempfile::TempDir;
 
@@ -230,7 +233,10 @@ fn pictures_are_bound_without_samplers() {
         reflection.resources.iter().map(|r| (r.name.as_str(), r.set, r.binding, r.kind, r.access)).collect();
     assert_eq!(
         found,
-        [("labels", 0, 0, Kind::SampledImage, Access::Read), ("target", 1, 2, Kind::StorageImage, Access::Write)]
+        [
+            ("labels", 0, 0, BindingKind::SampledImage, Access::Read),
+            ("target", 1, 2, BindingKind::StorageImage, Access::Write)
+        ]
     );
     // naga cannot read atomics on images: they are found, and both read and written.
     let text = compute(
@@ -240,7 +246,7 @@ fn pictures_are_bound_without_samplers() {
     let reflection = reflected("room/a.comp", &text);
     assert!(reflection.unread.is_some(), "naga reads image atomics now: the fallback is untested");
     let found: Vec<_> = reflection.resources.iter().map(|r| (r.name.as_str(), r.kind, r.access)).collect();
-    assert_eq!(found, [("top", Kind::StorageImage, Access::ReadWrite)]);
+    assert_eq!(found, [("top", BindingKind::StorageImage, Access::ReadWrite)]);
     let sampler = compute(
         "layout(set = 0, binding = 0) uniform sampler2D photograph; layout(binding = 1) buffer R { vec4 r; };",
         "r = texture(photograph, vec2(0));",
@@ -439,7 +445,7 @@ fn spirv_val_accepts_every_stage() {
     for room in std::fs::read_dir(&root).unwrap().map(|entry| entry.unwrap().path()) {
         for file in std::fs::read_dir(&room).unwrap().map(|entry| entry.unwrap().path()) {
             let name = file.strip_prefix(&root).unwrap().to_str().unwrap();
-            if compile::Stage::of(name).is_none() {
+            if compile::kind_of(name).is_none() {
                 continue;
             }
             let words = compile::compile(&root, name).unwrap().spirv;

@@ -5,10 +5,11 @@ use std::collections::HashMap;
 use anyhow::{Result, bail, ensure};
 use ash::vk;
 
+use super::interface::BindingKind;
 use super::pipeline::{Pipeline, descriptor_type};
 use super::recorder::id;
 use super::recording::RecordingParts;
-use super::shader::{Binding, BindingKind, Bound};
+use super::shader::{Binding, Bound};
 
 /// Descriptor sets of a pool; a recording takes another pool when one is used up.
 const SETS_A_POOL: u32 = 128;

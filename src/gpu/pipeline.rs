@@ -8,7 +8,8 @@ use ash::vk;
 
 use super::device::{Device, DeviceShared};
 use super::image::Format;
-use super::shader::{BindingKind, Shader, ShaderKind};
+use super::interface::{BindingKind, ShaderKind};
+use super::shader::Shader;
 
 /// A compiled pipeline; clones are the same pipeline.
 #[derive(Clone)]

@@ -1,5 +1,6 @@
 //! What the build knows of a shader stage: generated from GLSL by `build.rs`, so that a binding has one source.
 
+use super::interface::{Access, BindingKind, ShaderKind};
 use super::{Buffer, Image};
 
 /// One compiled stage: generated from a file under `glsl/`.
@@ -21,19 +22,6 @@ pub struct Shader {
     pub constants: &'static [SpecConstant],
 }
 
-/// A pipeline stage.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ShaderKind {
-    /// Compute.
-    Compute,
-    /// Vertex.
-    Vertex,
-    /// Geometry.
-    Geometry,
-    /// Fragment.
-    Fragment,
-}
-
 /// A descriptor of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BindingLayout {
@@ -47,30 +35,6 @@ pub struct BindingLayout {
     pub kind: BindingKind,
     /// What the stage really does with it.
     pub access: Access,
-}
-
-/// What a descriptor points to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BindingKind {
-    /// A buffer of any size, read or written.
-    StorageBuffer,
-    /// A small buffer, read.
-    UniformBuffer,
-    /// An image read by texel, without a sampler.
-    SampledImage,
-    /// An image read or written by texel.
-    StorageImage,
-}
-
-/// What a stage does with a resource.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Access {
-    /// Reads only.
-    Read,
-    /// Writes only.
-    Write,
-    /// Both.
-    ReadWrite,
 }
 
 impl Access {

@@ -1,42 +1,28 @@
 //! GLSL to SPIR-V 1.3 for Vulkan 1.1, through shaderc.
 
+use super::interface::ShaderKind;
 use anyhow::{Context, Result, anyhow, bail};
 use std::cell::RefCell;
 use std::fs;
 use std::path::Path;
 
-/// A stage's place in the pipeline, told from its file's extension.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
-    /// `.comp`
-    Compute,
-    /// `.vert`
-    Vertex,
-    /// `.geom`
-    Geometry,
-    /// `.frag`
-    Fragment,
+/// The stage that a file of this name holds, told from its extension; none for includes and other files.
+pub fn kind_of(name: &str) -> Option<ShaderKind> {
+    match name.rsplit_once('.')?.1 {
+        "comp" => Some(ShaderKind::Compute),
+        "vert" => Some(ShaderKind::Vertex),
+        "geom" => Some(ShaderKind::Geometry),
+        "frag" => Some(ShaderKind::Fragment),
+        _ => None,
+    }
 }
 
-impl Stage {
-    /// The stage that a file of this name holds; none for includes and other files.
-    pub fn of(name: &str) -> Option<Self> {
-        match name.rsplit_once('.')?.1 {
-            "comp" => Some(Self::Compute),
-            "vert" => Some(Self::Vertex),
-            "geom" => Some(Self::Geometry),
-            "frag" => Some(Self::Fragment),
-            _ => None,
-        }
-    }
-
-    fn shaderc(self) -> shaderc::ShaderKind {
-        match self {
-            Self::Compute => shaderc::ShaderKind::Compute,
-            Self::Vertex => shaderc::ShaderKind::Vertex,
-            Self::Geometry => shaderc::ShaderKind::Geometry,
-            Self::Fragment => shaderc::ShaderKind::Fragment,
-        }
+fn shaderc_kind(kind: ShaderKind) -> shaderc::ShaderKind {
+    match kind {
+        ShaderKind::Compute => shaderc::ShaderKind::Compute,
+        ShaderKind::Vertex => shaderc::ShaderKind::Vertex,
+        ShaderKind::Geometry => shaderc::ShaderKind::Geometry,
+        ShaderKind::Fragment => shaderc::ShaderKind::Fragment,
     }
 }
 
@@ -44,7 +30,7 @@ impl Stage {
 #[derive(Clone, Debug)]
 pub struct Compiled {
     /// Place in the pipeline.
-    pub stage: Stage,
+    pub kind: ShaderKind,
     /// Optimised words for the device.
     pub spirv: Vec<u32>,
     /// The same without optimisation, for reflection: it still has the names.
@@ -58,20 +44,19 @@ pub struct Compiled {
 /// One sentence that begins with file and line, for a missing file, an include that leads back to itself, or what the
 /// compiler says.
 pub fn compile(root: &Path, name: &str) -> Result<Compiled> {
-    let stage =
-        Stage::of(name).ok_or_else(|| anyhow!("{name}: a stage's file ends in .comp, .vert, .geom or .frag"))?;
+    let kind = kind_of(name).ok_or_else(|| anyhow!("{name}: a stage's file ends in .comp, .vert, .geom or .frag"))?;
     let path = root.join(name);
     let source = fs::read_to_string(&path).with_context(|| format!("cannot read the shader {}", path.display()))?;
     let compiler = shaderc::Compiler::new().map_err(|error| anyhow!("the shader compiler does not start: {error}"))?;
     let build = |level: shaderc::OptimizationLevel| -> Result<Vec<u32>> {
         let options = options(root, name, level)?;
-        match compiler.compile_into_spirv(&source, stage.shaderc(), name, "main", Some(&options)) {
+        match compiler.compile_into_spirv(&source, shaderc_kind(kind), name, "main", Some(&options)) {
             Ok(artifact) => Ok(artifact.as_binary().to_vec()),
             Err(error) => bail!("{}", sentence(name, &error)),
         }
     };
     Ok(Compiled {
-        stage,
+        kind,
         named: build(shaderc::OptimizationLevel::Zero)?,
         spirv: build(shaderc::OptimizationLevel::Performance)?,
     })

@@ -1,10 +1,11 @@
 //! A room's stages as Rust source text: a module a stage, the memory layouts they share, the constants of
 //! `constants.glsl`.
 
-use super::compile::{Compiled, Stage, compile};
+use super::compile::{Compiled, compile, kind_of};
 use super::constants::constants;
+use super::interface::{Access, BindingKind};
 use super::layouts::{Layouts, camel_case, identifier};
-use super::reflect::{Access, Kind, Reflection, reflect};
+use super::reflect::{Reflection, reflect};
 use anyhow::{Context, Result, ensure};
 use std::fmt::Write;
 use std::fs;
@@ -17,7 +18,7 @@ use std::path::Path;
 pub fn rooms(root: &Path) -> Result<Vec<String>> {
     let mut rooms = Vec::new();
     for name in listed(root)? {
-        if root.join(&name).is_dir() && listed(&root.join(&name))?.iter().any(|file| Stage::of(file).is_some()) {
+        if root.join(&name).is_dir() && listed(&root.join(&name))?.iter().any(|file| kind_of(file).is_some()) {
             rooms.push(name);
         }
     }
@@ -44,7 +45,7 @@ pub fn generate(root: &Path, room: &str) -> Result<String> {
     let mut layouts = Layouts::default();
     let mut modules = String::new();
     let mut statics = Vec::new();
-    for file in listed(&root.join(room))?.iter().filter(|file| Stage::of(file).is_some()) {
+    for file in listed(&root.join(room))?.iter().filter(|file| kind_of(file).is_some()) {
         let name = format!("{room}/{file}");
         let compiled = compile(root, &name)?;
         let reflection = reflect(&name, &compiled)?;
@@ -102,7 +103,7 @@ fn stage(
             layouts.block(name, &camel_case(&block.name), block)?;
         }
     }
-    let kind = compiled.stage;
+    let kind = compiled.kind;
     writeln!(text, "/// The stage `{name}`.\npub mod {module} {{")?;
     if let Some(why) = &reflection.unread {
         writeln!(text, "    // Accesses are as declared: naga cannot read this stage ({why}).")?;
@@ -157,13 +158,13 @@ fn bindings(reflection: &Reflection, fields: &[String]) -> Result<String> {
         text,
         "    /// What the stage works on.\n    #[derive(Clone, Copy, Debug)]\n    pub struct Bindings<'a> {{"
     )?;
-    let image = |kind: Kind| matches!(kind, Kind::SampledImage | Kind::StorageImage);
+    let image = |kind: BindingKind| matches!(kind, BindingKind::SampledImage | BindingKind::StorageImage);
     for (resource, field) in reflection.resources.iter().zip(fields) {
         let what = match resource.kind {
-            Kind::StorageBuffer => "Storage buffer",
-            Kind::UniformBuffer => "Uniform buffer",
-            Kind::SampledImage => "Texture",
-            Kind::StorageImage => "Storage image",
+            BindingKind::StorageBuffer => "Storage buffer",
+            BindingKind::UniformBuffer => "Uniform buffer",
+            BindingKind::SampledImage => "Texture",
+            BindingKind::StorageImage => "Storage image",
         };
         let how = match resource.access {
             Access::Read => "read",

@@ -9,7 +9,8 @@ pub mod generate;
 pub mod layouts;
 pub mod reflect;
 
-use super::shader::{Access, BindingKind, Shader};
+use super::interface;
+use super::shader::Shader;
 use anyhow::{Result, ensure};
 use std::path::Path;
 
@@ -23,8 +24,7 @@ pub fn reload(shader: &Shader, root: &Path) -> Result<Vec<u32>> {
     let now = reflect::reflect(shader.name, &compiled)?;
     let same_size = now.workgroup_size == shader.workgroup_size;
     let push = now.push.as_ref().map_or(0, reflect::Struct::size);
-    let bindings =
-        shader.bindings.iter().map(|b| (b.name.to_string(), b.set, b.binding, kind(b.kind), access(b.access)));
+    let bindings = shader.bindings.iter().map(|b| (b.name.to_string(), b.set, b.binding, b.kind, b.access));
     let same_bindings = bindings.eq(now.resources.iter().map(|r| (r.name.clone(), r.set, r.binding, r.kind, r.access)));
     let constants = shader.constants.iter().map(|c| (c.name.to_string(), c.id));
     let same_constants = constants.eq(now.constants.iter().map(|c| (c.name.clone(), c.id)));
@@ -37,23 +37,6 @@ pub fn reload(shader: &Shader, root: &Path) -> Result<Vec<u32>> {
         ensure!(same, "{}: its {what} changed since the program was built; build it again", shader.name);
     }
     Ok(compiled.spirv)
-}
-
-fn kind(kind: BindingKind) -> reflect::Kind {
-    match kind {
-        BindingKind::StorageBuffer => reflect::Kind::StorageBuffer,
-        BindingKind::UniformBuffer => reflect::Kind::UniformBuffer,
-        BindingKind::SampledImage => reflect::Kind::SampledImage,
-        BindingKind::StorageImage => reflect::Kind::StorageImage,
-    }
-}
-
-fn access(access: Access) -> reflect::Access {
-    match access {
-        Access::Read => reflect::Access::Read,
-        Access::Write => reflect::Access::Write,
-        Access::ReadWrite => reflect::Access::ReadWrite,
-    }
 }
 
 #[cfg(test)]

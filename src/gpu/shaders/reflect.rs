@@ -4,7 +4,8 @@
 //! what the code really does to each resource. Where naga cannot read a stage (geometry shaders, transform feedback,
 //! some subgroup and atomic operations), the access is what the GLSL declares: `readonly`, `writeonly`, otherwise both.
 
-use super::compile::{Compiled, Stage};
+use super::compile::Compiled;
+use super::interface::{Access, BindingKind, ShaderKind};
 use anyhow::{Result, anyhow, bail, ensure};
 use spirq::ty::{AccessType, DescriptorType, MatrixAxisOrder, ScalarType, StructType, Type};
 use spirq::var::Variable;
@@ -36,35 +37,11 @@ pub struct Resource {
     /// Binding in the set.
     pub binding: u32,
     /// What is bound.
-    pub kind: Kind,
+    pub kind: BindingKind,
     /// What the stage does to it.
     pub access: Access,
     /// Layout of a buffer's block.
     pub block: Option<Struct>,
-}
-
-/// What is bound.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// `buffer` block.
-    StorageBuffer,
-    /// `uniform` block.
-    UniformBuffer,
-    /// Texture without a sampler.
-    SampledImage,
-    /// `image2D` and its kin.
-    StorageImage,
-}
-
-/// What a stage does to a resource.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Access {
-    /// Reads only.
-    Read,
-    /// Writes only.
-    Write,
-    /// Both, or atomics.
-    ReadWrite,
 }
 
 /// A specialisation constant.
@@ -211,7 +188,7 @@ pub fn reflect(name: &str, compiled: &Compiled) -> Result<Reflection> {
         ensure!(!twice, "{name}: {} and {} share set {}, binding {}", a.name, b.name, a.set, a.binding);
     }
     Ok(Reflection {
-        workgroup_size: if compiled.stage == Stage::Compute { named.workgroup_size } else { [1; 3] },
+        workgroup_size: if compiled.kind == ShaderKind::Compute { named.workgroup_size } else { [1; 3] },
         push,
         resources,
         constants: named.constants(name)?,
@@ -221,17 +198,17 @@ pub fn reflect(name: &str, compiled: &Compiled) -> Result<Reflection> {
 
 const ADVICE: &str = "use a storage buffer, a uniform block, a texture2D without sampler, or an image2D";
 
-fn kind(descriptor: &DescriptorType) -> Result<(Kind, Access), &'static str> {
+fn kind(descriptor: &DescriptorType) -> Result<(BindingKind, Access), &'static str> {
     let access = |access: &AccessType| match access {
         AccessType::ReadOnly => Access::Read,
         AccessType::WriteOnly => Access::Write,
         AccessType::ReadWrite => Access::ReadWrite,
     };
     match descriptor {
-        DescriptorType::StorageBuffer(declared) => Ok((Kind::StorageBuffer, access(declared))),
-        DescriptorType::UniformBuffer() => Ok((Kind::UniformBuffer, Access::Read)),
-        DescriptorType::SampledImage() => Ok((Kind::SampledImage, Access::Read)),
-        DescriptorType::StorageImage(declared) => Ok((Kind::StorageImage, access(declared))),
+        DescriptorType::StorageBuffer(declared) => Ok((BindingKind::StorageBuffer, access(declared))),
+        DescriptorType::UniformBuffer() => Ok((BindingKind::UniformBuffer, Access::Read)),
+        DescriptorType::SampledImage() => Ok((BindingKind::SampledImage, Access::Read)),
+        DescriptorType::StorageImage(declared) => Ok((BindingKind::StorageImage, access(declared))),
         DescriptorType::Sampler() | DescriptorType::CombinedImageSampler() => Err("a sampler"),
         DescriptorType::UniformTexelBuffer() | DescriptorType::StorageTexelBuffer(_) => Err("a texel buffer"),
         DescriptorType::InputAttachment(_) => Err("an input attachment"),
