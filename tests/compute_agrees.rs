@@ -4,29 +4,17 @@
 //! Runs on whatever Vulkan device there is, under the validation layer, which must stay silent.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+mod device;
 mod scene;
 
 use std::process::Command;
 
+use device::device;
 use pantin::body::Body;
 use pantin::evaluate::vulkan::Compute;
 use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind, Reference};
-use pantin::gpu::{
-    Capabilities, Device, DeviceLost, DeviceSettings, Instance, Timing, Validation, ValidationLog, by_name,
-};
+use pantin::gpu::{Capabilities, DeviceLost, DeviceSettings, Timing, ValidationLog, by_name};
 use scene::{Random, cameras, evaluate, first_difference, observations, poses, reference_in_parallel};
-
-/// A device under validation, and its log; none where there is no Vulkan, which is a failure in CI.
-fn device(name: &str, settings: DeviceSettings) -> Option<(Device, ValidationLog)> {
-    match Instance::open(Validation::Synchronisation) {
-        Ok(instance) => Some((Device::open(&instance, settings).unwrap(), instance.validation_log())),
-        Err(error) => {
-            assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
-            println!("SKIPPED {name}: {error:#}");
-            None
-        }
-    }
-}
 
 fn assert_silent(log: &ValidationLog) {
     assert_eq!(log.messages(), Vec::<String>::new());
@@ -128,7 +116,7 @@ fn limits_too_low_for_one_candidate_are_a_sentence() {
     let Some((device, _)) = device(name, settings(|c| c.max_groups = 3)) else { return };
     let error = Compute::on(&device, &body(), &cameras()).unwrap_err().to_string();
     assert!(error.contains("not even one candidate"), "{error}");
-    let Some((device, _)) = self::device(name, settings(|c| c.memory = 20_000)) else { return };
+    let Some((device, _)) = device::device(name, settings(|c| c.memory = 20_000)) else { return };
     let error = Compute::on(&device, &body(), &cameras()).unwrap_err().to_string();
     assert!(error.contains("of device memory"), "{error}");
 }

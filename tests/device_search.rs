@@ -1,31 +1,22 @@
 //! A frame searched in one submission over the compute backend is the frame that the host drives over the same backend, to the
 //! bit: what differs between devices, their evaluation, is the same device's here.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
-#![allow(dead_code, reason = "not all of the scene is used here")]
 
+mod device;
+#[allow(dead_code, reason = "poses are the search's own here")]
 mod scene;
 
 use std::time::Instant;
 
+use device::{device, device_under};
 use pantin::body::Body;
 use pantin::evaluate::vulkan::Compute;
 use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind};
 use pantin::features::Observation;
 use pantin::geometry::Camera;
-use pantin::gpu::{Device, DeviceSettings, Instance, Timing, Validation, by_name};
+use pantin::gpu::{DeviceSettings, Timing, Validation, by_name};
 use pantin::search::{DeviceFound, DeviceSearch, Estimate, Search, SearchKind, SearchSettings, SearchSpace};
 use scene::{Random, cameras, observations};
-
-fn device(name: &str, validation: Validation, settings: DeviceSettings) -> Option<Device> {
-    match Instance::open(validation).and_then(|instance| Device::open(&instance, settings)) {
-        Ok(device) => Some(device),
-        Err(error) => {
-            assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
-            println!("SKIPPED {name}: {error:#}");
-            None
-        }
-    }
-}
 
 fn standing(body: &Body) -> Vec<f32> {
     body.standing_pose().into_iter().map(|value| value as f32).collect()
@@ -60,8 +51,7 @@ fn one_submission_finds_what_the_host_finds_batch_by_batch() {
     let small = |capabilities: &mut pantin::gpu::Capabilities| capabilities.max_storage = 1 << 16;
     for (name, lower) in [("as it is", None), ("little storage", Some(small as fn(&mut _)))] {
         let settings = DeviceSettings { lower, ..DeviceSettings::default() };
-        let Some(device) = device("one_submission_finds_what_the_host_finds", Validation::Synchronisation, settings)
-        else {
+        let Some((device, _)) = device("one_submission_finds_what_the_host_finds", settings) else {
             return;
         };
         let (body, cameras) = (Body::adult(1750.0).unwrap(), cameras());
@@ -106,7 +96,7 @@ fn large_cameras() -> Vec<Camera> {
 #[test]
 #[ignore = "measures"]
 fn time_of_a_frame() {
-    let Some(device) = device("time_of_a_frame", Validation::Off, DeviceSettings::default()) else { return };
+    let Some((device, _)) = device_under(Validation::Off, "time_of_a_frame", DeviceSettings::default()) else { return };
     let (body, cameras) = (Body::adult(1750.0).unwrap(), large_cameras());
     let space = SearchSpace::of(&body).unwrap();
     let (spread, centre) = (space.spread(0.04).unwrap(), standing(&body));

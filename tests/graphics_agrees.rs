@@ -4,29 +4,22 @@
 //! Runs on whatever Vulkan device there is, under the validation layer, which must stay silent.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+mod device;
 mod scene;
 
+use device::device;
 use pantin::body::Body;
 use pantin::evaluate::vulkan::{
     Comparison, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
 };
 use pantin::evaluate::{Evaluator as _, Objective, ObjectiveKind};
-use pantin::gpu::{Device, DeviceSettings, Instance, Validation};
+use pantin::gpu::DeviceSettings;
 use scene::{Random, cameras, evaluate, first_difference, observations, poses, reference_in_parallel};
 
 #[test]
 fn five_hundred_poses_give_identical_integers() {
     const NAME: &str = "five_hundred_poses_give_identical_integers";
-    let instance = match Instance::open(Validation::Synchronisation) {
-        Ok(instance) => instance,
-        Err(error) => {
-            assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
-            println!("SKIPPED {NAME}: {error:#}");
-            return;
-        }
-    };
-    let device = Device::open(&instance, DeviceSettings::default()).unwrap();
-    let log = instance.validation_log();
+    let Some((device, log)) = device(NAME, DeviceSettings::default()) else { return };
     let (body, cameras) = (Body::adult(1750.0).unwrap(), cameras());
     let mut random = Random(21);
     let seen = observations(&cameras, &mut random);

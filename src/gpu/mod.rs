@@ -51,4 +51,6 @@ mod generated {
 }
 
 #[cfg(test)]
+pub(crate) mod test_device;
+#[cfg(test)]
 mod tests;

@@ -4,19 +4,8 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use super::generated::{double_comp, fill_frag, fill_vert, layout};
+use super::test_device::device;
 use super::*;
-
-/// A device under full validation, and its log.
-fn device(name: &str, settings: DeviceSettings) -> Option<(Device, ValidationLog)> {
-    match Instance::open(Validation::Synchronisation) {
-        Ok(instance) => Some((Device::open(&instance, settings).unwrap(), instance.validation_log())),
-        Err(error) => {
-            assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
-            println!("SKIPPED {name}: {error:#}");
-            None
-        }
-    }
-}
 
 fn assert_silent(log: &ValidationLog) {
     assert_eq!(log.messages(), Vec::<String>::new());

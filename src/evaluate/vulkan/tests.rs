@@ -9,19 +9,8 @@ use crate::body::Body;
 use crate::evaluate::Projector;
 use crate::evaluate::stages::{PoseStage, ProjectStage, Share, layout};
 use crate::geometry::{BrownConrady, Camera, Lens, Tsai};
-use crate::gpu::{Buffer, Device, DeviceSettings, Instance, Memory, Timing, Validation, ValidationLog};
-
-/// A device under full validation, and its log; none where there is no Vulkan.
-pub(super) fn device(name: &str, settings: DeviceSettings) -> Option<(Device, ValidationLog)> {
-    match Instance::open(Validation::Synchronisation) {
-        Ok(instance) => Some((Device::open(&instance, settings).unwrap(), instance.validation_log())),
-        Err(error) => {
-            assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
-            println!("SKIPPED {name}: {error:#}");
-            None
-        }
-    }
-}
+pub(super) use crate::gpu::test_device::device;
+use crate::gpu::{Buffer, Device, DeviceSettings, Memory, Timing};
 
 /// Two small cameras, one of each lens.
 pub(super) fn cameras() -> Vec<Camera> {

@@ -5,7 +5,8 @@
 use std::time::Instant;
 
 use super::*;
-use crate::gpu::{DeviceSettings, Dispatch, Groups, Instance, Pipeline, Stage, Validation, ValidationLog, by_name};
+use crate::gpu::test_device::{device, device_under};
+use crate::gpu::{DeviceSettings, Dispatch, Groups, Pipeline, Stage, Validation, by_name};
 use crate::search::arithmetic::box_muller;
 use crate::search::{FilterSettings, Search, philox4x32};
 
@@ -20,17 +21,6 @@ mod generated {
     include!(concat!(env!("OUT_DIR"), "/search_tests_stages.rs"));
 }
 use generated::{random_comp, score_comp};
-
-fn device(name: &str, validation: Validation) -> Option<(Device, ValidationLog)> {
-    match Instance::open(validation) {
-        Ok(instance) => Some((Device::open(&instance, DeviceSettings::default()).unwrap(), instance.validation_log())),
-        Err(error) => {
-            assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
-            println!("SKIPPED {name}: {error:#}");
-            None
-        }
-    }
-}
 
 fn fetch<T: bytemuck::Pod>(device: &Device, buffer: &Buffer) -> Vec<T> {
     let len = buffer.size() as usize / size_of::<T>();
@@ -256,7 +246,7 @@ fn difference(
 
 #[test]
 fn blocks_and_normals_are_the_processor_s() {
-    let Some((device, log)) = device("blocks_and_normals_are_the_processor_s", Validation::Synchronisation) else {
+    let Some((device, log)) = device("blocks_and_normals_are_the_processor_s", DeviceSettings::default()) else {
         return;
     };
     let key = [0x89AB_CDEF, 0x0123_4567];
@@ -293,7 +283,7 @@ fn blocks_and_normals_are_the_processor_s() {
 
 #[test]
 fn the_device_finds_what_the_processor_finds_to_the_bit() {
-    let Some((device, log)) = device("the_device_finds_what_the_processor_finds", Validation::Synchronisation) else {
+    let Some((device, log)) = device("the_device_finds_what_the_processor_finds", DeviceSettings::default()) else {
         return;
     };
     // One of everything, counts around the sizes of workgroups and lanes, and poses of one to four groups of random numbers.
@@ -322,8 +312,7 @@ fn the_device_finds_what_the_processor_finds_to_the_bit() {
 
 #[test]
 fn what_is_not_a_number_never_wins_there_either() {
-    let Some((device, log)) = device("what_is_not_a_number_never_wins_there_either", Validation::Synchronisation)
-    else {
+    let Some((device, log)) = device("what_is_not_a_number_never_wins_there_either", DeviceSettings::default()) else {
         return;
     };
     for kind in SearchKind::ALL {
@@ -349,7 +338,10 @@ fn what_is_not_a_number_never_wins_there_either() {
 
 #[test]
 fn one_changed_number_is_noticed() {
-    let Some((device, _)) = device("one_changed_number_is_noticed", Validation::Off) else { return };
+    let Some((device, _)) = device_under(Validation::Off, "one_changed_number_is_noticed", DeviceSettings::default())
+    else {
+        return;
+    };
     for kind in SearchKind::ALL {
         for place in [31, 17 * 31 + 5, 299 * 31 + 30] {
             let odd = difference(&device, &settings(kind, 300, 15), 31, NOTHING_BAD, Some(place));
@@ -360,7 +352,7 @@ fn one_changed_number_is_noticed() {
 
 #[test]
 fn frames_repeat_and_misuse_has_its_sentence() {
-    let Some((device, log)) = device("frames_repeat_and_misuse_has_its_sentence", Validation::Synchronisation) else {
+    let Some((device, log)) = device("frames_repeat_and_misuse_has_its_sentence", DeviceSettings::default()) else {
         return;
     };
     let (dofs, space) = (5, space(5));
@@ -402,7 +394,7 @@ fn frames_repeat_and_misuse_has_its_sentence() {
 #[test]
 #[ignore = "measures"]
 fn time_of_a_frame() {
-    let Some((device, _)) = device("time_of_a_frame", Validation::Off) else { return };
+    let Some((device, _)) = device_under(Validation::Off, "time_of_a_frame", DeviceSettings::default()) else { return };
     let dofs = 31;
     let (space, centre) = (space(dofs), start(dofs));
     let spread = space.spread(0.04).unwrap();

@@ -4,21 +4,11 @@
 
 use super::generated::FARTHEST_BITS;
 use super::*;
-use crate::gpu::{Device, DeviceSettings, Instance, Memory, Timing, Validation, ValidationLog, by_name};
+use crate::gpu::test_device::{device, device_under};
+use crate::gpu::{Device, DeviceSettings, Memory, Timing, Validation, by_name};
 use crate::texture::noise::{
     FARTHEST, HashLattice, Lattice, Noise, Octaves, Perlin, Sum, TableLattice, Tables, Value, hard_coordinates,
 };
-
-fn device(name: &str, validation: Validation) -> Option<(Device, ValidationLog)> {
-    match Instance::open(validation) {
-        Ok(instance) => Some((Device::open(&instance, DeviceSettings::default()).unwrap(), instance.validation_log())),
-        Err(error) => {
-            assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
-            println!("SKIPPED {name}: {error:#}");
-            None
-        }
-    }
-}
 
 /// Values and words of a request at points, and the milliseconds of the dispatch.
 fn on_device(device: &Device, request: &NoiseRequest<'_>, points: &[[f32; 4]]) -> (Vec<f32>, Vec<u32>, f64) {
@@ -85,7 +75,7 @@ where
 #[test]
 fn a_device_has_the_words_and_values_of_the_cpu() {
     let name = "a_device_has_the_words_and_values_of_the_cpu";
-    let Some((device, log)) = device(name, Validation::Synchronisation) else { return };
+    let Some((device, log)) = device(name, DeviceSettings::default()) else { return };
     assert_eq!(f32::from_bits(FARTHEST_BITS), FARTHEST);
     let rows: Vec<Vec<f32>> = (0..4).map(|axis| hard_coordinates(100_000, 40 + axis)).collect();
     let points: Vec<[f32; 4]> = (0..100_000).map(|i| [rows[0][i], rows[1][i], rows[2][i], rows[3][i]]).collect();
@@ -112,8 +102,7 @@ fn a_device_has_the_words_and_values_of_the_cpu() {
 
 #[test]
 fn wrong_requests_and_short_buffers_are_refused() {
-    let Some((device, log)) = device("wrong_requests_and_short_buffers_are_refused", Validation::Synchronisation)
-    else {
+    let Some((device, log)) = device("wrong_requests_and_short_buffers_are_refused", DeviceSettings::default()) else {
         return;
     };
     let request = NoiseRequest {
@@ -141,7 +130,10 @@ fn wrong_requests_and_short_buffers_are_refused() {
 #[test]
 #[ignore = "a measurement"]
 fn noise_speed_on_the_device() {
-    let Some((device, _)) = device("noise_speed_on_the_device", Validation::Off) else { return };
+    let Some((device, _)) = device_under(Validation::Off, "noise_speed_on_the_device", DeviceSettings::default())
+    else {
+        return;
+    };
     let points: Vec<[f32; 4]> =
         (0..1 << 20).map(|i| [(i % 1024) as f32 * 0.037, (i / 1024) as f32 * 0.037, 0.4, 0.0]).collect();
     for (name, count, source) in [("perlin 3D", 1, true), ("perlin 3D fbm, 4 octaves", 4, true), ("tables", 4, false)] {

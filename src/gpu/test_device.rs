@@ -1,0 +1,26 @@
+//! The device of the crate's own tests.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use super::{Device, DeviceSettings, Instance, Validation, ValidationLog};
+
+/// A device under full validation, and its log; none where there is no Vulkan, which is a failure where PANTIN_NEEDS_VULKAN is set.
+pub(crate) fn device(test: &str, settings: DeviceSettings) -> Option<(Device, ValidationLog)> {
+    device_under(Validation::Synchronisation, test, settings)
+}
+
+/// The same with other validation.
+pub(crate) fn device_under(
+    validation: Validation,
+    test: &str,
+    settings: DeviceSettings,
+) -> Option<(Device, ValidationLog)> {
+    match Instance::open(validation) {
+        Ok(instance) => Some((Device::open(&instance, settings).unwrap(), instance.validation_log())),
+        Err(error) => {
+            assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
+            println!("SKIPPED {test}: {error:#}");
+            None
+        }
+    }
+}
