@@ -3,6 +3,7 @@
 use std::ffi::{CStr, c_void};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use anyhow::{Result, bail};
 use ash::vk;
 
 /// How much the validation layer checks.
@@ -28,6 +29,17 @@ impl ValidationLog {
     /// What was said so far, oldest first.
     pub fn messages(&self) -> Vec<String> {
         self.messages.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Holds the program to it.
+    ///
+    /// # Errors
+    /// When something was said: the first message.
+    pub fn check(&self) -> Result<()> {
+        match self.messages().first() {
+            Some(message) => bail!("the Vulkan validation layer finds a fault: {message}"),
+            None => Ok(()),
+        }
     }
 
     /// The create info of a messenger that writes here. The log must outlive the messenger: the instance keeps both.

@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, ensure};
 
 use crate::body::Body;
 use crate::evaluate::batch::check_batch;
@@ -214,9 +214,7 @@ impl Compute {
                 passes.extend(recording.passes_run(Instant::now())?);
             }
         }
-        if let Some(message) = self.model.device.validation_log().messages().first() {
-            bail!("the Vulkan validation layer finds a fault: {message}");
-        }
+        self.model.device.validation_log().check()?;
         Ok(())
     }
 }

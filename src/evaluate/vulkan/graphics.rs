@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, ensure};
 
 use crate::body::{Body, Mesh};
 use crate::evaluate::batch::check_batch;
@@ -480,9 +480,7 @@ impl Graphics {
                 }
             }
         }
-        if let Some(message) = self.model.device.validation_log().messages().first() {
-            bail!("the Vulkan validation layer finds a fault: {message}");
-        }
+        self.model.device.validation_log().check()?;
         if self.measure(candidates)? && !self.drawn.scores_what_fits_no_tile() {
             // Tiles grow up to the pictures, which everything fits.
             return self.run(poses, objective);

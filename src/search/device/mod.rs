@@ -11,7 +11,7 @@ mod tests;
 
 use std::time::Instant;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 
 use super::stages::{Extent, layout};
 use super::{Estimate, SearchKind, SearchSettings, SearchSpace, check_start};
@@ -113,9 +113,7 @@ impl DeviceSearch {
             self.memory.upload.write(first + row * dofs, values)?;
         }
         self.recording.run()?;
-        if let Some(message) = self.memory.device.validation_log().messages().first() {
-            bail!("the Vulkan validation layer finds a fault: {message}");
-        }
+        self.memory.device.validation_log().check()?;
         self.take(frame)
     }
 
