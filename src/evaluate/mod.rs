@@ -2,6 +2,7 @@
 //! (SPEC A6, A7).
 
 mod batch;
+mod bit_planes;
 mod components;
 pub mod cpu;
 mod mesh_projection;

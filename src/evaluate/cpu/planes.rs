@@ -1,6 +1,7 @@
 //! An observation as bit planes: for every 16 rows x 32 columns a cell of eight sixteen-lane words, one lane a row and
 //! one bit a column. So a comparison is a bit operation and a bit count, with no look-up a pixel.
 
+use crate::evaluate::bit_planes::bit_planes;
 use crate::features::Observation;
 
 use super::simd::Lanes;
@@ -44,32 +45,12 @@ impl Planes {
             let (block, lane) = (y / CELL_ROWS as usize, y % CELL_ROWS as usize);
             for (word, pixels) in row.chunks(CELL_COLUMNS as usize).enumerate() {
                 let cell = &mut self.cells[block * self.columns + word];
-                let mut planes = [0_u32; 8];
-                for (group, eight) in pixels.chunks(8).enumerate() {
-                    let mut bytes = [0; 8];
-                    bytes[..eight.len()].copy_from_slice(eight);
-                    let transposed = transpose_bits(u64::from_le_bytes(bytes)).to_le_bytes();
-                    for (plane, byte) in planes.iter_mut().zip(transposed) {
-                        *plane |= u32::from(byte) << (8 * group);
-                    }
-                }
-                for (plane, bits) in cell.iter_mut().zip(planes) {
+                for (plane, bits) in cell.iter_mut().zip(bit_planes(pixels)) {
                     plane.0[lane] = bits;
                 }
             }
         }
     }
-}
-
-/// The transpose of an 8x8 bit matrix, one byte a row: bit i of byte j becomes bit j of byte i. By swapping ever larger
-/// blocks across the diagonal.
-fn transpose_bits(mut m: u64) -> u64 {
-    let swap = (m ^ (m >> 7)) & 0x00aa_00aa_00aa_00aa;
-    m ^= swap ^ (swap << 7);
-    let swap = (m ^ (m >> 14)) & 0x0000_cccc_0000_cccc;
-    m ^= swap ^ (swap << 14);
-    let swap = (m ^ (m >> 28)) & 0x0000_0000_f0f0_f0f0;
-    m ^ swap ^ (swap << 28)
 }
 
 #[cfg(test)]

@@ -653,24 +653,10 @@ impl Evaluator for Graphics {
 
 /// The tile of a view of which only the observation is known: its silhouette, a quarter larger; the picture when there is none.
 fn first_tile(observation: &Observation) -> [u32; 2] {
-    let width = observation.width as usize;
-    let (mut low, mut high) = ([u32::MAX; 2], [0; 2]);
-    for (index, byte) in observation.bytes.iter().enumerate() {
-        if byte & Observation::SILHOUETTE != 0 {
-            let at = [(index % width) as u32, (index / width) as u32];
-            for axis in 0..2 {
-                low[axis] = low[axis].min(at[axis]);
-                high[axis] = high[axis].max(at[axis] + 1);
-            }
-        }
-    }
     let picture = [observation.width, observation.height];
-    if high[0] == 0 {
-        return picture;
-    }
-    [0, 1].map(|axis| {
-        let side = high[axis] - low[axis];
-        (side + side / 4 + 16).min(picture[axis])
+    observation.silhouette().bounds().map_or(picture, |seen| {
+        let sides = [seen.x1 - seen.x0, seen.y1 - seen.y0];
+        [0, 1].map(|axis| (sides[axis] + sides[axis] / 4 + 16).min(picture[axis]))
     })
 }
 

@@ -4,6 +4,7 @@ use anyhow::{Result, ensure};
 
 use crate::evaluate::Projector;
 use crate::evaluate::batch::check_observations;
+use crate::evaluate::bit_planes::{WORD_PIXELS, bit_planes};
 use crate::evaluate::rig::{Rig, RigCamera, RigLens};
 use crate::evaluate::stages::{MOST_PARTS, Share, layout};
 use crate::features::Observation;
@@ -56,7 +57,6 @@ pub(crate) struct DeviceModel {
     pub(crate) planes: Buffer,
     /// The packed bytes of the observations, four pixels a word, rows padded to whole words. A view's begin at its camera's
     /// `first_pixel_word`.
-    #[allow(dead_code, reason = "what hardware drawing compares with")]
     pub(crate) pixels: Buffer,
     uploads: Vec<Uploaded>,
     camera_rows: Vec<layout::Camera>,
@@ -144,15 +144,7 @@ impl DeviceModel {
             let width = observation.width as usize;
             let (mut planes, mut pixels) = (Vec::new(), Vec::new());
             for row in observation.bytes.chunks_exact(width) {
-                for chunk in row.chunks(32) {
-                    let mut words = [0_u32; 8];
-                    for (bit, byte) in chunk.iter().enumerate() {
-                        for (plane, word) in words.iter_mut().enumerate() {
-                            *word |= u32::from(byte >> plane & 1) << bit;
-                        }
-                    }
-                    planes.extend(words);
-                }
+                planes.extend(row.chunks(WORD_PIXELS).flat_map(bit_planes));
                 for chunk in row.chunks(4) {
                     let mut bytes = [0; 4];
                     bytes[..chunk.len()].copy_from_slice(chunk);
