@@ -15,6 +15,8 @@ const uint PACK_DEPTH = 1u;
 
 // Invocations of a workgroup that draws and compares an image, a row each; a power of two.
 const uint RASTER_GROUP = 32u;
+// Words of a row that it draws at once: fewer compute the spans of wide parts more often, more make masks of nothing.
+const uint RASTER_WORDS = 3u;
 
 // Invocations of a workgroup of the objective.
 const uint OBJECTIVE_GROUP = 64u;

@@ -23,12 +23,10 @@ layout(std430, set = 0, binding = 3) readonly buffer Planes { uvec4 planes[]; };
 layout(std430, set = 0, binding = 4) readonly buffer List { uint list[]; };
 layout(std430, set = 0, binding = 5) writeonly buffer AllSums { Sums sums[]; };
 
-// Words of a row that are drawn at once: fewer compute the spans of wide parts more often, more make masks of nothing.
-const uint CHUNK = 3u;
 // Parts that are kept at once.
 const uint TILE = 32u;
 // Chunks of the widest picture, 16384 pixels.
-const uint MOST_CHUNKS = (16384u + 32u * CHUNK - 1u) / (32u * CHUNK);
+const uint MOST_CHUNKS = (16384u + 32u * RASTER_WORDS - 1u) / (32u * RASTER_WORDS);
 
 // Corners of the parts of the tile, 1/256 pixel.
 shared ivec4 part_x[TILE];
@@ -141,11 +139,11 @@ void load_tile(uint image, uint tile, ivec2 size, uint chunks) {
     }
     barrier();
     for (uint chunk = gl_LocalInvocationID.x; chunk < chunks; chunk += RASTER_GROUP) {
-        uint begin = chunk * 32u * CHUNK;
+        uint begin = chunk * 32u * RASTER_WORDS;
         uint bits = 0u;
         for (uint part = 0u; part < TILE; part++) {
             uint columns = part_columns[part];
-            bool reaches = (columns & 0xffffu) < begin + 32u * CHUNK && (columns >> 16) > begin;
+            bool reaches = (columns & 0xffffu) < begin + 32u * RASTER_WORDS && (columns >> 16) > begin;
             bits |= reaches ? 1u << part : 0u;
         }
         chunk_parts[chunk] = bits;
@@ -161,20 +159,20 @@ uvec4 rasterise(uint image) {
     uvec4 sum = uvec4(0u);
     // Nothing to draw: the same for all invocations.
     if (box.low.x >= box.high.x || box.low.y >= box.high.y) return sum;
-    uint chunks = (camera.words + CHUNK - 1u) / CHUNK;
+    uint chunks = (camera.words + RASTER_WORDS - 1u) / RASTER_WORDS;
     uint tiles = (batch.parts + TILE - 1u) / TILE;
-    uint first_chunk = uint(box.low.x) / (32u * CHUNK);
-    uint end_chunk = (uint(box.high.x) + 32u * CHUNK - 1u) / (32u * CHUNK);
+    uint first_chunk = uint(box.low.x) / (32u * RASTER_WORDS);
+    uint end_chunk = (uint(box.high.x) + 32u * RASTER_WORDS - 1u) / (32u * RASTER_WORDS);
     bool loaded = false;
     for (int block = box.low.y; block < box.high.y; block += int(RASTER_GROUP)) {
         int y = block + int(gl_LocalInvocationID.x);
         uint row_parts = 0u;
         bool row_known = false;
         for (uint chunk = first_chunk; chunk < end_chunk; chunk++) {
-            int origin = int(chunk * 32u * CHUNK);
-            uint filled[CHUNK];
-            uint edges[CHUNK];
-            for (uint word = 0u; word < CHUNK; word++) {
+            int origin = int(chunk * 32u * RASTER_WORDS);
+            uint filled[RASTER_WORDS];
+            uint edges[RASTER_WORDS];
+            for (uint word = 0u; word < RASTER_WORDS; word++) {
                 filled[word] = 0u;
                 edges[word] = 0u;
             }
@@ -207,7 +205,7 @@ uvec4 rasterise(uint image) {
                     ivec4 from;
                     ivec4 to;
                     line_spans((x + 128) >> 8, (y_corners + 128) >> 8, y, from, to);
-                    for (uint word = 0u; word < CHUNK; word++) {
+                    for (uint word = 0u; word < RASTER_WORDS; word++) {
                         int start = origin + int(32u * word);
                         uint lines = span_bits(from.x - start, to.x - start) | span_bits(from.y - start, to.y - start) |
                             span_bits(from.z - start, to.z - start) | span_bits(from.w - start, to.w - start);
@@ -216,13 +214,13 @@ uvec4 rasterise(uint image) {
                     }
                 }
             }
-            for (uint word = 0u; word < CHUNK; word++) {
+            for (uint word = 0u; word < RASTER_WORDS; word++) {
                 // What lies right of the picture does not count.
                 uint inside = below(size.x - origin - int(32u * word));
                 edges[word] &= inside;
                 uint drawn = (filled[word] & inside) | edges[word];
                 if (drawn != 0u) {
-                    uint group = camera.first_plane_word + uint(y) * camera.words + chunk * CHUNK + word;
+                    uint group = camera.first_plane_word + uint(y) * camera.words + chunk * RASTER_WORDS + word;
                     uvec4 near = planes[2u * group];
                     uvec4 far = planes[2u * group + 1u];
                     uvec4 ones = uvec4(1u, 2u, 4u, 8u) * uvec4(bitCount(near & edges[word]));

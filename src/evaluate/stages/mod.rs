@@ -12,7 +12,12 @@ mod project_feedback;
 mod raster;
 mod skin;
 
-#[allow(dead_code, clippy::unreadable_literal, clippy::large_stack_arrays, reason = "written by the build")]
+#[allow(
+    dead_code,
+    clippy::unreadable_literal,
+    clippy::large_stack_arrays,
+    reason = "written by the build; the variants of a stage are bound through one of them"
+)]
 mod generated {
     include!(concat!(env!("OUT_DIR"), "/evaluate_stages.rs"));
 }

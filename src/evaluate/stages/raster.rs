@@ -6,7 +6,7 @@ use crate::evaluate::vulkan::{DeviceModel, Workspace};
 use crate::gpu::{Buffer, ComputeStage, Device, Groups, Recorder, Stage};
 
 use super::Share;
-use super::generated::{RASTER_GROUP, raster_comp, raster_shared_comp};
+use super::generated::{RASTER_GROUP, RASTER_WORDS, raster_comp, raster_shared_comp};
 
 /// The stage.
 #[derive(Debug)]
@@ -22,8 +22,8 @@ impl RasterStage {
     /// Its name in timings.
     pub(crate) const NAME: &'static str = "raster";
 
-    /// Columns and rows that a workgroup works on at once: three words of bits a row, a row an invocation.
-    pub(crate) const TILE: [u32; 2] = [96, RASTER_GROUP];
+    /// Columns and rows that a workgroup works on at once: words of bits of a row, a row an invocation.
+    pub(crate) const TILE: [u32; 2] = [32 * RASTER_WORDS, RASTER_GROUP];
 
     /// Compiles it, with sums over subgroups where the device has them.
     pub(crate) fn new(device: &Device) -> Result<Self> {
