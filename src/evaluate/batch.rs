@@ -2,7 +2,9 @@
 
 use anyhow::{Result, ensure};
 
+use crate::body::Body;
 use crate::features::Observation;
+use crate::geometry::Camera;
 
 /// Holds `poses` (rows of `dof_count`) to `results` values, `per_pose` for each pose.
 pub(crate) fn check_batch(poses: &[f32], dof_count: usize, results: usize, per_pose: usize) -> Result<()> {
@@ -15,6 +17,26 @@ pub(crate) fn check_batch(poses: &[f32], dof_count: usize, results: usize, per_p
     );
     let count = poses.len() / dof_count;
     ensure!(results == count * per_pose, "{count} poses need room for {} results, found {results}", count * per_pose);
+    Ok(())
+}
+
+/// Holds a body and its cameras to what every fast backend can draw and compare.
+pub(crate) fn check_scene(body: &Body, cameras: &[Camera]) -> Result<()> {
+    ensure!(!cameras.is_empty(), "there are no cameras, expected at least one to compare poses with");
+    ensure!(body.dof_count() > 0, "the body has no degree of freedom, expected at least one to search over");
+    check_pictures(cameras)
+}
+
+/// Holds the pictures of cameras to the sizes that corners are told apart in.
+pub(crate) fn check_pictures(cameras: &[Camera]) -> Result<()> {
+    for camera in cameras {
+        let [width, height] = camera.size;
+        ensure!(
+            (1..=16384).contains(&width) && (1..=16384).contains(&height),
+            "camera {} has pictures of {width}x{height}, expected 1 to 16384 pixels a side",
+            camera.name
+        );
+    }
     Ok(())
 }
 

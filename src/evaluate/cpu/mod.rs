@@ -24,7 +24,7 @@ use crate::body::Body;
 use crate::features::Observation;
 use crate::geometry::Camera;
 
-use super::batch::{check_batch, check_observations};
+use super::batch::{check_batch, check_observations, check_pictures};
 use super::rig::Rig;
 use super::{Components, Evaluator, Footprint, Objective, Projector};
 
@@ -134,14 +134,7 @@ impl Cpu {
             bail!("this processor has no {}: choose another instruction set", set.name());
         };
         ensure!(workers > 0, "0 worker threads were asked for, expected at least 1");
-        for camera in cameras {
-            let [width, height] = camera.size;
-            ensure!(
-                (1..=16384).contains(&width) && (1..=16384).contains(&height),
-                "camera {} has pictures of {width}x{height}, expected 1 to 16384 pixels a side",
-                camera.name
-            );
-        }
+        check_pictures(cameras)?;
         let projector = Projector::new(body, cameras);
         let planes: Vec<Planes> = cameras.iter().map(|camera| Planes::new(camera.size[0], camera.size[1])).collect();
         let most_cells = planes.iter().map(Planes::canvas_cells).max().unwrap_or(0);

@@ -1,25 +1,20 @@
 //! The backend that draws in compute: every candidate compared row by row in registers, in the reference's integers, with no
 //! framebuffer.
 
-use std::time::Instant;
-
 use anyhow::{Result, ensure};
 
 use crate::body::Body;
-use crate::evaluate::batch::check_batch;
+use crate::evaluate::batch::{check_batch, check_scene};
 use crate::evaluate::rig::Rig;
-use crate::evaluate::stages::{ObjectiveStage, PoseStage, ProjectStage, RasterStage, Share, layout};
+use crate::evaluate::stages::{ObjectiveStage, PoseStage, ProjectStage, RasterStage, Share};
 use crate::evaluate::{Components, Evaluator, Footprint, Objective, Projector};
 use crate::features::Observation;
 use crate::geometry::Camera;
-use crate::gpu::{
-    Buffer, Device, DeviceFacts, DevicePass, Memory, OutOfMemory, PassTiming, Recorder, Recording, Timing,
-};
+use crate::gpu::{Buffer, Device, DeviceFacts, DevicePass, PassTiming, Recorder, Recording, Timing};
 
+use super::host_ends::HostEnds;
+use super::runs::Runs;
 use super::{DeviceEvaluator, DeviceModel, Workspace, open_device};
-
-/// Recordings kept: a search asks for a few numbers of candidates over and over.
-const MOST_RECORDINGS: usize = 16;
 
 /// The evaluator that draws in compute, on a Vulkan device.
 #[derive(Debug)]
@@ -30,43 +25,21 @@ pub struct Compute {
     raster: RasterStage,
     objective: ObjectiveStage,
     room: Room,
-    /// Brings body, cameras and observations to the device.
-    upload: Recording,
-    is_uploaded: bool,
-    /// What was recorded for a number of candidates, and for an objective or for the components; the latest last.
-    recordings: Vec<((u32, Option<Objective>), Recording)>,
-    timing: Timing,
-    /// What ran since it was last asked for, once it is to be measured.
-    passes: Option<Vec<DevicePass>>,
+    runs: Runs,
 }
 
 /// Buffers for a number of candidates.
 #[derive(Debug)]
 struct Room {
     workspace: Workspace,
-    fitness: Buffer,
-    /// The host's ends of poses, fitness and sums.
-    poses_in: Buffer,
-    fitness_out: Buffer,
-    sums_out: Buffer,
+    ends: HostEnds,
 }
 
 impl Room {
     fn new(model: &DeviceModel, candidates: u32) -> Result<Self> {
-        let (device, counts) = (&model.device, model.counts);
-        let count = candidates as usize;
         // The workspace last: it takes what is left.
-        Ok(Self {
-            fitness: device.buffer::<f32>("fitness", count, Memory::Device)?,
-            poses_in: device.buffer::<f32>("poses staging", count * counts.dofs as usize, Memory::Upload)?,
-            fitness_out: device.buffer::<f32>("fitness readback", count, Memory::Readback)?,
-            sums_out: device.buffer::<layout::Sums>(
-                "sums readback",
-                count * counts.views as usize,
-                Memory::Readback,
-            )?,
-            workspace: Workspace::new(device, counts, candidates)?,
-        })
+        let ends = HostEnds::new(model, candidates)?;
+        Ok(Self { ends, workspace: Workspace::new(&model.device, model.counts, candidates)? })
     }
 }
 
@@ -84,16 +57,7 @@ impl Compute {
     /// # Errors
     /// When a picture has no pixel or more than 16384 a side, the body has no or too many parts, or the device fails.
     pub fn on(device: &Device, body: &Body, cameras: &[Camera]) -> Result<Self> {
-        ensure!(!cameras.is_empty(), "there are no cameras, expected at least one to compare poses with");
-        ensure!(body.dof_count() > 0, "the body has no degree of freedom, expected at least one to search over");
-        for camera in cameras {
-            let [width, height] = camera.size;
-            ensure!(
-                (1..=16384).contains(&width) && (1..=16384).contains(&height),
-                "camera {} has pictures of {width}x{height}, expected 1 to 16384 pixels a side",
-                camera.name
-            );
-        }
+        check_scene(body, cameras)?;
         let labels = body.parts.iter().map(|part| part.label).collect();
         let model = DeviceModel::new(device, &Projector::new(body, cameras), labels)?;
         let mut recorder = device.recorder(Timing::Off)?;
@@ -104,11 +68,7 @@ impl Compute {
             raster: RasterStage::new(device)?,
             objective: ObjectiveStage::new(device)?,
             room: Room::new(&model, 1)?,
-            upload: recorder.finish()?,
-            is_uploaded: false,
-            recordings: Vec::new(),
-            timing: Timing::Off,
-            passes: None,
+            runs: Runs::new(recorder.finish()?),
             model,
         })
     }
@@ -120,8 +80,7 @@ impl Compute {
 
     /// Has every evaluation from now on timed by stage ([`Self::timings`]).
     pub fn time_stages(&mut self, timing: Timing) {
-        self.timing = timing;
-        self.recordings.clear();
+        self.runs.time_stages(timing);
     }
 
     /// The times of the last evaluation's passes.
@@ -129,7 +88,7 @@ impl Compute {
     /// # Errors
     /// When the device fails.
     pub fn timings(&self) -> Result<Vec<PassTiming>> {
-        self.recordings.last().map_or_else(|| Ok(Vec::new()), |(_, recording)| recording.timings())
+        self.runs.timings()
     }
 
     /// Exchanges the body for another one of as many bones, parts and degrees of freedom; what was observed stays.
@@ -138,7 +97,7 @@ impl Compute {
     /// When their numbers differ.
     pub fn set_body(&mut self, body: &Body) -> Result<()> {
         self.model.set_rig(&Rig::new(body))?;
-        self.is_uploaded = false;
+        self.runs.outdate_upload();
         Ok(())
     }
 
@@ -160,62 +119,37 @@ impl Compute {
     }
 
     /// Host to host: upload of the poses, all stages, readback of the fitness or of the sums.
-    fn record_run(&self, objective: Option<&Objective>, candidates: u32) -> Result<Recording> {
-        let Room { workspace, fitness, poses_in, fitness_out, sums_out } = &self.room;
-        let count = u64::from(candidates);
-        let mut recorder = self.model.device.recorder(self.timing)?;
-        let bytes = count * u64::from(self.model.counts.dofs) * size_of::<f32>() as u64;
-        recorder.copy("upload poses", (poses_in, 0), (&workspace.poses, 0), bytes)?;
+    fn record_run(&self, objective: Option<&Objective>, candidates: u32) -> Result<Vec<Recording>> {
+        let Room { workspace, ends } = &self.room;
+        let mut recorder = self.model.device.recorder(self.runs.timing())?;
+        ends.record_poses(&mut recorder, (&self.model, workspace), candidates)?;
         match objective {
             Some(objective) => {
                 self.record(&mut recorder, objective, candidates)?;
-                recorder.copy("read fitness", (fitness, 0), (fitness_out, 0), count * size_of::<f32>() as u64)?;
+                ends.record_fitness(&mut recorder, candidates)?;
             }
             None => {
                 self.record_sums(&mut recorder, candidates)?;
-                let bytes = count * u64::from(self.model.counts.views) * size_of::<layout::Sums>() as u64;
-                recorder.copy("read sums", (&workspace.sums, 0), (sums_out, 0), bytes)?;
+                ends.record_sums(&mut recorder, (&self.model, workspace), candidates)?;
             }
         }
-        recorder.finish()
+        Ok(vec![recorder.finish()?])
     }
 
     /// Runs poses through the device; the results then lie in the readback buffers.
     fn run(&mut self, poses: &[f32], objective: Option<&Objective>) -> Result<()> {
         let candidates = u32::try_from(poses.len() / self.dof_count())?;
         self.reserve(candidates)?;
-        self.room.poses_in.write(0, poses)?;
+        self.room.ends.poses_in.write(0, poses)?;
         let key = (candidates, objective.copied());
-        match self.recordings.iter().position(|(known, _)| *known == key) {
-            Some(place) => self.recordings[place..].rotate_left(1),
-            None => {
-                if self.recordings.len() == MOST_RECORDINGS {
-                    self.recordings.remove(0);
-                }
-                let recording = match self.record_run(objective, candidates) {
-                    Err(error) if error.is::<OutOfMemory>() && !self.recordings.is_empty() => {
-                        // The others give theirs up.
-                        self.recordings.clear();
-                        self.record_run(objective, candidates)
-                    }
-                    done => done,
-                }?;
-                self.recordings.push((key, recording));
+        if !self.runs.select(key) {
+            let mut recorded = self.record_run(objective, candidates);
+            if self.runs.gave_way_to(&recorded) {
+                recorded = self.record_run(objective, candidates);
             }
+            self.runs.add(key, recorded?);
         }
-        if !self.is_uploaded {
-            // The run that follows waits for it on the device.
-            self.upload.submit()?;
-            self.is_uploaded = true;
-        }
-        if let Some((_, recording)) = self.recordings.last_mut() {
-            recording.run()?;
-            if let Some(passes) = &mut self.passes {
-                passes.extend(recording.passes_run(Instant::now())?);
-            }
-        }
-        self.model.device.validation_log().check()?;
-        Ok(())
+        self.runs.run(&self.model, |_| Ok(()))
     }
 }
 
@@ -238,7 +172,7 @@ impl Evaluator for Compute {
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
         self.model.observe(observations)?;
-        self.is_uploaded = false;
+        self.runs.outdate_upload();
         Ok(())
     }
 
@@ -248,14 +182,7 @@ impl Evaluator for Compute {
             return Ok(());
         }
         self.run(poses, None)?;
-        let mut sums: Vec<layout::Sums> = bytemuck::zeroed_vec(components.len());
-        self.room.sums_out.read(0, &mut sums)?;
-        let areas = self.model.observed_areas().collect::<Vec<_>>();
-        for (index, (components, sums)) in components.iter_mut().zip(&sums).enumerate() {
-            let layout::Sums { area_model, overlap, edges, proximity } = *sums;
-            *components = Components { area_obs: areas[index % areas.len()], area_model, overlap, edges, proximity };
-        }
-        Ok(())
+        self.room.ends.read_components(&self.model, &[], components)
     }
 
     fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
@@ -264,7 +191,7 @@ impl Evaluator for Compute {
             return Ok(());
         }
         self.run(poses, Some(objective))?;
-        self.room.fitness_out.read(0, fitness)
+        self.room.ends.fitness_out.read(0, fitness)
     }
 
     fn on_device(&mut self) -> Option<&mut dyn DeviceEvaluator> {
@@ -272,15 +199,12 @@ impl Evaluator for Compute {
     }
 
     fn measure_passes(&mut self, measured: bool) -> Result<()> {
-        if measured != self.passes.is_some() {
-            self.passes = measured.then(Vec::new);
-            self.time_stages(if measured { Timing::Statistics } else { Timing::Off });
-        }
+        self.runs.measure_passes(measured);
         Ok(())
     }
 
     fn device_passes(&mut self) -> Vec<DevicePass> {
-        self.passes.as_mut().map(std::mem::take).unwrap_or_default()
+        self.runs.take_passes()
     }
 
     fn footprint(&self) -> Option<Footprint> {
@@ -299,7 +223,7 @@ impl DeviceEvaluator for Compute {
     }
 
     fn fitness(&self) -> &Buffer {
-        &self.room.fitness
+        &self.room.ends.fitness
     }
 
     fn views(&self) -> usize {
@@ -313,7 +237,7 @@ impl DeviceEvaluator for Compute {
     fn reserve(&mut self, candidates: u32) -> Result<()> {
         if candidates > self.room.workspace.candidates {
             // Recordings hold the old room; without them it is free before the new one is taken.
-            self.recordings.clear();
+            self.runs.forget();
             self.room = Room::new(&self.model, candidates)?;
         }
         Ok(())
@@ -325,7 +249,7 @@ impl DeviceEvaluator for Compute {
 
     fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
         self.record_sums(recorder, candidates)?;
-        let Room { workspace, fitness, .. } = &self.room;
-        self.objective.record(recorder, &self.model, workspace, objective, candidates, fitness)
+        let Room { workspace, ends } = &self.room;
+        self.objective.record(recorder, &self.model, workspace, objective, candidates, &ends.fitness)
     }
 }

@@ -1,12 +1,10 @@
 //! The backend that draws with the graphics pipeline: four candidates of a view a tile of one large framebuffer, compared there
 //! with the observations (SPEC A9).
 
-use std::time::Instant;
-
 use anyhow::{Result, ensure};
 
 use crate::body::{Body, Mesh};
-use crate::evaluate::batch::check_batch;
+use crate::evaluate::batch::{check_batch, check_scene};
 use crate::evaluate::rig::Rig;
 use crate::evaluate::stages::{
     CompareStage, Coverage, Gathering, ObjectiveStage, Packing, PlaceStage, PoseStage, ProjectFeedbackStage, Share,
@@ -20,17 +18,13 @@ use crate::gpu::{
 };
 
 use super::drawn::Drawn;
+use super::host_ends::HostEnds;
 use super::readback::{FramebufferCopy, HostComparison};
+use super::runs::Runs;
 use super::tiles::{TileLayout, fitting_tile, next_tile};
 use super::{
     Comparison, DeviceEvaluator, DeviceModel, Framebuffer, GraphicsSettings, Projection, Tiling, Workspace, open_device,
 };
-
-/// What a run is recorded for: a number of candidates, and an objective or the components.
-type RunKey = (u32, Option<Objective>);
-
-/// Recordings kept: a search asks for a few numbers of candidates over and over.
-const MOST_RECORDINGS: usize = 16;
 
 /// The evaluator that draws with the graphics pipeline of a Vulkan device.
 #[derive(Debug)]
@@ -48,17 +42,10 @@ pub struct Graphics {
     is_fixed: bool,
     /// Kept for the comparison on the host.
     observations: Vec<Observation>,
-    /// Brings body, cameras and observations to the device.
-    upload: Recording,
-    is_uploaded: bool,
-    /// What was recorded for a number of candidates, and for an objective or for the components; the latest last.
-    recordings: Vec<(RunKey, Vec<Recording>)>,
-    /// What ran since it was last asked for, once it is to be measured.
-    passes: Option<Vec<DevicePass>>,
+    runs: Runs,
     /// Whether a search has recorded itself with these tiles, and whether the newest observations have outgrown them since.
     is_recorded: bool,
     is_outgrown: bool,
-    timing: Timing,
 }
 
 #[derive(Debug)]
@@ -77,11 +64,8 @@ struct Room {
     framebuffer: Framebuffer,
     /// Most candidates of a batch.
     batch: u32,
-    fitness: Buffer,
-    /// The host's ends of poses, fitness, sums and bounds.
-    poses_in: Buffer,
-    fitness_out: Buffer,
-    sums_out: Buffer,
+    ends: HostEnds,
+    /// What the images touched, for the host to fit tiles to.
     bounds_out: Buffer,
     /// Of the framebuffer, for the comparison on the host.
     copy: Option<FramebufferCopy>,
@@ -99,12 +83,8 @@ impl Room {
     ) -> Result<Self> {
         let (device, counts) = (&model.device, model.counts);
         let candidates = candidates.max(1);
-        let count = candidates as usize;
-        let images = count * counts.views as usize;
-        let fitness = device.buffer::<f32>("fitness", count, Memory::Device)?;
-        let poses_in = device.buffer::<f32>("poses staging", count * counts.dofs as usize, Memory::Upload)?;
-        let fitness_out = device.buffer::<f32>("fitness readback", count, Memory::Readback)?;
-        let sums_out = device.buffer::<layout::Sums>("sums readback", images, Memory::Readback)?;
+        let images = candidates as usize * counts.views as usize;
+        let ends = HostEnds::new(model, candidates)?;
         let bounds_out = device.buffer::<layout::Bounds>("bounds readback", images, Memory::Readback)?;
         drawn.reserve(model, candidates)?;
         let (framebuffer, copy) = make_framebuffer(device, settings, tiles, candidates)?;
@@ -115,7 +95,7 @@ impl Room {
             Projection::Compute => None,
             Projection::Feedback => Some(ProjectFeedbackStage::room(device, counts, workspace.batch)?),
         };
-        Ok(Self { workspace, framebuffer, batch, fitness, poses_in, fitness_out, sums_out, bounds_out, copy, captured })
+        Ok(Self { workspace, framebuffer, batch, ends, bounds_out, copy, captured })
     }
 }
 
@@ -202,21 +182,12 @@ impl Graphics {
         cameras: &[Camera],
         settings: GraphicsSettings,
     ) -> Result<Self> {
-        ensure!(!cameras.is_empty(), "there are no cameras, expected at least one to compare poses with");
-        ensure!(body.dof_count() > 0, "the body has no degree of freedom, expected at least one to search over");
+        check_scene(body, cameras)?;
         ensure!(
             body.parts.len() <= 127,
             "the body has {} parts, and the backend graphics tells at most 127 apart",
             body.parts.len()
         );
-        for camera in cameras {
-            let [width, height] = camera.size;
-            ensure!(
-                (1..=16384).contains(&width) && (1..=16384).contains(&height),
-                "camera {} has pictures of {width}x{height}, expected 1 to 16384 pixels a side",
-                camera.name
-            );
-        }
         let mut settings = settings;
         let gathering = match &mut settings.comparison {
             Comparison::Device(gathering) => {
@@ -263,11 +234,7 @@ impl Graphics {
             is_recorded: false,
             is_outgrown: false,
             observations: cameras.iter().map(|camera| Observation::empty(camera.size[0], camera.size[1])).collect(),
-            upload: recorder.finish()?,
-            is_uploaded: false,
-            recordings: Vec::new(),
-            passes: None,
-            timing: Timing::Off,
+            runs: Runs::new(recorder.finish()?),
             model,
         })
     }
@@ -289,8 +256,7 @@ impl Graphics {
 
     /// Has every evaluation from now on timed by stage ([`Self::timings`]).
     pub fn time_stages(&mut self, timing: Timing) {
-        self.timing = timing;
-        self.recordings.clear();
+        self.runs.time_stages(timing);
     }
 
     /// The times of the last evaluation's passes.
@@ -298,11 +264,7 @@ impl Graphics {
     /// # Errors
     /// When the device fails.
     pub fn timings(&self) -> Result<Vec<PassTiming>> {
-        let mut all = Vec::new();
-        for recording in self.recordings.last().iter().flat_map(|(_, recordings)| recordings) {
-            all.extend(recording.timings()?);
-        }
-        Ok(all)
+        self.runs.timings()
     }
 
     /// Exchanges the body for another one of as many bones, parts and degrees of freedom; what was observed stays.
@@ -315,7 +277,7 @@ impl Graphics {
             "a mesh is bound to the body it was made with: another body needs an evaluator of its own"
         );
         self.model.set_rig(&Rig::new(body))?;
-        self.is_uploaded = false;
+        self.runs.outdate_upload();
         Ok(())
     }
 
@@ -413,11 +375,10 @@ impl Graphics {
     /// Host to host: the poses, all stages, fitness or sums, bounds. One recording, or with the comparison on the host one a
     /// batch.
     fn record_run(&self, objective: Option<&Objective>, candidates: u32) -> Result<Vec<Recording>> {
-        let Room { workspace, fitness, poses_in, fitness_out, sums_out, bounds_out, copy, .. } = &self.room;
-        let (count, views) = (u64::from(candidates), u64::from(self.model.counts.views));
-        let mut recorder = self.model.device.recorder(self.timing)?;
-        let bytes = count * u64::from(self.model.counts.dofs) * size_of::<f32>() as u64;
-        recorder.copy("upload poses", (poses_in, 0), (&workspace.poses, 0), bytes)?;
+        let Room { workspace, ends, bounds_out, copy, .. } = &self.room;
+        let views = u64::from(self.model.counts.views);
+        let mut recorder = self.model.device.recorder(self.runs.timing())?;
+        ends.record_poses(&mut recorder, (&self.model, workspace), candidates)?;
         let mut recordings = Vec::new();
         let shares = self.shares(candidates)?;
         for (place, share) in shares.iter().enumerate() {
@@ -426,22 +387,24 @@ impl Graphics {
             let (from, bytes) = (u64::from(share.first) * views * image, u64::from(share.candidates) * views * image);
             recorder.copy("read bounds", (&workspace.bounds, 0), (bounds_out, from), bytes)?;
             if copy.is_some() && place + 1 < shares.len() {
-                let next = self.model.device.recorder(self.timing)?;
+                let next = self.model.device.recorder(self.runs.timing())?;
                 recordings.push(std::mem::replace(&mut recorder, next));
             }
         }
         match objective.filter(|_| copy.is_none()) {
             Some(objective) => {
-                self.stages.objective.record(&mut recorder, &self.model, workspace, objective, candidates, fitness)?;
-                recorder.copy("read fitness", (fitness, 0), (fitness_out, 0), count * size_of::<f32>() as u64)?;
+                self.record_objective(&mut recorder, objective, candidates)?;
+                ends.record_fitness(&mut recorder, candidates)?;
             }
-            None => {
-                let bytes = count * views * size_of::<layout::Sums>() as u64;
-                recorder.copy("read sums", (&workspace.sums, 0), (sums_out, 0), bytes)?;
-            }
+            None => ends.record_sums(&mut recorder, (&self.model, workspace), candidates)?,
         }
         recordings.push(recorder);
         recordings.into_iter().map(Recorder::finish).collect()
+    }
+
+    fn record_objective(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
+        let Room { workspace, ends, .. } = &self.room;
+        self.stages.objective.record(recorder, &self.model, workspace, objective, candidates, &ends.fitness)
     }
 
     /// Runs poses through the device. The results then lie in the readback buffers; with the comparison on the host, what it
@@ -449,38 +412,24 @@ impl Graphics {
     fn run(&mut self, poses: &[f32], objective: Option<&Objective>) -> Result<Vec<Option<layout::Sums>>> {
         let candidates = u32::try_from(poses.len() / self.dof_count())?;
         self.make_room(candidates)?;
-        self.room.poses_in.write(0, poses)?;
-        let key: RunKey = (candidates, objective.copied());
-        match self.recordings.iter().position(|(known, _)| *known == key) {
-            Some(place) => self.recordings[place..].rotate_left(1),
-            None => {
-                let recorded = self.record_run(objective, candidates)?;
-                if self.recordings.len() == MOST_RECORDINGS {
-                    self.recordings.remove(0);
-                }
-                self.recordings.push((key, recorded));
+        self.room.ends.poses_in.write(0, poses)?;
+        let key = (candidates, objective.copied());
+        if !self.runs.select(key) {
+            let mut recorded = self.record_run(objective, candidates);
+            if self.runs.gave_way_to(&recorded) {
+                recorded = self.record_run(objective, candidates);
             }
-        }
-        if !self.is_uploaded {
-            // The run that follows waits for it on the device.
-            self.upload.submit()?;
-            self.is_uploaded = true;
+            self.runs.add(key, recorded?);
         }
         let shares = self.shares(candidates)?;
         let mut counted = Vec::new();
-        if let Some((_, recordings)) = self.recordings.last_mut() {
-            for (recording, share) in recordings.iter_mut().zip(shares) {
-                recording.run()?;
-                if let Some(passes) = &mut self.passes {
-                    passes.extend(recording.passes_run(Instant::now())?);
-                }
-                if let (Some(copy), Comparison::Host(how)) = (&self.room.copy, self.settings.comparison) {
-                    let pictures = copy.read(&self.room.framebuffer, share.candidates)?;
-                    counted.extend(pictures.compare(&self.observations, self.settings.packing.edge_bit(), how));
-                }
+        self.runs.run(&self.model, |batch| {
+            if let (Some(copy), Comparison::Host(how)) = (&self.room.copy, self.settings.comparison) {
+                let pictures = copy.read(&self.room.framebuffer, shares[batch].candidates)?;
+                counted.extend(pictures.compare(&self.observations, self.settings.packing.edge_bit(), how));
             }
-        }
-        self.model.device.validation_log().check()?;
+            Ok(())
+        })?;
         if self.measure(candidates)? && !self.drawn.scores_what_fits_no_tile() {
             // Tiles grow up to the pictures, which everything fits.
             return self.run(poses, objective);
@@ -524,7 +473,7 @@ impl Graphics {
     fn make_room(&mut self, candidates: u32) -> Result<()> {
         if candidates > self.room.workspace.candidates {
             // Recordings hold the old room; without them it is free before the new one is taken.
-            self.recordings.clear();
+            self.runs.forget();
             self.room = Room::new(&self.model, &mut self.drawn, &self.settings, &self.tiles, candidates)?;
         }
         Ok(())
@@ -533,7 +482,7 @@ impl Graphics {
     pub(super) fn set_tiles(&mut self, tiles: Vec<[u32; 2]>) -> Result<()> {
         if tiles != self.tiles {
             // Recordings hold the old framebuffer; without them it is free before the new one is taken.
-            self.recordings.clear();
+            self.runs.forget();
             let Room { workspace, .. } = &self.room;
             let candidates = workspace.candidates;
             let (framebuffer, copy) = make_framebuffer(&self.model.device, &self.settings, &tiles, candidates)?;
@@ -565,7 +514,7 @@ impl Evaluator for Graphics {
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
         self.model.observe(observations)?;
-        self.is_uploaded = false;
+        self.runs.outdate_upload();
         if matches!(self.settings.comparison, Comparison::Host(_)) {
             self.observations = observations.to_vec();
         }
@@ -594,15 +543,7 @@ impl Evaluator for Graphics {
             return Ok(());
         }
         let counted = self.run(poses, None)?;
-        let mut sums: Vec<layout::Sums> = bytemuck::zeroed_vec(components.len());
-        self.room.sums_out.read(0, &mut sums)?;
-        let areas = self.model.observed_areas().collect::<Vec<_>>();
-        for (index, (components, sums)) in components.iter_mut().zip(&sums).enumerate() {
-            let layout::Sums { area_model, overlap, edges, proximity } =
-                counted.get(index).copied().flatten().unwrap_or(*sums);
-            *components = Components { area_obs: areas[index % areas.len()], area_model, overlap, edges, proximity };
-        }
-        Ok(())
+        self.room.ends.read_components(&self.model, &counted, components)
     }
 
     fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
@@ -621,7 +562,7 @@ impl Evaluator for Graphics {
         }
         self.run(poses, Some(objective))?;
         // The tiles may have been fitted since; the room's ends stay.
-        self.room.fitness_out.read(0, fitness)
+        self.room.ends.fitness_out.read(0, fitness)
     }
 
     fn on_device(&mut self) -> Option<&mut dyn DeviceEvaluator> {
@@ -632,15 +573,12 @@ impl Evaluator for Graphics {
     }
 
     fn measure_passes(&mut self, measured: bool) -> Result<()> {
-        if measured != self.passes.is_some() {
-            self.passes = measured.then(Vec::new);
-            self.time_stages(if measured { Timing::Statistics } else { Timing::Off });
-        }
+        self.runs.measure_passes(measured);
         Ok(())
     }
 
     fn device_passes(&mut self) -> Vec<DevicePass> {
-        self.passes.as_mut().map(std::mem::take).unwrap_or_default()
+        self.runs.take_passes()
     }
 
     fn footprint(&self) -> Option<Footprint> {
@@ -670,7 +608,7 @@ impl DeviceEvaluator for Graphics {
     }
 
     fn fitness(&self) -> &Buffer {
-        &self.room.fitness
+        &self.room.ends.fitness
     }
 
     fn views(&self) -> usize {
@@ -706,7 +644,6 @@ impl DeviceEvaluator for Graphics {
         for share in self.shares(candidates)? {
             self.record_share(recorder, share, None)?;
         }
-        let Room { workspace, fitness, .. } = &self.room;
-        self.stages.objective.record(recorder, &self.model, workspace, objective, candidates, fitness)
+        self.record_objective(recorder, objective, candidates)
     }
 }

@@ -9,6 +9,7 @@ mod graphics;
 mod graphics_settings;
 #[cfg(test)]
 mod graphics_tests;
+mod host_ends;
 mod mesh;
 #[cfg(test)]
 mod mesh_tests;
@@ -17,6 +18,7 @@ mod open;
 #[cfg(test)]
 mod raster_tests;
 mod readback;
+mod runs;
 #[cfg(test)]
 mod tests;
 mod tiles;
