@@ -3,7 +3,7 @@
 //! climbs to the best one.
 //!
 //! The crate is a house of rooms (see `docs/ARCHITECTURE.md`); an import runs down the floors, never up:
-//! [`command`] → [`track`] → [`search`], [`bench`] → [`evaluate`], [`synth`], [`report`] → [`features`], [`body`],
+//! [`command`] → [`study`] → [`track`] → [`search`], [`bench`] → [`evaluate`], [`synth`], [`report`] → [`features`], [`body`],
 //! [`sequence`] → [`gpu`], [`motion`], [`geometry`] → [`files`].
 //!
 //! Lengths are millimetres, angles radians (degrees only in files people edit), images row-major with the origin in the
@@ -21,6 +21,12 @@ pub mod motion;
 pub mod report;
 pub mod search;
 pub mod sequence;
+pub mod study;
 pub mod synth;
 pub mod texture;
 pub mod track;
+
+/// The README's code is compiled as the documentation's is.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

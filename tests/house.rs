@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 
 /// Rooms by floor. A room may import rooms of lower floors, and itself.
 const FLOORS: &[(&str, u32)] = &[
-    ("main", 7),
-    ("command", 6),
+    ("main", 8),
+    ("command", 7),
+    ("study", 6),
     ("track", 5),
     ("search", 4),
     ("bench", 4),

@@ -11,6 +11,7 @@ use pantin::motion::{
     parse_points_csv, parse_trc,
 };
 use pantin::sequence::{check_manifest, parse_cameras_toml, parse_opencv_xml, parse_opencv_yaml, parse_qualisys};
+use pantin::study::Study;
 use pantin::synth::Scene;
 use proptest::prelude::*;
 
@@ -133,7 +134,7 @@ fn leg() -> Body {
 }
 
 /// The folder of seeds, and the parser.
-const PARSERS: [(&str, Parser); 15] = [
+const PARSERS: [(&str, Parser); 16] = [
     ("c3d", |bytes| parse_c3d(bytes, NAME)?.check()),
     ("trc", |bytes| parse_trc(&text(bytes), NAME)?.check()),
     ("csv", |bytes| parse_points_csv(&text(bytes), NAME)?.check()),
@@ -179,6 +180,7 @@ const PARSERS: [(&str, Parser); 15] = [
         let is_xml = text.trim_start().starts_with('<');
         if is_xml { parse_opencv_xml(&text, NAME) } else { parse_opencv_yaml(&text, NAME) }.map(|_| ())
     }),
+    ("study", |bytes| Study::parse(&text(bytes), NAME)?.runs().map(|_| ())),
     ("sequence", |bytes| check_manifest(&text(bytes), NAME)),
 ];
 

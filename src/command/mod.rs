@@ -9,9 +9,11 @@ mod devices;
 mod evaluate;
 mod features;
 mod fit;
+mod interrupt;
 mod objective_flags;
 mod progress;
 mod score;
+mod study;
 mod synth;
 mod texture;
 mod track;
@@ -46,6 +48,8 @@ enum Command {
     /// Measure the error of tracked points against a truth: per point, per frame, mean and standard deviation, mm.
     Score(score::ScoreArgs),
     Features(features::FeaturesArgs),
+    /// Run many settings over many sequences and seeds, and compare them in tables and plots.
+    Study(study::StudyArgs),
     Synth(synth::SynthArgs),
     Texture(texture::TextureArgs),
     /// Track a person through a sequence of calibrated pictures.
@@ -81,6 +85,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Fit(args) => fit::run(&args),
         Command::Score(args) => score::run(&args),
         Command::Features(args) => features::run(&args),
+        Command::Study(args) => study::run(&args),
         Command::Synth(args) => synth::run(&args),
         Command::Texture(args) => texture::run(&args),
         Command::Track(args) => track::run(&args),

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use serde_json::json;
 
 use crate::files::{Overwrite, write_atomically};
-use crate::motion::{Matching, PointPairs, PointTrajectory, TrajectoryError, read_points, write_frame_errors};
+use crate::motion::{Matching, PointPairs, TrajectoryError, read_points, write_frame_errors};
+use crate::track::tracked_points;
 
 /// Measures the error of tracked markers or joints against C3D, TRC or CSV truth, in mm: for every point its mean over
 /// frames, then the mean over points; the standard deviation is that of all errors of all points in all frames. Points
@@ -85,37 +86,6 @@ pub fn run(args: &ScoreArgs) -> Result<()> {
         print_table(&path, &args.truth, &pairs, &error, without_offset.as_ref());
     }
     Ok(())
-}
-
-/// The points to score: the file itself, or of a track's folder the first file that can be paired with the truth.
-fn tracked_points(
-    track: &Path,
-    truth: &PointTrajectory,
-    map: &[(String, String)],
-) -> Result<(PathBuf, PointTrajectory, PointPairs)> {
-    let candidates = if track.is_dir() {
-        vec![track.join("markers.c3d"), track.join("joints.csv")]
-    } else {
-        vec![track.to_path_buf()]
-    };
-    let mut refusals = Vec::new();
-    for path in candidates {
-        if track.is_dir() && !path.exists() {
-            continue;
-        }
-        let ours = read_points(&path)?;
-        match PointPairs::find(&ours, truth, map) {
-            Ok(pairs) => return Ok((path, ours, pairs)),
-            Err(refusal) => refusals.push(format!("{}: {refusal}", path.display())),
-        }
-    }
-    if refusals.is_empty() {
-        bail!(
-            "{} holds neither markers.c3d nor joints.csv, expected a track's folder or a file of points",
-            track.display()
-        );
-    }
-    bail!("{} (pair them with --map TRUTH=OURS)", refusals.join("; "))
 }
 
 fn matched_by(matching: Matching) -> &'static str {

@@ -2,13 +2,12 @@
 
 use std::io::IsTerminal;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::interrupt::Interrupt;
 use super::objective_flags::ObjectiveFlags;
 use crate::files::{OutputFolder, Overwrite};
 use crate::search::{SearchKind, SearchSettings};
@@ -153,7 +152,7 @@ pub(super) fn print_summary(summary: &TrackSummary, folder: &std::path::Path) {
 
 /// A bar on a terminal, a line now and then elsewhere; and Ctrl-C.
 pub(super) struct TrackProgress {
-    stop: Arc<AtomicBool>,
+    stop: Interrupt,
     bar: Option<ProgressBar>,
     begin: Instant,
     last_line: Instant,
@@ -166,16 +165,7 @@ const LINE_INTERVAL: Duration = Duration::from_secs(10);
 
 impl TrackProgress {
     pub(super) fn new() -> Result<Self> {
-        let stop = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&stop);
-        ctrlc::set_handler(move || {
-            // A second Ctrl-C does not wait for the frame: the journal keeps those before.
-            if flag.swap(true, Ordering::SeqCst) {
-                std::process::exit(130);
-            }
-            eprintln!("stopping after this frame (again to stop at once)");
-        })
-        .context("cannot listen for Ctrl-C")?;
+        let stop = Interrupt::listen()?;
         let now = Instant::now();
         Ok(Self { stop, bar: None, begin: now, last_line: now, first: 0, total: 0 })
     }
@@ -221,6 +211,6 @@ impl Progress for TrackProgress {
     }
 
     fn should_stop(&self) -> bool {
-        self.stop.load(Ordering::SeqCst)
+        self.stop.is_asked()
     }
 }

@@ -11,6 +11,7 @@ mod objective;
 mod projection;
 mod reference;
 mod rig;
+mod score;
 mod stages;
 pub mod vulkan;
 
@@ -22,6 +23,7 @@ pub use mesh_raster::draw_mesh;
 pub use objective::{Objective, ObjectiveKind};
 pub use projection::{PartQuad, Projector};
 pub use reference::{CandidateImage, Reference, compare, draw_quads};
+pub use score::score;
 use vulkan::DeviceEvaluator;
 
 use crate::features::Observation;

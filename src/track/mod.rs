@@ -23,6 +23,7 @@ mod scoring;
 mod searcher;
 mod settings;
 mod stages;
+mod tracked_points;
 mod truth;
 
 pub use backend::{Backend, BuiltBackend};
@@ -36,6 +37,7 @@ pub use objective_choice::ObjectiveChoice;
 pub use scoring::{ScoredFrame, Scores, score_poses, write_fitness};
 pub use settings::TrackSettings;
 pub use stages::StageSummary;
+pub use tracked_points::tracked_points;
 
 #[cfg(test)]
 mod fit_tests;

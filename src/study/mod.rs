@@ -1,0 +1,25 @@
+//! Studies: many runs over sequences x settings x seeds, and what they say together (SPEC A10: every configuration is run
+//! with several seeds and told as mean and standard deviation).
+//!
+//! A [`Study`] is read from a TOML file; [`run`] makes its runs one after the other into a folder, goes on where an
+//! earlier call stopped, and writes a tidy row a run, tables and plots.
+
+mod axes;
+mod outcome;
+mod plan;
+mod plots;
+mod runner;
+mod scenes;
+mod settings;
+mod summary;
+mod tables;
+
+pub use axes::{Axis, Value};
+pub use outcome::{Outcome, Row, StageShare};
+pub use plan::{Model, Run};
+pub use runner::{Progress, StudySummary, run};
+pub use settings::{PlotSettings, SequenceSettings, SharesSettings, Study, TableSettings};
+pub use summary::{Cell, Statistic};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,218 @@
+//! The runs of a study, one after the other.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+
+use super::outcome::{Outcome, Row, StageShare, write_runs, write_stages};
+use super::plan::Run;
+use super::plots;
+use super::scenes::Prepared;
+use super::settings::Study;
+use super::tables::{self, Table};
+use crate::files::OutputFolder;
+use crate::search::{SearchKind, SearchSettings};
+use crate::track::{self, Backend, ObjectiveChoice, TrackSettings, TrackSummary, track};
+
+/// A finished run's file in its folder.
+const ROW: &str = "row.json";
+/// The journal of a run in work; a folder with one and without a row is gone on with.
+const BEGUN: &str = "run.toml";
+
+/// What a study tells whoever waits for it.
+pub trait Progress: Sync {
+    /// A preset is being made: `done` of `frames`.
+    fn making(&self, _name: &str, _done: usize, _frames: usize) {}
+
+    /// The study begins: runs in all, and those an earlier call did.
+    fn begin(&self, _runs: usize, _done: usize) {}
+
+    /// A run is done and safe, or has failed.
+    fn ran(&self, _run: &Run, _outcome: Result<&Outcome, &anyhow::Error>) {}
+
+    /// Whether to stop after the frame in work.
+    fn should_stop(&self) -> bool {
+        false
+    }
+}
+
+/// What a study yielded.
+#[derive(Debug)]
+pub struct StudySummary {
+    /// Every run that is done, in the study's order.
+    pub rows: Vec<Row>,
+    /// Runs that failed, and why.
+    pub failures: Vec<(Run, anyhow::Error)>,
+    /// Runs that were not reached, because the study was asked to stop.
+    pub left: usize,
+    /// The tables in Markdown, as in tables.md.
+    pub tables: String,
+}
+
+/// Makes every run of a study that `output` does not hold yet, and writes runs.csv and stages.csv (one row a run, and one a
+/// run and stage), tables.md, `table-<name>.csv` and `plot-<name>.svg`. Each run has a folder `runs/<settings>` with all that
+/// `track` writes. A run that fails does not end the study.
+///
+/// # Errors
+/// When a sequence cannot be prepared, a file cannot be written, or `output` holds a run under the same name that was made
+/// with other frames or another spread.
+pub fn run(study: &Study, output: &OutputFolder, progress: &dyn Progress) -> Result<StudySummary> {
+    study.check()?;
+    let runs = study.runs()?;
+    let mut rows: Vec<Option<Row>> = runs.iter().map(|run| finished(run, output)).collect::<Result<_>>()?;
+    progress.begin(runs.len(), rows.iter().flatten().count());
+    let mut prepared: Vec<Option<Prepared>> = study.sequences.iter().map(|_| None).collect();
+    let mut failures = Vec::new();
+    let mut left = 0;
+    for (index, run) in runs.iter().enumerate() {
+        if rows[index].is_some() {
+            continue;
+        }
+        if progress.should_stop() {
+            left += 1;
+            continue;
+        }
+        let place = study.sequences.iter().position(|sequence| sequence.name() == run.sequence).unwrap_or(0);
+        let sequence = match &mut prepared[place] {
+            Some(sequence) => sequence,
+            empty => {
+                let making = |done: usize, frames: usize| progress.making(&run.sequence, done, frames);
+                empty.insert(Prepared::new(&study.sequences[place], output, &making)?)
+            }
+        };
+        match one(run, sequence, output, progress) {
+            Ok(Some(outcome)) => {
+                let row = Row { run: run.clone(), outcome };
+                let folder = output.path().join("runs").join(run.folder());
+                OutputFolder::open(&folder)?.write(ROW, |out| Ok(serde_json::to_writer_pretty(out, &row)?))?;
+                progress.ran(run, Ok(&row.outcome));
+                rows[index] = Some(row);
+                // After every run, so that a study can be looked at while it lasts.
+                let done: Vec<Row> = rows.iter().flatten().cloned().collect();
+                write(study, &done, output)?;
+            }
+            Ok(None) => left += 1,
+            Err(error) => {
+                progress.ran(run, Err(&error));
+                failures.push((run.clone(), error));
+            }
+        }
+    }
+    let rows: Vec<Row> = rows.into_iter().flatten().collect();
+    let tables = write(study, &rows, output)?;
+    Ok(StudySummary { rows, failures, left, tables })
+}
+
+/// The row of a run that an earlier call made.
+fn finished(run: &Run, output: &OutputFolder) -> Result<Option<Row>> {
+    let path = output.path().join("runs").join(run.folder()).join(ROW);
+    if !path.exists() {
+        return Ok(None);
+    }
+    let text = fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
+    let row: Row = serde_json::from_str(&text).with_context(|| format!("{} is no row of a study", path.display()))?;
+    if row.run != *run {
+        bail!(
+            "{} was made with frames {} and spread {}, expected {} and {}: choose another folder for another study",
+            path.display(),
+            row.run.frames,
+            row.run.spread,
+            run.frames,
+            run.spread
+        );
+    }
+    Ok(Some(row))
+}
+
+/// Tells the tracker when to stop.
+struct Watch<'a>(&'a dyn Progress);
+
+impl track::Progress for Watch<'_> {
+    fn should_stop(&self) -> bool {
+        self.0.should_stop()
+    }
+}
+
+/// One run; none when it was stopped midway.
+fn one(run: &Run, prepared: &Prepared, output: &OutputFolder, progress: &dyn Progress) -> Result<Option<Outcome>> {
+    let folder = OutputFolder::open(&output.path().join("runs").join(run.folder()))?;
+    let sequence = prepared.with_model(run.model, output)?;
+    let mut settings = settings(run, folder.path())?;
+    let mut watch = Watch(progress);
+    let summary = match track(&sequence, &settings, &folder, &mut watch) {
+        // What was begun with other inputs cannot be gone on with, and what has no frame left to track tells no times: the
+        // run begins again.
+        summary if settings.resume && !summary.as_ref().is_ok_and(|it| it.new_frames > 0) => {
+            settings.resume = false;
+            track(&sequence, &settings, &folder, &mut watch)?
+        }
+        summary => summary?,
+    };
+    if summary.stopped_before.is_some() {
+        return Ok(None);
+    }
+    outcome(prepared, &folder, &summary).map(Some)
+}
+
+fn settings(run: &Run, folder: &Path) -> Result<TrackSettings> {
+    let kind = SearchKind::from_name(&run.search);
+    Ok(TrackSettings {
+        backend: Backend::from_name(&run.backend)?,
+        model: run.model.tracked(),
+        objective: ObjectiveChoice { kind: Some(run.objective.clone()), ..ObjectiveChoice::default() },
+        search: SearchSettings {
+            kind: kind.with_context(|| format!("there is no search {:?}", run.search))?,
+            particles: run.particles,
+            iterations: run.iterations,
+            seed: run.seed,
+            ..SearchSettings::default()
+        },
+        spread: run.spread,
+        frames: run.frames.parse()?,
+        overlay_every: 0,
+        resume: folder.join(BEGUN).exists(),
+        ..TrackSettings::default()
+    })
+}
+
+fn outcome(prepared: &Prepared, folder: &OutputFolder, summary: &TrackSummary) -> Result<Outcome> {
+    let errors = prepared.errors(folder, summary.error.as_ref())?;
+    let per_frame = |total: f64, count: u64| if count > 0 { total / count as f64 } else { 0.0 };
+    let stages = summary.stages.iter();
+    Ok(Outcome {
+        frames: summary.frames.len(),
+        points: errors.points,
+        error: errors.mean,
+        error_std: errors.std,
+        error_without_offset: errors.without_offset,
+        frames_per_second: summary.frames_per_second,
+        fitness: summary.mean_fitness,
+        confidence: summary.mean_confidence,
+        stages: stages.map(|it| StageShare { name: it.name.clone(), ms: per_frame(it.total, it.count) }).collect(),
+        evaluator: summary.backend.join(" "),
+    })
+}
+
+/// Writes everything that the rows say; gives the tables in Markdown.
+fn write(study: &Study, rows: &[Row], output: &OutputFolder) -> Result<String> {
+    output.write("runs.csv", |out| write_runs(out, rows))?;
+    output.write("stages.csv", |out| write_stages(out, rows))?;
+    let mut text = String::new();
+    for settings in tables::settings(study) {
+        let table = Table::new(&settings, rows);
+        output.write(&format!("table-{}.csv", settings.name), |out| table.write_csv(out))?;
+        text += &table.markdown();
+        text += "\n";
+    }
+    output.write("tables.md", |out| Ok(out.write_all(text.as_bytes())?))?;
+    let svg =
+        |name: &str, svg: String| output.write(&format!("plot-{name}.svg"), |out| Ok(out.write_all(svg.as_bytes())?));
+    for settings in plots::settings(study) {
+        svg(&settings.name, plots::plot(&settings, rows)?)?;
+    }
+    for settings in plots::share_settings(study) {
+        svg(&settings.name, plots::shares(&settings, rows)?)?;
+    }
+    Ok(text)
+}
