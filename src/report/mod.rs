@@ -1,9 +1,11 @@
 //! What people look at: overlays, plots, the HTML page.
 
+mod arrows;
 mod html;
 mod overlay;
 mod plot;
 
+pub use arrows::{Arrow, arrow_chart};
 pub use html::{
     CameraFrame, Headline, JointError, OverlayFrame, Player, ReportData, Skeleton, StageTime, page, write_page,
 };
