@@ -3,14 +3,16 @@
 //! climbs to the best one.
 //!
 //! The crate is a house of rooms (see `docs/ARCHITECTURE.md`); an import runs down the floors, never up:
-//! [`command`] → [`study`] → [`track`] → [`search`], [`bench`] → [`evaluate`], [`synth`], [`report`] → [`features`], [`body`],
-//! [`sequence`] → [`gpu`], [`motion`], [`geometry`] → [`files`].
+//! [`command`] → [`study`] → [`track`] → [`search`], [`bench`], [`check`] → [`evaluate`], [`synth`], [`report`] → [`features`],
+//! [`body`], [`sequence`], [`calibrate`] → [`gpu`], [`motion`], [`geometry`] → [`files`].
 //!
 //! Lengths are millimetres, angles radians (degrees only in files people edit), images row-major with the origin in the
 //! centre of the top-left pixel. The world frame is right-handed with z up.
 
 pub mod bench;
 pub mod body;
+pub mod calibrate;
+pub mod check;
 pub mod command;
 pub mod evaluate;
 pub mod features;

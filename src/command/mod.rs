@@ -3,6 +3,8 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "this room is the one that talks to the user")]
 
 mod bench;
+mod calibrate;
+mod check;
 mod convert;
 mod demo;
 mod devices;
@@ -36,6 +38,10 @@ struct Arguments {
 enum Command {
     /// Measure how fast every backend is here, side by side and stage by stage.
     Bench(bench::BenchArgs),
+    /// Calibrate cameras from points known in the world and in the pictures.
+    Calibrate(calibrate::CalibrateArgs),
+    /// Is this sequence sane: units, up axis, cameras, silhouettes, timing; every check with its number and what to do.
+    Check(check::CheckArgs),
     /// Convert a recording between C3D, TRC, BVH and CSV.
     Convert(convert::ConvertArgs),
     Demo(demo::DemoArgs),
@@ -78,6 +84,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 fn dispatch(command: Command) -> Result<()> {
     match command {
         Command::Bench(args) => bench::run(&args),
+        Command::Calibrate(args) => calibrate::run(&args),
+        Command::Check(args) => check::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Demo(args) => demo::run(&args),
         Command::Devices(args) => devices::run(&args),

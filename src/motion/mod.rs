@@ -12,6 +12,8 @@ mod skeletal;
 mod test_points;
 mod trc;
 
+pub(crate) use number::{finite, whole};
+
 pub use bvh::{BvhChannel, BvhJoint, BvhMotion, parse_bvh, write_bvh};
 pub use c3d::{parse_c3d, write_c3d};
 pub use error::{FrameError, Matching, PointError, PointPairs, TrajectoryError, write_frame_errors};

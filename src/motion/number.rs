@@ -7,7 +7,7 @@ use super::points::LARGEST_COORDINATE;
 use crate::files::shortened;
 
 /// A finite number. Rust would also read `nan` and `inf`, which no recording means.
-pub(super) fn finite(cell: &str) -> Result<f64> {
+pub(crate) fn finite(cell: &str) -> Result<f64> {
     match cell.trim().parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
         Ok(_) => bail!("found `{}`, expected a finite number", shortened(cell)),
@@ -16,7 +16,7 @@ pub(super) fn finite(cell: &str) -> Result<f64> {
 }
 
 /// A whole number from 0.
-pub(super) fn whole(cell: &str) -> Result<usize> {
+pub(crate) fn whole(cell: &str) -> Result<usize> {
     let cell = cell.trim();
     // Some programs write counts as 100.0.
     let digits = cell.strip_suffix(".0").unwrap_or(cell);

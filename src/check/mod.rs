@@ -1,0 +1,158 @@
+//! Is a sequence sane? Every check is a number, its limit, what was found and what to do (docs/CALIBRATION.md).
+//!
+//! `view` looks at the calibration alone; `silhouettes` reads what the cameras saw; `agreement` measures how well they
+//! agree, without any model of the person; `turns`, `exchanges` and `timing` ask which small change makes them agree
+//! better; `person` looks at the surface that they agree on.
+
+mod agreement;
+mod exchanges;
+mod finding;
+mod person;
+mod signed_distance;
+mod silhouettes;
+mod timing;
+mod turns;
+mod view;
+
+use std::path::Path;
+
+use anyhow::{Result, ensure};
+use glam::DVec3;
+use serde::Serialize;
+
+pub use finding::{Finding, Status};
+
+use agreement::{Ray, rays};
+use silhouettes::Silhouettes;
+
+use crate::geometry::Camera;
+use crate::sequence::Sequence;
+
+/// Frames looked at unless the user says which: a short stretch says as much as a long one.
+const FRAMES: usize = 100;
+/// Rays a silhouette for a number, and for a search that needs many of them.
+const RAYS: usize = 150;
+const FEWER_RAYS: usize = 60;
+/// Fewer rays say nothing.
+const FEWEST_RAYS: usize = 200;
+/// A border ray that misses the other silhouettes by more than this many pixels is not explained by them.
+const EXPLAINED: f64 = 1.5;
+/// A ray's excess counts up to this many pixels.
+const CAP: f64 = 4.0;
+
+/// Which frames are looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CheckSettings {
+    /// The first frame; None: 0.
+    pub start: Option<usize>,
+    /// The frame after the last; None: a hundred frames on, or the sequence's end.
+    pub end: Option<usize>,
+    /// How many frames between them.
+    pub samples: usize,
+}
+
+impl Default for CheckSettings {
+    fn default() -> Self {
+        Self { start: None, end: None, samples: 8 }
+    }
+}
+
+/// What was found out about a sequence.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CheckReport {
+    /// The sequence's name, or its path where it cannot be opened.
+    pub sequence: String,
+    /// Whether no check failed.
+    pub sane: bool,
+    /// The frames looked at.
+    pub frames: Vec<usize>,
+    /// Every check.
+    pub checks: Vec<Finding>,
+}
+
+impl CheckReport {
+    fn new(sequence: String, frames: Vec<usize>, checks: Vec<Finding>) -> Self {
+        let sane = checks.iter().all(|finding| finding.status != Status::Failed);
+        Self { sequence, sane, frames, checks }
+    }
+}
+
+/// Checks a sequence: its manifest, or the folder that holds it. Its body and start pose need not exist. A sequence that
+/// cannot be opened is a failed check.
+///
+/// # Errors
+/// When the frames asked for are not the sequence's, a picture cannot be read, or there is nothing to tell the person from
+/// the background by.
+pub fn check(path: &Path, settings: &CheckSettings) -> Result<CheckReport> {
+    let sequence = match Sequence::open_unfitted(path) {
+        Ok(sequence) => sequence,
+        Err(error) => {
+            let finding = Finding::number("files", "", f64::NAN, [0.0, 0.0]).found(format!("{error:#}"));
+            let finding = finding.or("what stands before: nothing else can be looked at");
+            return Ok(CheckReport::new(path.display().to_string(), Vec::new(), vec![finding]));
+        }
+    };
+    let first = settings.start.unwrap_or(0);
+    let end = settings.end.unwrap_or(sequence.frame_count.min(first + FRAMES));
+    ensure!(
+        first < end && end <= sequence.frame_count,
+        "frames {first}..{end} are no frames of {}, which has frames 0..{}",
+        sequence.path.display(),
+        sequence.frame_count
+    );
+    let silhouettes = Silhouettes::read(&sequence, first..end, settings.samples)?;
+    let opened = format!("{} views, {} frames", sequence.views.len(), sequence.frame_count);
+    let mut checks = vec![
+        Finding::number("files", "views", sequence.views.len() as f64, [2.0, f64::INFINITY])
+            .found(opened)
+            .or("give the sequence a second camera: one alone cannot be checked"),
+    ];
+    checks.extend(view::lenses(&sequence.cameras));
+    checks.push(view::up_axis(&sequence.cameras));
+    checks.extend(seen(&sequence, &silhouettes));
+    let found = rays(&sequence.cameras, &silhouettes.moments(), RAYS);
+    if found.len() < FEWEST_RAYS {
+        let why = format!("the silhouettes have {} border rays, expected {FEWEST_RAYS} or more", found.len());
+        checks.push(Finding::not_measured("agreement", &why));
+        checks.extend(view::volume(&sequence.cameras, DVec3::ZERO));
+    } else {
+        let middle = found.iter().map(|ray| ray.point).sum::<DVec3>() / found.len() as f64;
+        checks.extend(view::volume(&sequence.cameras, middle));
+        checks.extend(explained(&sequence.cameras, &found));
+        checks.extend(exchanges::exchanges(&sequence.cameras, &silhouettes, &found));
+        checks.extend(turns::turns(&sequence.cameras, &silhouettes.moments()));
+        checks.extend(timing::timing(&sequence.cameras, &silhouettes));
+        checks.extend(person::person(&found, sequence.body.is_file().then_some(sequence.body.as_path()))?);
+    }
+    Ok(CheckReport::new(sequence.name.clone(), silhouettes.samples.clone(), checks))
+}
+
+/// In how many of the frames looked at each camera sees somebody.
+fn seen(sequence: &Sequence, silhouettes: &Silhouettes) -> Vec<Finding> {
+    let moments = silhouettes.moments();
+    let share = |view: usize| {
+        let seen = moments.iter().filter(|moment| moment[view].is_some()).count();
+        100.0 * seen as f64 / moments.len().max(1) as f64
+    };
+    let finding = |(view, camera): (usize, &Camera)| {
+        Finding::number("silhouettes", "% of the frames", share(view), [60.0, 100.0]).of(&camera.name).or(
+            "look at them with `pantin features`: a background picture of the same light helps, and frames with the person \
+             in view",
+        )
+    };
+    sequence.cameras.iter().enumerate().map(finding).collect()
+}
+
+/// The share of each silhouette's border that the other views explain: their visual hull reaches it.
+fn explained(cameras: &[Camera], rays: &[Ray]) -> Vec<Finding> {
+    let finding = |(view, camera): (usize, &Camera)| {
+        let own: Vec<&Ray> = rays.iter().filter(|ray| ray.view == view).collect();
+        let good = own.iter().filter(|ray| ray.excess() <= EXPLAINED).count();
+        let percent = 100.0 * good as f64 / own.len().max(1) as f64;
+        Finding::number("hull coverage", "% of the border", percent, [80.0, 100.0])
+            .of(&camera.name)
+            .found(format!("of {} rays within {EXPLAINED} px of the visual hull of the other views", own.len()))
+            .or("calibration, timing and silhouettes of this camera do not fit the others: see the checks that follow")
+    };
+    cameras.iter().enumerate().map(finding).collect()
+}

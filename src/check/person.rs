@@ -1,0 +1,102 @@
+//! The surface that the views agree on: does it stand on the floor, upright, and has it the size of a person?
+
+use std::path::Path;
+
+use anyhow::Result;
+use glam::DVec3;
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+
+use super::EXPLAINED;
+use super::agreement::Ray;
+use super::finding::Finding;
+use crate::body::Body;
+
+/// Part of the points cut off below and above: specks, and where few cameras look.
+const OUTLIERS: f64 = 0.005;
+
+/// Feet, height and long axis; and the height of the body file against it, where there is one.
+///
+/// # Errors
+/// When the body file cannot be read.
+pub(super) fn person(rays: &[Ray], body: Option<&Path>) -> Result<Vec<Finding>> {
+    let agreed: Vec<&Ray> = rays.iter().filter(|ray| ray.excess() <= EXPLAINED).collect();
+    let last = rays.iter().map(|ray| ray.moment).max().unwrap_or(0);
+    let (mut feet, mut heights) = (Vec::new(), Vec::new());
+    let mut spread = Matrix3::zeros();
+    for moment in 0..=last {
+        let points: Vec<DVec3> = agreed.iter().filter(|ray| ray.moment == moment).map(|ray| ray.point).collect();
+        if points.len() < 20 {
+            continue;
+        }
+        let mut levels: Vec<f64> = points.iter().map(|point| point.z).collect();
+        levels.sort_by(f64::total_cmp);
+        let cut = (OUTLIERS * levels.len() as f64) as usize;
+        let (low, high) = (levels[cut], levels[levels.len() - 1 - cut]);
+        feet.push(low);
+        heights.push(high - low);
+        let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+        for point in &points {
+            let d = Vector3::from((*point - middle).to_array());
+            spread += d * d.transpose();
+        }
+    }
+    let (Some(feet), Some(height)) = (median(feet), median(heights)) else {
+        return Ok(vec![Finding::not_measured("feet", "the views agree on too little of the person")]);
+    };
+    let mut checks = vec![
+        Finding::number("feet", "mm above z = 0", feet, [-150.0, 200.0]).found("median of the lowest points").or(
+            if feet < -600.0 {
+                "the person hangs below the floor: z points down, turn the calibration's world over"
+            } else {
+                "z = 0 is not the floor the person stands on: move the calibration's world there, or check its units"
+            },
+        ),
+        Finding::number("height", "mm", height, [1000.0, 2300.0])
+            .found("median from the lowest to the highest point")
+            .or(unit_advice(height)),
+        upright(spread),
+    ];
+    if let Some(path) = body {
+        let body = Body::load(path)?;
+        let joints = body.joint_positions(&body.world_from_bones(&body.standing_pose())?);
+        let levels = joints.iter().map(|joint| joint.z);
+        let (low, high) = levels.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
+        checks.push(
+            Finding::number("body", "of the person's height", (high - low) / height, [0.75, 1.35])
+                .found(format!("the joints of {} span {:.0} mm", path.display(), high - low))
+                .or("measure the person with `pantin fit`, and check the units of body.toml"),
+        );
+    }
+    Ok(checks)
+}
+
+/// The angle between z and the axis along which the person is longest.
+fn upright(spread: Matrix3<f64>) -> Finding {
+    let eigen = SymmetricEigen::new(spread);
+    let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax());
+    let degrees = axis[2].abs().min(1.0).acos().to_degrees();
+    Finding::number("upright", "degrees", degrees, [0.0, 50.0])
+        .found("between z and the axis along which the person is longest")
+        .or("the person lies on the side: is z the axis upwards?")
+}
+
+fn unit_advice(height: f64) -> String {
+    const UNITS: [(f64, &str); 5] =
+        [(1000.0, "metres"), (100.0, "decimetres"), (10.0, "centimetres"), (25.4, "inches"), (0.001, "micrometres")];
+    // The unit that makes the person most like one of 1700 mm.
+    let likely = UNITS.iter().min_by(|a, b| {
+        let off = |unit: f64| (height * unit / 1700.0).ln().abs();
+        off(a.0).total_cmp(&off(b.0))
+    });
+    match likely.filter(|(unit, _)| (0.6..1.6).contains(&(height * unit / 1700.0))) {
+        Some((_, unit)) => format!("the calibration's lengths look like {unit}: state its unit, or convert them to mm"),
+        None => {
+            "check the unit of the calibration's lengths, and whether the silhouettes show a whole person".to_string()
+        }
+    }
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}

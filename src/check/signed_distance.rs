@@ -1,0 +1,169 @@
+//! A silhouette as a height field: how far a pixel lies outside its border, negative inside.
+
+use glam::DVec2;
+
+use crate::features::BitImage;
+
+/// Beyond this many grid steps outside the silhouette nothing is told apart.
+const MARGIN: u32 = 16;
+
+/// Signed distances from a silhouette's border, in pixels, sampled on a grid round it.
+#[derive(Clone, Debug)]
+pub(super) struct SignedDistance {
+    picture: DVec2,
+    origin: DVec2,
+    step: f64,
+    width: usize,
+    height: usize,
+    values: Vec<f32>,
+}
+
+impl SignedDistance {
+    /// Measures a silhouette at every `step`-th pixel; None where it is empty. The border lies half way between a pixel
+    /// inside and one outside.
+    pub(super) fn of(silhouette: &BitImage, step: u32) -> Option<Self> {
+        let bounds = silhouette.bounds()?;
+        let (width, height) = (silhouette.width(), silhouette.height());
+        let step = step.max(1);
+        let margin = MARGIN * step;
+        let (x0, y0) = (bounds.x0.saturating_sub(margin), bounds.y0.saturating_sub(margin));
+        let (x1, y1) = ((bounds.x1 + margin).min(width), (bounds.y1 + margin).min(height));
+        let columns = ((x1 - x0).div_ceil(step)) as usize;
+        let rows = ((y1 - y0).div_ceil(step)) as usize;
+        let inside: Vec<bool> = (0..rows * columns)
+            .map(|at| silhouette.get(x0 + (at % columns) as u32 * step, y0 + (at / columns) as u32 * step))
+            .collect();
+        let [outward, inward] =
+            [true, false].map(|wanted| squared_distances(&inside, columns, rows, |is_inside| is_inside == wanted));
+        let value = |(out, into): (&f64, &f64)| {
+            let signed = if *out > 0.0 { out.sqrt() - 0.5 } else { 0.5 - into.sqrt() };
+            (signed * f64::from(step)) as f32
+        };
+        Some(Self {
+            picture: DVec2::new(f64::from(width), f64::from(height)),
+            origin: DVec2::new(f64::from(x0), f64::from(y0)),
+            step: f64::from(step),
+            width: columns,
+            height: rows,
+            values: outward.iter().zip(&inward).map(value).collect(),
+        })
+    }
+
+    /// The largest distance told apart, pixels.
+    pub(super) fn farthest(&self) -> f64 {
+        f64::from(MARGIN) * self.step
+    }
+
+    /// The distance at a place in the picture, between the samples by their four neighbours; None outside the picture.
+    pub(super) fn at(&self, pixel: DVec2) -> Option<f64> {
+        let half = DVec2::splat(0.5);
+        if !(pixel.cmpge(-half).all() && pixel.cmplt(self.picture - half).all()) {
+            return None;
+        }
+        let place = (pixel - self.origin) / self.step;
+        let last = DVec2::new(self.width as f64 - 1.0, self.height as f64 - 1.0);
+        if place.cmplt(DVec2::splat(-1.0)).any() || place.cmpgt(last + 1.0).any() {
+            return Some(self.farthest());
+        }
+        let place = place.clamp(DVec2::ZERO, last);
+        let (x, y) = (place.x as usize, place.y as usize);
+        let (right, below) = ((x + 1).min(self.width - 1), (y + 1).min(self.height - 1));
+        let part = place - place.floor();
+        let value = |x: usize, y: usize| f64::from(self.values[y * self.width + x]);
+        let top = value(x, y) + part.x * (value(right, y) - value(x, y));
+        let bottom = value(x, below) + part.x * (value(right, below) - value(x, below));
+        Some((top + part.y * (bottom - top)).min(self.farthest()))
+    }
+
+    /// The pixels just inside the border, but for those at the picture's edge, where the person is cut off.
+    pub(super) fn border(&self) -> Vec<DVec2> {
+        let mut border = Vec::new();
+        for y in 0..self.height {
+            for x in 0..self.width {
+                let pixel = self.origin + DVec2::new(x as f64, y as f64) * self.step;
+                let is_cut =
+                    pixel.cmplt(DVec2::splat(self.step)).any() || pixel.cmpgt(self.picture - 1.0 - self.step).any();
+                // The nearest pixel outside is a neighbour.
+                if f64::from(self.values[y * self.width + x]) == -0.5 * self.step && !is_cut {
+                    border.push(pixel);
+                }
+            }
+        }
+        border
+    }
+}
+
+/// Squared Euclidean distances, in grid steps, to the nearest cell that is `wanted`: lower envelopes of parabolas, first
+/// along columns, then along rows.
+fn squared_distances(cells: &[bool], width: usize, height: usize, wanted: impl Fn(bool) -> bool) -> Vec<f64> {
+    // Far beyond any distance, and still finite when parabolas are subtracted.
+    const NONE: f64 = 1e12;
+    let mut values: Vec<f64> = cells.iter().map(|&cell| if wanted(cell) { 0.0 } else { NONE }).collect();
+    let mut line = Vec::new();
+    let mut hull = Vec::new();
+    for x in 0..width {
+        line.clear();
+        line.extend((0..height).map(|y| values[y * width + x]));
+        lower_envelope(&line, &mut hull, |y, value| values[y * width + x] = value);
+    }
+    for row in values.chunks_mut(width) {
+        line.clear();
+        line.extend_from_slice(row);
+        lower_envelope(&line, &mut hull, |x, value| row[x] = value);
+    }
+    values
+}
+
+/// min over q of (p - q)^2 + line[q], for every p. `hull` holds the parabolas of the envelope and where each begins.
+fn lower_envelope(line: &[f64], hull: &mut Vec<(usize, f64)>, mut set: impl FnMut(usize, f64)) {
+    hull.clear();
+    for (q, value) in line.iter().enumerate() {
+        let mut begin = f64::NEG_INFINITY;
+        while let Some(&(other, start)) = hull.last() {
+            let (a, b) = (q as f64, other as f64);
+            begin = (value - line[other] + a * a - b * b) / (2.0 * (a - b));
+            if begin > start {
+                break;
+            }
+            hull.pop();
+            begin = f64::NEG_INFINITY;
+        }
+        hull.push((q, begin));
+    }
+    let mut at = 0;
+    for p in 0..line.len() {
+        while hull.get(at + 1).is_some_and(|&(_, begin)| begin <= p as f64) {
+            at += 1;
+        }
+        let (q, _) = hull[at];
+        set(p, (p as f64 - q as f64).powi(2) + line[q]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_are_those_of_every_pixel_tried() {
+        let blob =
+            |x: u32, y: u32| (x > 5 && x < 30 && y > 8 && y < 20 && (x * 7 + y * 5) % 11 > 1) || (x == 40 && y == 3);
+        let silhouette = BitImage::from_fn(60, 40, blob);
+        let field = SignedDistance::of(&silhouette, 1).unwrap();
+        for (x, y) in (0..60).flat_map(|x| (0..40).map(move |y| (x, y))) {
+            let here = blob(x, y);
+            let nearest = (0..60)
+                .flat_map(|a| (0..40).map(move |b| (a, b)))
+                .filter(|&(a, b)| blob(a, b) != here)
+                .map(|(a, b)| (f64::from(a) - f64::from(x)).hypot(f64::from(b) - f64::from(y)) - 0.5)
+                .fold(f64::INFINITY, f64::min);
+            let expected = if here { -nearest } else { nearest.min(16.0) };
+            let found = field.at(DVec2::new(f64::from(x), f64::from(y))).unwrap();
+            assert!((found - expected).abs() < 1e-5 || found == 16.0 && expected > 14.0, "{x} {y}: {found} {expected}");
+        }
+        assert!(field.at(DVec2::new(-0.6, 3.0)).is_none() && field.at(DVec2::new(3.0, 39.6)).is_none());
+        assert!(field.at(DVec2::NAN).is_none());
+        assert!(field.border().iter().all(|p| blob(p.x as u32, p.y as u32)));
+        assert!(SignedDistance::of(&BitImage::new(9, 9), 1).is_none());
+    }
+}

@@ -1,0 +1,76 @@
+//! Is a camera early or late? Each view's silhouettes in turn are taken from some frames earlier or later, and the views
+//! agree best where they belong together.
+
+use rayon::prelude::*;
+
+use super::agreement::{Moment, disagreement, rays};
+use super::finding::Finding;
+use super::silhouettes::{SHIFTS, Silhouettes};
+use super::{CAP, FEWER_RAYS};
+use crate::geometry::Camera;
+
+/// More than this many frames is late.
+const LATE: f64 = 0.6;
+/// Where a shift changes the disagreement by less than this part, nobody moves enough to tell.
+const TELLING: f64 = 0.05;
+
+/// The delay of every camera, frames.
+pub(super) fn timing(cameras: &[Camera], silhouettes: &Silhouettes) -> Vec<Finding> {
+    let measured: Vec<Vec<(isize, f64)>> =
+        (0..cameras.len()).into_par_iter().map(|view| curve(cameras, silhouettes, view)).collect();
+    measured.iter().zip(cameras).map(|(curve, camera)| finding(curve, camera)).collect()
+}
+
+/// The disagreement for every shift of one view that has its frames.
+fn curve(cameras: &[Camera], silhouettes: &Silhouettes, view: usize) -> Vec<(isize, f64)> {
+    // The same samples for every shift: those that have all their neighbours.
+    let shifted =
+        |sample: usize, shift: isize| silhouettes.moment(sample, |other| if other == view { shift } else { 0 });
+    let samples = silhouettes
+        .samples
+        .iter()
+        .copied()
+        .filter(|&sample| SHIFTS.into_iter().all(|shift| shifted(sample, shift).is_some()));
+    let samples: Vec<usize> = samples.collect();
+    if samples.is_empty() {
+        return Vec::new();
+    }
+    SHIFTS
+        .map(|shift| {
+            let moments: Vec<Moment> = samples.iter().filter_map(|&sample| shifted(sample, shift)).collect();
+            (shift, disagreement(&rays(cameras, &moments, FEWER_RAYS), CAP))
+        })
+        .collect()
+}
+
+fn finding(curve: &[(isize, f64)], camera: &Camera) -> Finding {
+    let best = curve.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+    let Some((at, &(shift, least))) = best else {
+        return Finding::not_measured("timing", "the frames looked at have no three neighbours to either side")
+            .of(&camera.name);
+    };
+    let most = curve.iter().map(|(_, value)| *value).fold(0.0, f64::max);
+    if most - least < TELLING * most.max(0.1) {
+        return Finding::not_measured("timing", "nobody moves enough in the frames looked at to tell").of(&camera.name);
+    }
+    // The lowest point of the parabola through the best shift and its neighbours.
+    let part = match (at.checked_sub(1).and_then(|at| curve.get(at)), curve.get(at + 1)) {
+        (Some((_, before)), Some((_, after))) => {
+            let bend = before - 2.0 * least + after;
+            if bend > 0.0 { 0.5 * (before - after) / bend } else { 0.0 }
+        }
+        _ => 0.0,
+    };
+    // Frames taken from later on agree with the others: this camera's pictures come that much too late.
+    let late = shift as f64 + part;
+    let now = curve.iter().find(|(shift, _)| *shift == 0).map_or(least, |(_, value)| *value);
+    Finding::number("timing", "frames late", late, [-LATE, LATE])
+        .of(&camera.name)
+        .found(format!(
+            "the views disagree by {now:.3} px as they are, by {least:.3} px with this camera moved by {shift}"
+        ))
+        .or(format!(
+            "cut {} frames from the beginning of this camera's video, or of all others where it is negative",
+            shift.abs()
+        ))
+}

@@ -1,0 +1,150 @@
+//! The smallest turn of each camera about its own centre after which the silhouettes agree best: by that angle a camera
+//! looks beside where its calibration says.
+
+use glam::DVec3;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::CAP;
+use super::agreement::{Moment, Ray, again, disagreement, rays};
+use super::finding::Finding;
+use crate::geometry::{Camera, rodrigues_matrix};
+
+/// Residuals beyond this many pixels are taken for faults of the silhouettes and weigh ever less.
+const SCALE: f64 = 1.5;
+/// Turns cost what one ray costs that is off by this many pixels a degree: where silhouettes say nothing, nothing moves.
+const PRIOR: f64 = 1.0;
+/// Rounds of Gauss and Newton.
+const ROUNDS: usize = 8;
+/// Step of the differences, radians.
+const STEP: f64 = 1e-3;
+
+/// Cameras farther off than this, degrees, spoil a track.
+const LIMIT: f64 = 0.3;
+/// Rays a silhouette.
+const RAYS: usize = 80;
+
+/// By which angle each camera looks beside its calibration.
+pub(super) fn turns(cameras: &[Camera], moments: &[Moment]) -> Vec<Finding> {
+    let all: Vec<usize> = (0..cameras.len()).collect();
+    let found = best_turns(cameras, moments, RAYS, &all);
+    let after: Vec<Camera> = cameras.iter().zip(&found).map(|(camera, turn)| turned(camera, *turn)).collect();
+    let [before, after] = [cameras, &after].map(|cameras| disagreement(&rays(cameras, moments, RAYS), CAP));
+    let finding = |(camera, turn): (&Camera, &DVec3)| {
+        let [x, y, z] = turn.to_array().map(f64::to_degrees);
+        Finding::number("direction", "degrees", turn.length().to_degrees(), [0.0, LIMIT])
+            .of(&camera.name)
+            .found(format!(
+                "turned by ({x:.2}, {y:.2}, {z:.2}) about its x, y, z the views agree best: {before:.3} px become {after:.3} \
+                 with all cameras turned"
+            ))
+            .or("the camera was moved since its calibration, or that is not exact: calibrate it anew, or refine it on points \
+                 that several cameras see")
+    };
+    cameras.iter().zip(&found).map(finding).collect()
+}
+
+/// The camera turned about its centre by a Rodrigues vector in its own axes, radians.
+pub(super) fn turned(camera: &Camera, turn: DVec3) -> Camera {
+    let mut turned = camera.clone();
+    let turn = rodrigues_matrix(turn);
+    turned.camera_from_world.matrix3 = turn * camera.camera_from_world.matrix3;
+    turned.camera_from_world.translation = turn * camera.camera_from_world.translation;
+    turned
+}
+
+/// The turn of each camera, camera axes (x right, y down, z ahead), radians.
+pub(super) fn best_turns(cameras: &[Camera], moments: &[Moment], count: usize, which: &[usize]) -> Vec<DVec3> {
+    let mut turns = vec![DVec3::ZERO; cameras.len()];
+    let mut best = (f64::INFINITY, turns.clone());
+    let mut damping = 1.0;
+    for _ in 0..ROUNDS {
+        let current: Vec<Camera> = cameras.iter().zip(&turns).map(|(camera, turn)| turned(camera, *turn)).collect();
+        let rays = rays(&current, moments, count);
+        let cost = cost(&rays, &turns);
+        if cost < best.0 {
+            best = (cost, turns.clone());
+            damping = f64::max(damping * 0.5, 0.25);
+        } else {
+            // A step too far: back half the way.
+            turns = best.1.iter().zip(&turns).map(|(a, b)| (*a + *b) * 0.5).collect();
+            damping *= 4.0;
+            continue;
+        }
+        let step = step(&current, moments, &rays, &turns, which, damping);
+        let Some(step) = step else { break };
+        let longest = step.iter().map(|turn| turn.length()).fold(0.0, f64::max);
+        turns = turns.iter().zip(&step).map(|(turn, step)| *turn + *step * (0.02 / longest).min(1.0)).collect();
+        if longest < 1e-5 {
+            break;
+        }
+    }
+    best.1
+}
+
+fn weight(excess: f64) -> f64 {
+    1.0 / (1.0 + (excess / SCALE).powi(2))
+}
+
+fn prior(rays: usize) -> f64 {
+    // Of a share of the rays, so that more of them do not drown it.
+    PRIOR.to_degrees().powi(2) * 0.002 * rays as f64
+}
+
+fn cost(rays: &[Ray], turns: &[DVec3]) -> f64 {
+    let seen: f64 = rays.iter().map(|ray| SCALE * SCALE * (1.0 + (ray.excess() / SCALE).powi(2)).ln()).sum();
+    (seen + prior(rays.len()) * turns.iter().map(|turn| turn.length_squared()).sum::<f64>()) / rays.len().max(1) as f64
+}
+
+/// One damped Gauss-Newton step.
+fn step(
+    cameras: &[Camera],
+    moments: &[Moment],
+    rays: &[Ray],
+    turns: &[DVec3],
+    which: &[usize],
+    damping: f64,
+) -> Option<Vec<DVec3>> {
+    let unknowns = 3 * which.len();
+    let moved: Vec<[Vec<Camera>; 2]> = (0..unknowns)
+        .map(|unknown| {
+            [STEP, -STEP].map(|step| {
+                let mut moved = cameras.to_vec();
+                let mut turn = DVec3::ZERO;
+                turn[unknown % 3] = step;
+                moved[which[unknown / 3]] = turned(&cameras[which[unknown / 3]], turn);
+                moved
+            })
+        })
+        .collect();
+    let equations = |ray: &Ray| {
+        let moment = &moments[ray.moment];
+        let excess = |cameras: &[Camera]| again(cameras, moment, ray).map(|miss| (miss + 0.5).max(0.0));
+        let row = moved.iter().map(|[up, down]| match (excess(up), excess(down)) {
+            (Some(up), Some(down)) => (up - down) / (2.0 * STEP),
+            _ => 0.0,
+        });
+        (DVector::from_iterator(unknowns, row), ray.excess())
+    };
+    let sum = |(matrix, vector): (DMatrix<f64>, DVector<f64>), (row, excess): (DVector<f64>, f64)| {
+        let weight = weight(excess);
+        (matrix + weight * &row * row.transpose(), vector + weight * excess * row)
+    };
+    let nothing = || (DMatrix::zeros(unknowns, unknowns), DVector::zeros(unknowns));
+    // Folded in pieces of fixed size and in their order, so that the sums are the same on every run.
+    let pieces: Vec<_> = rays.par_chunks(256).map(|rays| rays.iter().map(equations).fold(nothing(), sum)).collect();
+    let (mut matrix, mut vector) =
+        pieces.into_iter().fold(nothing(), |(matrix, vector), (m, v)| (matrix + m, vector + v));
+    let prior = prior(rays.len());
+    for unknown in 0..unknowns {
+        matrix[(unknown, unknown)] += prior;
+        vector[unknown] += prior * turns[which[unknown / 3]][unknown % 3];
+        matrix[(unknown, unknown)] *= 1.0 + 0.1 * damping;
+    }
+    let solution = matrix.cholesky()?.solve(&vector);
+    let mut step = vec![DVec3::ZERO; cameras.len()];
+    for unknown in 0..unknowns {
+        step[which[unknown / 3]][unknown % 3] = -solution[unknown];
+    }
+    Some(step)
+}

@@ -1,0 +1,74 @@
+//! `pantin check`.
+
+use std::path::PathBuf;
+
+use anyhow::{Result, bail};
+
+use crate::check::{CheckReport, CheckSettings, Finding, Status, check};
+use crate::track::FrameRange;
+
+/// Is this sequence sane? Looks at units, axes, lenses, the space that the cameras share, and at whether the silhouettes of
+/// a few frames agree with each other, in direction and in time, and show a person on the floor. Each check tells its
+/// number, its limit and what to do. Exit status 0 when none failed, else 1.
+#[derive(clap::Args, Debug)]
+pub struct CheckArgs {
+    /// The sequence: its sequence.toml, or the folder that holds it. Its body and start need not exist yet.
+    #[arg(value_name = "SEQUENCE")]
+    sequence: PathBuf,
+    /// Frames that may be looked at: A..B without B, A.., or ..B; counted from 0 [default: the first hundred].
+    #[arg(long, value_name = "A..B", default_value = "..", hide_default_value = true)]
+    frames: FrameRange,
+    /// How many of them, evenly spread (the timing takes three more to either side of each).
+    #[arg(long, value_name = "N", default_value_t = CheckSettings::default().samples)]
+    samples: usize,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// As [`check`]; and when a check failed.
+pub fn run(args: &CheckArgs) -> Result<()> {
+    let settings = CheckSettings { start: args.frames.start, end: args.frames.end, samples: args.samples };
+    let report = check(&args.sequence, &settings)?;
+    if args.json {
+        println!("{}", serde_json::to_string_pretty(&report)?);
+    } else {
+        print(&report);
+    }
+    let failed: Vec<&Finding> = report.checks.iter().filter(|finding| finding.status == Status::Failed).collect();
+    if let Some(first) = failed.first() {
+        bail!("{} of {} checks failed, the first is `{}`", failed.len(), report.checks.len(), first.check);
+    }
+    Ok(())
+}
+
+fn print(report: &CheckReport) {
+    let frames: Vec<String> = report.frames.iter().map(usize::to_string).collect();
+    println!("{}: frames {}", report.sequence, frames.join(" "));
+    for finding in &report.checks {
+        let status = match finding.status {
+            Status::Ok => "ok    ",
+            Status::Failed => "FAILED",
+            Status::NotMeasured => "-     ",
+        };
+        let camera = finding.camera.as_deref().map(|camera| format!(" {camera}")).unwrap_or_default();
+        let number = finding
+            .value
+            .filter(|_| finding.status != Status::NotMeasured)
+            .map_or(String::new(), |value| format!(" {} {} ({})", rounded(value), finding.unit, finding.limit));
+        let found = if finding.found.is_empty() { String::new() } else { format!("; {}", finding.found) };
+        println!("{status} {}{camera}:{number}{found}", finding.check);
+        if !finding.advice.is_empty() {
+            println!("       {}", finding.advice);
+        }
+    }
+}
+
+/// Three digits or the whole number.
+fn rounded(value: f64) -> String {
+    let digits = if value == value.round() { 0 } else { (2 - value.abs().log10().floor() as i32).clamp(0, 3) as usize };
+    format!("{value:.digits$}")
+}

@@ -1,0 +1,181 @@
+//! `pantin calibrate` as a user runs it.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "helpers of tests fail as tests do")]
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use glam::{DVec2, DVec3};
+use pantin::files::Overwrite;
+use pantin::geometry::Camera;
+use pantin::motion::{PointTrajectory, read_points, write_points};
+use pantin::sequence::read_cameras;
+
+#[allow(dead_code, reason = "a module of several tests")]
+mod scene;
+
+/// Exit status, standard output, standard error.
+fn pantin(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_pantin")).current_dir(folder).args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+fn refused(folder: &Path, arguments: &[&str], expected: &str) {
+    let (status, _, error) = pantin(folder, arguments);
+    assert_eq!(status, 1, "{error}");
+    assert!(error.contains(expected), "{error}\nshould say: {expected}");
+    assert_eq!(error.trim_end().lines().count(), 1, "one sentence: {error}");
+}
+
+fn truth() -> Vec<Camera> {
+    let target = DVec3::new(0.0, 0.0, 900.0);
+    let lens = |focal| scene::brown(focal, [640, 480], [-0.12, 0.05, 0.0], [5e-4, -4e-4]);
+    vec![
+        scene::camera("left", [640, 480], DVec3::new(4000.0, 800.0, 1500.0), target, lens(700.0)),
+        scene::camera("right", [640, 480], DVec3::new(-700.0, -4200.0, 1900.0), target, lens(650.0)),
+    ]
+}
+
+fn points(count: usize) -> Vec<DVec3> {
+    let mut random = scene::Random(11);
+    let mut side = |low, high| f64::from(random.uniform(low, high));
+    (0..count).map(|_| DVec3::new(side(-1000.0, 1000.0), side(-1000.0, 1000.0), side(100.0, 1800.0))).collect()
+}
+
+/// The largest distance between the images of points all over the volume, pixels.
+fn farthest(a: &Camera, b: &Camera) -> f64 {
+    let apart = |point: &DVec3| a.project(*point).unwrap().distance(b.project(*point).unwrap());
+    points(300).iter().map(apart).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_table_becomes_cameras_that_project_as_the_truth_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let mut table = "camera,point,x,y,z,u,v\n".to_string();
+    for camera in truth() {
+        for (index, point) in points(120).iter().enumerate() {
+            // One pair is wrong.
+            let slip = if index == 17 && camera.name == "left" { DVec2::new(35.0, 0.0) } else { DVec2::ZERO };
+            let (p, pixel) = (point / 1000.0, camera.project(*point).unwrap() + slip);
+            writeln!(table, "{},p{index},{},{},{},{},{}", camera.name, p.x, p.y, p.z, pixel.x, pixel.y).unwrap();
+        }
+    }
+    fs::write(at.join("points.csv"), table).unwrap();
+    let size = ["--size", "640x480"];
+    let arguments = ["calibrate", "points.csv", "-o", "cameras.toml", "--model", "brown-conrady", "--units", "m"];
+    let (status, out, error) = pantin(at, &[&arguments[..], &size, &["--residuals", "residuals"]].concat());
+    assert_eq!(status, 0, "{error}");
+    assert!(out.contains("left: 119 points in space") && out.contains("1 outliers left out"), "{out}");
+    assert!(out.contains("p17 at") && out.contains("35.00 px off"), "{out}");
+    let found = read_cameras(&at.join("cameras.toml")).unwrap();
+    for (found, truth) in found.iter().zip(&truth()) {
+        assert_eq!((&found.name, found.size), (&truth.name, truth.size));
+        assert!(farthest(found, truth) < 1e-6, "{}", farthest(found, truth));
+    }
+    let picture = fs::read_to_string(at.join("residuals/left.svg")).unwrap();
+    assert!(picture.starts_with("<svg") && picture.matches("<circle").count() == 120);
+    let table = fs::read_to_string(at.join("residuals/residuals.csv")).unwrap();
+    assert!(table.lines().count() == 241 && table.contains("left,p17,") && table.contains(",35.0000,"), "{table}");
+    refused(at, &[&arguments[..], &size].concat(), "cameras.toml exists");
+    // Tsai's lens is another one: it fits to a fraction of a pixel, and its file is read again too.
+    let tsai = ["calibrate", "points.csv", "-o", "tsai.toml", "--units", "m", "--size", "left=640x480"];
+    refused(at, &tsai, "camera `right` has no --size");
+    let (status, out, error) = pantin(at, &[&tsai[..], &["--size", "right=640x480"]].concat());
+    assert!(status == 0 && out.contains("kappa"), "{out}{error}");
+    for (found, truth) in read_cameras(&at.join("tsai.toml")).unwrap().iter().zip(&truth()) {
+        assert!(farthest(found, truth) < 1.0, "{}", farthest(found, truth));
+    }
+}
+
+#[test]
+fn a_wand_and_its_tracks_become_cameras() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let cloud = points(100);
+    let frames = cloud.iter().map(|p| vec![Some(*p), Some(*p + DVec3::new(60.0, 300.0, 90.0))]).collect();
+    let names = vec!["W1".to_string(), "W2".to_string()];
+    let wand = PointTrajectory { names, rate: 50.0, first_frame: 0, frames };
+    write_points(&at.join("wand.c3d"), &wand, Overwrite::Refuse).unwrap();
+    // C3D holds single precision: what is in the file is what was seen.
+    let wand = read_points(&at.join("wand.c3d")).unwrap();
+    let mut tracks = "camera,frame,marker,u,v\n".to_string();
+    for camera in truth() {
+        for (frame, row) in wand.frames.iter().enumerate() {
+            for (name, point) in wand.names.iter().zip(row) {
+                let pixel = camera.project(point.unwrap()).unwrap();
+                writeln!(tracks, "{},{frame},{name},{},{}", camera.name, pixel.x, pixel.y).unwrap();
+            }
+        }
+    }
+    fs::write(at.join("tracks.csv"), tracks).unwrap();
+    let arguments = ["calibrate", "--c3d", "wand.c3d", "--tracks", "tracks.csv", "-o", "cameras.toml"];
+    let rest = ["--size", "640x480", "--model", "brown-conrady"];
+    let (status, out, error) = pantin(at, &[&arguments[..], &rest].concat());
+    assert!(status == 0 && out.contains("200 points in space"), "{out}{error}");
+    for (found, truth) in read_cameras(&at.join("cameras.toml")).unwrap().iter().zip(&truth()) {
+        assert!(farthest(found, truth) < 1e-6, "{}", farthest(found, truth));
+    }
+    fs::write(at.join("wrong.csv"), "camera,frame,marker,u,v\nleft,0,W3,1,2\n").unwrap();
+    let wrong = ["calibrate", "--c3d", "wand.c3d", "--tracks", "wrong.csv", "-o", "none.toml"];
+    refused(at, &[&wrong[..], &rest].concat(), "no marker `W3`, the nearest is");
+    assert!(!at.join("none.toml").exists());
+}
+
+#[test]
+fn wrong_usage_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("p.csv"), "camera,x,y,z,u,v\na,0,0,0,1,1\n").unwrap();
+    let base = ["calibrate", "p.csv", "-o", "c.toml", "--size", "640x480"];
+    refused(at, &base, "p.csv: camera `a`: 1 different points are too few");
+    refused(at, &[&base[..], &["--hold", "focus"]].concat(), "--hold: found \"focus\", expected aspect, centre");
+    refused(at, &[&base[..], &["--pitch", "0"]].concat(), "--pitch is 0");
+    refused(at, &["calibrate", "none.csv", "-o", "c.toml", "--size", "640x480"], "cannot read none.csv");
+    let (status, _, error) = pantin(at, &["calibrate", "p.csv", "-o", "c.toml", "--size", "640"]);
+    assert!(status == 2 && error.contains("expected WIDTHxHEIGHT"), "{error}");
+    let (status, _, _) = pantin(at, &["calibrate", "p.csv", "-o", "c.toml"]);
+    assert_eq!(status, 2);
+}
+
+/// A real wand-less case: the beam's reference joints as the beam's cameras see them. The points are real, 2100 places
+/// of a man on a beam, all within a metre's breadth; the pixels are the calibration's own, with noise.
+#[test]
+fn cameras_of_a_real_recording_come_back() {
+    let data = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/beam"));
+    if !data.is_dir() {
+        println!("SKIPPED cameras_of_a_real_recording_come_back: ../shared/data is absent");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let text = fs::read_to_string(data.join("cameras.toml")).unwrap();
+    fs::write(at.join("truth.toml"), format!("{text}\n[metadata]\nunits = \"mm\"\n")).unwrap();
+    let truth = read_cameras(&at.join("truth.toml")).unwrap();
+    let joints = read_points(&data.join("reference/openpose_body25b_3d_filt6hz.csv")).unwrap();
+    let mut random = scene::Random(5);
+    let mut noise = || f64::from(random.uniform(-1.0, 1.0) + random.uniform(-1.0, 1.0)) * 0.5;
+    let mut table = "camera,x,y,z,u,v\n".to_string();
+    let seen: Vec<DVec3> = joints.frames.iter().flatten().flatten().copied().collect();
+    for camera in &truth {
+        for p in &seen {
+            let pixel = camera.project(*p).unwrap() + DVec2::new(noise(), noise());
+            writeln!(table, "{},{},{},{},{},{}", camera.name, p.x, p.y, p.z, pixel.x, pixel.y).unwrap();
+        }
+    }
+    fs::write(at.join("points.csv"), table).unwrap();
+    let sizes: Vec<String> = truth.iter().map(|c| format!("{}={}x{}", c.name, c.size[0], c.size[1])).collect();
+    let mut arguments = vec!["calibrate", "points.csv", "-o", "cameras.toml", "--model", "brown-conrady"];
+    sizes.iter().for_each(|size| arguments.extend(["--size", size]));
+    let (status, out, error) = pantin(at, &arguments);
+    assert_eq!(status, 0, "{error}");
+    println!("{out}");
+    for (found, truth) in read_cameras(&at.join("cameras.toml")).unwrap().iter().zip(&truth) {
+        let apart = |p: &DVec3| found.project(*p).unwrap().distance(truth.project(*p).unwrap());
+        let mean = seen.iter().map(apart).sum::<f64>() / seen.len() as f64;
+        assert!(mean < 0.1, "{}: {mean} px", truth.name);
+    }
+}
