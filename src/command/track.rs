@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
+use clap::ArgAction;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::objective_flags::ObjectiveFlags;
@@ -53,7 +54,7 @@ pub struct TrackArgs {
     #[arg(long, value_name = "NAME", default_value = "none", value_parser = Prediction::from_name)]
     predict: Prediction,
     /// Search wider for a person who is lost, and leave frames without a find as gaps in the results: yes or no.
-    #[arg(long, value_name = "yes|no", default_value = "yes", value_parser = yes_or_no)]
+    #[arg(long, value_name = "yes|no", default_value = "yes", value_parser = yes_or_no, action = ArgAction::Set)]
     recover: bool,
     /// Seed of all random numbers.
     #[arg(long, value_name = "S", default_value_t = SearchSettings::default().seed)]
