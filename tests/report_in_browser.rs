@@ -49,16 +49,22 @@ setTimeout(() => {
 
 fn seen_in(browser: &str, page: &Path, profile: &Path) -> serde_json::Value {
     let output = Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--host-resolver-rules=MAP * ~NOTFOUND"])
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-dev-shm-usage",
+            "--host-resolver-rules=MAP * ~NOTFOUND",
+        ])
         .args(["--window-size=1200,900", "--virtual-time-budget=4000", "--dump-dom"])
         .arg(format!("--user-data-dir={}", profile.display()))
         .arg(format!("file://{}", page.display()))
         .output()
         .unwrap();
     let dom = String::from_utf8_lossy(&output.stdout);
-    let (_, rest) = dom.split_once("<pre id=\"told\">").unwrap_or_else(|| {
-        panic!("the page's scripts did not end: {}", String::from_utf8_lossy(&output.stderr))
-    });
+    let (_, rest) = dom
+        .split_once("<pre id=\"told\">")
+        .unwrap_or_else(|| panic!("the page's scripts did not end: {}", String::from_utf8_lossy(&output.stderr)));
     serde_json::from_str(rest.split_once("</pre>").unwrap().0).unwrap()
 }
 
@@ -78,7 +84,8 @@ fn the_report_works_in_a_browser() {
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
     let report = std::fs::read_to_string(demo.join("report.html")).unwrap();
     let page = |text: &str, name: &str| {
-        let text = text.replacen("<head>", &format!("<head>{LISTEN}"), 1).replacen("</body>", &format!("{USE}</body>"), 1);
+        let text =
+            text.replacen("<head>", &format!("<head>{LISTEN}"), 1).replacen("</body>", &format!("{USE}</body>"), 1);
         assert!(text.contains("window.failures") && text.contains("told.before"), "the page has a head and a body");
         let path = folder.path().join(name);
         std::fs::write(&path, text).unwrap();

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
+use clap::ArgAction;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::interrupt::Interrupt;
@@ -12,7 +13,9 @@ use super::objective_flags::ObjectiveFlags;
 use crate::files::{OutputFolder, Overwrite};
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::Sequence;
-use crate::track::{Backend, FrameDone, FrameRange, Model, Progress, RunStart, TrackSettings, TrackSummary, track};
+use crate::track::{
+    Backend, FrameDone, FrameRange, Model, Prediction, Progress, RunStart, TrackSettings, TrackSummary, track,
+};
 
 /// Tracks a person through a sequence: poses, joints and markers over time (CSV, TRC, C3D, BVH), how far they can be
 /// trusted, the model drawn over the pictures, and a report. A run that was stopped or killed goes on with --resume and
@@ -39,9 +42,19 @@ pub struct TrackArgs {
     iterations: usize,
     #[command(flatten)]
     objective: ObjectiveFlags,
-    /// How poses are searched: pso (particle swarm) or pf (bootstrap particle filter).
+    /// How poses are searched: pso (particle swarm), pf (bootstrap particle filter), apf (annealed particle filter), hpso
+    /// (particle swarm by body parts, torso first) or cmaes (evolution of a normal distribution). All score N x K poses.
     #[arg(long, value_name = "NAME", default_value = "pso", value_parser = search_kind)]
     search: SearchKind,
+    /// Poses scored to refine each frame's winner, beyond those N x K.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    refine: usize,
+    /// Where a frame's search starts: none (at the pose before) or velocity (where that was going).
+    #[arg(long, value_name = "NAME", default_value = "none", value_parser = Prediction::from_name)]
+    predict: Prediction,
+    /// Search wider for a person who is lost, and leave frames without a find as gaps in the results: yes or no.
+    #[arg(long, value_name = "yes|no", default_value = "yes", value_parser = yes_or_no, action = ArgAction::Set)]
+    recover: bool,
     /// Seed of all random numbers.
     #[arg(long, value_name = "S", default_value_t = SearchSettings::default().seed)]
     seed: u64,
@@ -75,6 +88,14 @@ fn search_kind(name: &str) -> Result<SearchKind> {
     }
 }
 
+fn yes_or_no(word: &str) -> Result<bool> {
+    match word {
+        "yes" => Ok(true),
+        "no" => Ok(false),
+        other => bail!("it is {other:?}, expected yes or no"),
+    }
+}
+
 impl TrackArgs {
     fn settings(&self) -> TrackSettings {
         TrackSettings {
@@ -86,9 +107,12 @@ impl TrackArgs {
                 particles: self.particles,
                 iterations: self.iterations,
                 seed: self.seed,
+                refine: self.refine,
                 ..SearchSettings::default()
             },
             spread: self.spread,
+            predict: self.predict,
+            recover: self.recover,
             frames: self.frames,
             start: self.start.clone(),
             overlay_every: self.overlay_every,

@@ -1,13 +1,13 @@
 //! What people look at: overlays, plots, the HTML page.
 
-mod comparison;
 mod arrows;
+mod comparison;
 mod html;
 mod overlay;
 mod plot;
 
-pub use comparison::{Shares, XyLine, share_chart, xy_chart};
 pub use arrows::{Arrow, arrow_chart};
+pub use comparison::{Shares, XyLine, share_chart, xy_chart};
 pub use html::{
     CameraFrame, Headline, JointError, OverlayFrame, Player, ReportData, Skeleton, StageTime, page, write_page,
 };

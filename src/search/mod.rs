@@ -1,24 +1,35 @@
-//! Search for the best pose of a frame: particle swarm and particle filter over counter-based random numbers (SPEC A8).
+//! Search for the best pose of a frame over counter-based random numbers (SPEC A8): particle swarm, particle filter, annealed
+//! particle filter, hierarchical particle swarm and CMA-ES, at equal numbers of evaluations.
 //!
 //! A search proposes batches of poses and is told their fitness; it knows neither cameras nor pictures. All of its random
 //! numbers have an address of their own (see [`Random`]), all ties go to the lower index and all its sums run in a fixed
 //! order, so its result depends on the seed and the fitness alone, never on the number of threads that computed that.
 
+mod annealed;
 mod arithmetic;
+mod cma_es;
 mod device;
+mod hierarchical;
 mod particle_filter;
 mod philox;
 mod pso;
+mod refinement;
 mod settings;
 mod space;
 mod stages;
+mod weights;
 
 use anyhow::{Result, ensure};
 
+pub use annealed::{AnnealedFilter, AnnealingSettings};
+pub use cma_es::{CmaEs, CmaSettings};
 pub use device::{DeviceFound, DeviceSearch};
+pub use hierarchical::{HierarchicalPso, HierarchySettings};
 pub use particle_filter::{FilterSettings, ParticleFilter};
 pub use philox::{Draw, Random, Stream, philox4x32};
 pub use pso::{Pso, PsoSettings};
+use refinement::Refined;
+pub use refinement::Refinement;
 pub use settings::{SearchKind, SearchSettings};
 pub use space::SearchSpace;
 

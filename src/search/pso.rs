@@ -57,6 +57,9 @@ pub struct Pso {
     random: Random,
     space: SearchSpace,
     frame: u32,
+    /// Iterations of this frame that came before this swarm, and its own: one swarm may be a stage of several.
+    before: usize,
+    span: usize,
     /// Iterations done in this frame; `None` before the first frame.
     done: Option<usize>,
     /// Rows of positions, of velocities and of the particles' best positions.
@@ -81,6 +84,8 @@ impl Pso {
             random: Random::new(settings.seed),
             space: space.clone(),
             frame: 0,
+            before: 0,
+            span: settings.iterations,
             done: None,
             positions: vec![0.0; count * dofs],
             velocities: vec![0.0; count * dofs],
@@ -93,12 +98,41 @@ impl Pso {
         }
     }
 
+    /// A swarm at rest around `centre`, that takes the frame's iterations from `before` on and has `span` of them.
+    pub(super) fn begin(&mut self, frame: u32, [before, span]: [usize; 2], centre: &[f32], spread: &[f32]) {
+        let dofs = self.space.dof_count();
+        (self.frame, self.before, self.span) = (frame, before, span);
+        self.done = Some(before);
+        for row in self.positions.chunks_exact_mut(dofs) {
+            row.copy_from_slice(centre);
+        }
+        let (first, others) = self.positions.split_at_mut(dofs);
+        self.space.clamp(first);
+        let stream = Stream { frame, iteration: before as u32, particle: 1, draw: Draw::Scatter };
+        self.random.scatter(stream, spread, [self.space.lower(), self.space.upper()], others);
+        self.velocities.fill(0.0);
+        self.best.copy_from_slice(&self.positions);
+        self.best_fitness.fill(f32::NEG_INFINITY);
+        self.leader.copy_from_slice(&self.positions[..dofs]);
+        self.leader_fitness = f32::NEG_INFINITY;
+    }
+
+    /// The swarm's best position; where it began while no fitness was finite.
+    pub(super) fn leader(&self) -> &[f32] {
+        &self.leader
+    }
+
+    /// Standard deviation of the particles' best positions.
+    pub(super) fn deviation(&self) -> Vec<f32> {
+        Statistics::of(&self.best, &self.equal_weights, &self.leader).deviation
+    }
+
     /// Moves every particle into iteration `iteration`.
     fn advance(&mut self, iteration: usize) {
         let step = Move {
             random: self.random,
             stream: Stream { frame: self.frame, iteration: iteration as u32, particle: 0, draw: Draw::Cognitive },
-            omega: self.settings.inertia_of(iteration, self.iterations),
+            omega: self.settings.inertia_of(iteration - self.before, self.span),
             cognitive: self.settings.cognitive,
             social: self.settings.social,
             leader: &self.leader,
@@ -182,29 +216,15 @@ impl Search for Pso {
     }
 
     fn start_frame(&mut self, frame: u32, centre: &[f32], spread: &[f32]) -> Result<()> {
-        let dofs = self.space.dof_count();
-        check_start(dofs, centre, spread)?;
-        self.frame = frame;
-        self.done = Some(0);
-        for row in self.positions.chunks_exact_mut(dofs) {
-            row.copy_from_slice(centre);
-        }
-        let (first, others) = self.positions.split_at_mut(dofs);
-        self.space.clamp(first);
-        let stream = Stream { frame, iteration: 0, particle: 1, draw: Draw::Scatter };
-        self.random.scatter(stream, spread, [self.space.lower(), self.space.upper()], others);
-        self.velocities.fill(0.0);
-        self.best.copy_from_slice(&self.positions);
-        self.best_fitness.fill(f32::NEG_INFINITY);
-        self.leader.copy_from_slice(&self.positions[..dofs]);
-        self.leader_fitness = f32::NEG_INFINITY;
+        check_start(self.space.dof_count(), centre, spread)?;
+        self.begin(frame, [0, self.iterations], centre, spread);
         Ok(())
     }
 
     fn iterate(&mut self, fitness: &mut Fitness<'_>) -> Result<()> {
         let Some(done) = self.done else { bail!("the search has no frame yet: start one before iterating") };
         ensure!(done < self.iterations, "all {done} iterations of frame {} are done", self.frame);
-        if done > 0 {
+        if done > self.before {
             self.advance(done);
         }
         fitness(&self.positions, &mut self.fitness)?;
@@ -221,7 +241,7 @@ impl Search for Pso {
             "none of the {evaluations} poses of frame {} has a finite fitness",
             self.frame
         );
-        let spread = Statistics::of(&self.best, &self.equal_weights, &self.leader).deviation;
-        Ok(Estimate { pose: self.leader.clone(), fitness: self.leader_fitness, spread, evaluations })
+        let (pose, spread) = (self.leader.clone(), self.deviation());
+        Ok(Estimate { pose, fitness: self.leader_fitness, spread, evaluations })
     }
 }

@@ -3,7 +3,10 @@
 use anyhow::{Result, ensure};
 use serde::Serialize;
 
-use super::{FilterSettings, ParticleFilter, Pso, PsoSettings, Search, SearchSpace};
+use super::{
+    AnnealedFilter, AnnealingSettings, CmaEs, CmaSettings, FilterSettings, HierarchicalPso, HierarchySettings,
+    ParticleFilter, Pso, PsoSettings, Refined, Refinement, Search, SearchSpace,
+};
 
 /// Most particles of a search. More is a slip of the keyboard, not a plan.
 const MOST_PARTICLES: usize = 1 << 20;
@@ -21,18 +24,40 @@ pub enum SearchKind {
     /// Bootstrap particle filter.
     #[serde(rename = "pf")]
     ParticleFilter,
+    /// Annealed particle filter.
+    #[serde(rename = "apf")]
+    Annealed,
+    /// Hierarchical particle swarm.
+    #[serde(rename = "hpso")]
+    Hierarchical,
+    /// Evolution of a normal distribution.
+    #[serde(rename = "cmaes")]
+    CmaEs,
 }
 
 impl SearchKind {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Pso, Self::ParticleFilter];
+    pub const ALL: [Self; 5] = [Self::Pso, Self::ParticleFilter, Self::Annealed, Self::Hierarchical, Self::CmaEs];
 
     /// The name as `--search` takes it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Pso => "pso",
             Self::ParticleFilter => "pf",
+            Self::Annealed => "apf",
+            Self::Hierarchical => "hpso",
+            Self::CmaEs => "cmaes",
         }
+    }
+
+    /// Whether a frame depends on the frames before by more than its centre.
+    pub fn carries_on(self) -> bool {
+        self == Self::ParticleFilter
+    }
+
+    /// Whether it has a form that runs whole on a device; the others are driven from the host.
+    pub fn has_device_form(self) -> bool {
+        matches!(self, Self::Pso | Self::ParticleFilter)
     }
 
     /// The kind of that name.
@@ -48,8 +73,8 @@ pub struct SearchSettings {
     pub kind: SearchKind,
     /// Poses scored at once.
     pub particles: usize,
-    /// Batches of `particles` poses scored a frame. A particle filter is not iterative: it holds particles times
-    /// iterations samples, so that both kinds score as many poses.
+    /// Batches of `particles` poses scored a frame, by every kind alike. A particle filter is not iterative: it holds
+    /// particles times iterations samples. What is a mean (pf, apf, cmaes) is scored as one pose more.
     pub iterations: usize,
     /// Seed of all random numbers.
     pub seed: u64,
@@ -57,6 +82,14 @@ pub struct SearchSettings {
     pub pso: PsoSettings,
     /// What only the particle filter uses.
     pub filter: FilterSettings,
+    /// What only the annealed particle filter uses.
+    pub annealing: AnnealingSettings,
+    /// What only the hierarchical swarm uses, beside what the swarm does.
+    pub hierarchy: HierarchySettings,
+    /// What only CMA-ES uses.
+    pub cma: CmaSettings,
+    /// Poses scored to refine the winner, beyond those of the iterations.
+    pub refine: usize,
 }
 
 impl Default for SearchSettings {
@@ -68,6 +101,10 @@ impl Default for SearchSettings {
             seed: 1,
             pso: PsoSettings::default(),
             filter: FilterSettings::default(),
+            annealing: AnnealingSettings::default(),
+            hierarchy: HierarchySettings::default(),
+            cma: CmaSettings::default(),
+            refine: 0,
         }
     }
 }
@@ -83,8 +120,12 @@ impl SearchSettings {
         {
             ensure!((1..=most).contains(&value), "{name} is {value}, expected 1 to {most}");
         }
+        ensure!(self.refine <= MOST_PARTICLES, "refine is {}, expected 0 to {MOST_PARTICLES}", self.refine);
         self.pso.check()?;
-        self.filter.check()
+        self.filter.check()?;
+        self.annealing.check()?;
+        self.hierarchy.check()?;
+        self.cma.check()
     }
 
     /// Whether the search's buffers are of a sensible size.
@@ -93,8 +134,8 @@ impl SearchSettings {
     /// When they are not: the sentence names the numbers.
     pub fn check_room(&self, space: &SearchSpace) -> Result<()> {
         let samples = match self.kind {
-            SearchKind::Pso => self.particles,
             SearchKind::ParticleFilter => self.particles * self.iterations,
+            _ => self.particles,
         };
         ensure!(
             samples.saturating_mul(space.dof_count()) <= LARGEST_BUFFER,
@@ -112,9 +153,16 @@ impl SearchSettings {
     pub fn build(&self, space: &SearchSpace) -> Result<Box<dyn Search>> {
         self.check()?;
         self.check_room(space)?;
-        Ok(match self.kind {
+        let search: Box<dyn Search> = match self.kind {
             SearchKind::Pso => Box::new(Pso::new(self, space)),
             SearchKind::ParticleFilter => Box::new(ParticleFilter::new(self, space)),
-        })
+            SearchKind::Annealed => Box::new(AnnealedFilter::new(self, space)),
+            SearchKind::Hierarchical => Box::new(HierarchicalPso::new(self, space)),
+            SearchKind::CmaEs => Box::new(CmaEs::new(self, space)),
+        };
+        if self.refine == 0 {
+            return Ok(search);
+        }
+        Ok(Box::new(Refined::new(search, Refinement::new(self.refine, space))))
     }
 }

@@ -61,6 +61,46 @@ fn the_swarm_converges_in_31_dimensions() {
 }
 
 #[test]
+fn every_search_scores_its_budget_and_comes_nearer() {
+    let (space, centre) = (adult_space(), standing());
+    let spread = space.spread(0.04).unwrap();
+    let offset: Vec<f32> = (0..31).map(|d| if d % 3 == 0 { 1.2 } else { -0.7 }).collect();
+    let mut target: Vec<f32> = centre.iter().zip(&spread).zip(&offset).map(|((c, s), o)| c + s * o).collect();
+    space.clamp(&mut target);
+    let before = distance(&centre, &target, &spread);
+    for kind in SearchKind::ALL {
+        // A mean is scored as one pose more; a bootstrap filter only weighs what it scattered.
+        let is_mean = matches!(kind, SearchKind::ParticleFilter | SearchKind::Annealed | SearchKind::CmaEs);
+        let nearer = if kind == SearchKind::ParticleFilter { 1.0 } else { 0.8 };
+        for (particles, iterations, refine) in [(300, 15, 0), (200, 1, 0), (37, 2, 11), (60, 3, 0), (7, 9, 300)] {
+            let settings = SearchSettings { refine, ..settings(kind, particles, iterations, 4) };
+            let mut search = settings.build(&space).unwrap();
+            let mut scored = 0;
+            let mut score = towards(&target, &spread);
+            let found = search
+                .search_frame(0, &centre, &spread, &mut |poses, fitness| {
+                    scored += fitness.len();
+                    assert_eq!(poses.len(), 31 * fitness.len());
+                    score(poses, fitness)
+                })
+                .unwrap();
+            let budget = particles * iterations + usize::from(is_mean) + refine;
+            assert_eq!(
+                (scored, found.evaluations),
+                (budget, budget),
+                "{kind:?}, {particles} x {iterations} + {refine}"
+            );
+            assert!(found.spread.iter().all(|spread| spread.is_finite() && *spread >= 0.0));
+            if particles == 300 {
+                let after = distance(&found.pose, &target, &spread);
+                println!("{kind:?}: {after} of {before}");
+                assert!(after < nearer * before, "{kind:?}: {after} of {before}");
+            }
+        }
+    }
+}
+
+#[test]
 fn a_valley_and_many_hills() {
     // Rosenbrock's valley in 2 dimensions and Rastrigin's hills in 4, as fitness 1 / (1 + f), optimum 1. Hills are a unit
     // apart and each step away from the top one costs 1, so 0.5 is a hill next to it: a swarm that settles may stop there.
@@ -218,11 +258,12 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
     #[test]
     fn limits_always_hold(
-        seed in any::<u64>(), frame in any::<u32>(), size in 0.01_f32..1e6, pf in any::<bool>(), far in -1e6_f32..1e6
+        seed in any::<u64>(), frame in any::<u32>(), size in 0.01_f32..1e6, kind in 0..5_usize, far in -1e6_f32..1e6,
+        refine in 0..50_usize
     ) {
         let space = adult_space();
-        let kind = if pf { SearchKind::ParticleFilter } else { SearchKind::Pso };
-        let mut search = settings(kind, 16, 6, seed).build(&space).unwrap();
+        let settings = SearchSettings { refine, ..settings(SearchKind::ALL[kind], 16, 6, seed) };
+        let mut search = settings.build(&space).unwrap();
         let target = vec![far; 31];
         let scale = vec![1e5; 31];
         let mut score = towards(&target, &scale);

@@ -1,10 +1,35 @@
-//! How far a frame's pose can be trusted.
+//! How far a frame's pose and each of its joints can be trusted, and whether the person is lost.
+
+use glam::DVec3;
 
 use super::FrameResult;
 use crate::body::Body;
+use crate::features::Observation;
+use crate::geometry::Camera;
 
-/// Spread of the root's position at which the confidence in it is halved, mm: about a limb's thickness.
+/// Spread of a position at which the confidence in it is halved, mm: about a limb's thickness.
 const HALF_TRUST: f64 = 100.0;
+/// Sure frames that the running reference of a view averages over.
+const MEMORY: f64 = 25.0;
+/// Views from which on the worst one is left out of the agreement: a camera that drops out is no loss of the person.
+const SPARE_VIEWS: usize = 3;
+/// Step of a degree of freedom for its effect on the joints: mm, radians.
+const PROBE: f64 = 1e-3;
+
+/// When a person counts as lost and as found again. docs/CONFIDENCE.md measures these thresholds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LossRule {
+    /// An agreement below this is a loss.
+    pub lost_below: f64,
+    /// After a loss, an agreement of at least this is a find.
+    pub found_from: f64,
+}
+
+impl Default for LossRule {
+    fn default() -> Self {
+        Self { lost_below: 0.75, found_from: 0.8 }
+    }
+}
 
 /// The confidence of one frame after the other.
 ///
@@ -14,15 +39,27 @@ const HALF_TRUST: f64 = 100.0;
 ///   and not others);
 /// - 1 / (1 + (s / 100 mm)^2), where s is the standard deviation of the candidates' root position (a swarm that has not
 ///   settled has not decided).
+///
+/// A joint's confidence is the first two factors, the third with the joint's own standard deviation, and the share of the
+/// views in which the joint lies on the silhouette.
+///
+/// Loss goes by the agreement: a view's `sqrt(f1 f2)` over its average in the sure frames so far (exponentially, 25 frames),
+/// at most 1, and of that the mean over the views that have such a reference, less the worst where three or more do.
 #[derive(Clone, Debug)]
 pub struct Confidence {
+    body: Body,
+    rule: LossRule,
     best_fitness: f64,
+    /// Average of a view's `sqrt(f1 f2)` in the sure frames.
+    references: Vec<f64>,
+    sure_frames: usize,
+    is_lost: bool,
     root: Vec<usize>,
     angles: Vec<usize>,
 }
 
 /// The confidence of a frame and the spreads it shows.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FrameConfidence {
     /// Root mean square over the root's translations of the candidates' standard deviation, mm.
     pub position_spread: f64,
@@ -30,20 +67,48 @@ pub struct FrameConfidence {
     pub angle_spread: f64,
     /// In [0, 1].
     pub confidence: f64,
+    /// What the views say, against what they said before, in [0, 1].
+    pub agreement: f64,
+    /// Whether the person is lost.
+    pub is_lost: bool,
+    /// One a joint, in the order of [`Body::joint_names`].
+    pub joints: Vec<JointConfidence>,
+}
+
+/// The confidence of a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointConfidence {
+    /// Standard deviation of the candidates' positions of it, mm.
+    pub spread: f64,
+    /// Share of the views that have it in their picture in which it lies on the silhouette.
+    pub seen: f64,
+    /// In [0, 1].
+    pub confidence: f64,
 }
 
 impl Confidence {
     /// For a body; before the first frame.
-    pub fn new(body: &Body) -> Self {
+    pub fn new(body: &Body, rule: LossRule) -> Self {
         let chosen = |choose: &dyn Fn(usize, bool) -> bool| {
             let dofs = body.dofs().enumerate();
             dofs.filter(|(_, (bone, dof))| choose(*bone, dof.axis.is_rotation())).map(|(index, _)| index).collect()
         };
         Self {
+            rule,
             best_fitness: 0.0,
+            references: Vec::new(),
+            sure_frames: 0,
+            is_lost: false,
             root: chosen(&|bone, is_rotation| !is_rotation && body.bones[bone].parent.is_none()),
             angles: chosen(&|_, is_rotation| is_rotation),
+            body: body.clone(),
         }
+    }
+
+    /// The confidence of frames from the first on.
+    pub fn of_all(body: &Body, rule: LossRule, results: &[FrameResult]) -> Vec<FrameConfidence> {
+        let mut confidence = Self::new(body, rule);
+        results.iter().map(|result| confidence.next(result)).collect()
     }
 
     /// The next frame's.
@@ -55,13 +120,91 @@ impl Confidence {
         let mean = f1().sum::<f64>() / result.views.len().max(1) as f64;
         let balance = if mean > 0.0 { (f1().fold(f64::INFINITY, f64::min) / mean).clamp(0.0, 1.0).sqrt() } else { 0.0 };
         let position_spread = root_mean_square(&result.spread, &self.root);
-        let settled = 1.0 / (1.0 + (position_spread / HALF_TRUST).powi(2));
+        let joints = self.joint_spreads(result).into_iter().zip(&result.joints).map(|(spread, &seen)| {
+            let seen = f64::from(seen);
+            JointConfidence { spread, seen, confidence: relative * balance * settled(spread) * seen }
+        });
+        let joints = joints.collect();
+        let agreement = self.judge(result);
         FrameConfidence {
             position_spread,
             angle_spread: root_mean_square(&result.spread, &self.angles).to_degrees(),
-            confidence: relative * balance * settled,
+            confidence: relative * balance * settled(position_spread),
+            agreement,
+            is_lost: self.is_lost,
+            joints,
         }
     }
+
+    /// The agreement of a frame as it would be judged next, without taking note of it; and whether that is a loss.
+    pub(super) fn foresee(&self, result: &FrameResult) -> (f64, bool) {
+        let agreement = self.agreement(result);
+        (agreement, self.is_loss(agreement))
+    }
+
+    fn is_loss(&self, agreement: f64) -> bool {
+        agreement < if self.is_lost { self.rule.found_from } else { self.rule.lost_below }
+    }
+
+    /// Judges the next frame, and learns from it if it is a sure one.
+    fn judge(&mut self, result: &FrameResult) -> f64 {
+        let agreement = self.agreement(result);
+        self.is_lost = self.is_loss(agreement);
+        if !self.is_lost {
+            self.sure_frames += 1;
+            let share = 1.0 / (self.sure_frames as f64).min(MEMORY);
+            self.references.resize(result.views.len(), 0.0);
+            for (reference, view) in self.references.iter_mut().zip(&result.views) {
+                *reference += share * (view_term(view) - *reference);
+            }
+        }
+        agreement
+    }
+
+    fn agreement(&self, result: &FrameResult) -> f64 {
+        if self.sure_frames == 0 {
+            // Nothing to compare with: any match at all is a beginning.
+            return if result.views.iter().any(|view| view_term(view) > 0.0) { 1.0 } else { 0.0 };
+        }
+        let views = result.views.iter().zip(&self.references).filter(|(_, reference)| **reference > 0.0);
+        let mut ratios: Vec<f64> = views.map(|(view, reference)| (view_term(view) / reference).min(1.0)).collect();
+        ratios.sort_by(f64::total_cmp);
+        let counted = &ratios[usize::from(ratios.len() >= SPARE_VIEWS)..];
+        if counted.is_empty() { 0.0 } else { counted.iter().sum::<f64>() / counted.len() as f64 }
+    }
+
+    /// Standard deviation of every joint's position, mm, from those of the degrees of freedom, taken as independent.
+    fn joint_spreads(&self, result: &FrameResult) -> Vec<f64> {
+        let mut pose: Vec<f64> = result.pose.iter().map(|value| f64::from(*value)).collect();
+        let mut bones = Vec::new();
+        let mut positions = |pose: &[f64]| -> Vec<DVec3> {
+            match self.body.world_from_bones_into(pose, &mut bones) {
+                Ok(()) => self.body.joint_positions(&bones),
+                Err(_) => Vec::new(),
+            }
+        };
+        let still = positions(&pose);
+        let mut variances = vec![0.0; still.len()];
+        for (d, &spread) in result.spread.iter().enumerate().filter(|(_, spread)| **spread > 0.0) {
+            let Some(value) = pose.get(d).copied() else { break };
+            pose[d] = value + PROBE;
+            for ((variance, moved), still) in variances.iter_mut().zip(positions(&pose)).zip(&still) {
+                *variance += (moved.distance(*still) / PROBE * f64::from(spread)).powi(2);
+            }
+            pose[d] = value;
+        }
+        variances.into_iter().map(f64::sqrt).collect()
+    }
+}
+
+/// How well a view is matched, whatever the objective makes of it.
+fn view_term(view: &[f32; 2]) -> f64 {
+    let product = f64::from(view[0]) * f64::from(view[1]);
+    if product > 0.0 { product.sqrt() } else { 0.0 }
+}
+
+fn settled(spread: f64) -> f64 {
+    1.0 / (1.0 + (spread / HALF_TRUST).powi(2))
 }
 
 fn root_mean_square(values: &[f32], chosen: &[usize]) -> f64 {
@@ -72,8 +215,30 @@ fn root_mean_square(values: &[f32], chosen: &[usize]) -> f64 {
     (squares.sum::<f64>() / chosen.len() as f64).sqrt()
 }
 
+/// Of every joint of a pose the share of the views that have it in their picture in which it lies on the silhouette; 0 where
+/// none has.
+pub(super) fn seen_joints(body: &Body, cameras: &[Camera], observations: &[Observation], pose: &[f32]) -> Vec<f32> {
+    let pose: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
+    let Ok(bones) = body.world_from_bones(&pose) else { return vec![0.0; body.joint_names().len()] };
+    let share = |joint: DVec3| {
+        let (mut inside, mut seen) = (0, 0);
+        for (camera, observation) in cameras.iter().zip(observations) {
+            let Some(at) = camera.project(joint) else { continue };
+            let (x, y) = (at.x.round(), at.y.round());
+            if x >= 0.0 && y >= 0.0 && x < f64::from(observation.width) && y < f64::from(observation.height) {
+                let byte = observation.bytes[y as usize * observation.width as usize + x as usize];
+                inside += 1;
+                seen += u32::from(byte & Observation::SILHOUETTE != 0);
+            }
+        }
+        if inside > 0 { seen as f32 / inside as f32 } else { 0.0 }
+    };
+    body.joint_positions(&bones).into_iter().map(share).collect()
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::fit_tests::{room, seen};
     use super::*;
 
     fn result(fitness: f32, views: &[f32], spread: f32) -> FrameResult {
@@ -83,13 +248,17 @@ mod tests {
             fitness,
             spread: vec![spread; 31],
             views: views.iter().map(|f1| [*f1, 0.5]).collect(),
+            joints: vec![1.0; Body::adult(1750.0).unwrap().joint_names().len()],
         }
+    }
+
+    fn confidence() -> Confidence {
+        Confidence::new(&Body::adult(1750.0).unwrap(), LossRule::default())
     }
 
     #[test]
     fn each_factor_lowers_it() {
-        let body = Body::adult(1750.0).unwrap();
-        let mut confidence = Confidence::new(&body);
+        let mut confidence = confidence();
         assert_eq!(confidence.next(&result(0.8, &[0.9, 0.9], 0.0)).confidence, 1.0);
         assert!((confidence.next(&result(0.4, &[0.9, 0.9], 0.0)).confidence - 0.5).abs() < 1e-6);
         let uneven = confidence.next(&result(0.8, &[0.9, 0.1], 0.0)).confidence;
@@ -101,9 +270,59 @@ mod tests {
 
     #[test]
     fn nothing_seen_is_no_confidence() {
-        let mut confidence = Confidence::new(&Body::adult(1750.0).unwrap());
+        let mut confidence = confidence();
         for result in [result(0.0, &[0.0, 0.0], 0.0), result(0.0, &[], 0.0), result(f32::NAN, &[0.1], 1.0)] {
             assert_eq!(confidence.next(&result).confidence, 0.0);
         }
+    }
+
+    #[test]
+    fn far_joints_spread_further_and_hidden_ones_are_doubted() {
+        let body = Body::adult(1750.0).unwrap();
+        let mut still = result(0.8, &[0.9; 4], 0.0);
+        // The left hip alone is unsure.
+        let hip = body.dof_names().iter().position(|name| name == "left_hip.ry").unwrap();
+        still.spread[hip] = 0.1;
+        let joint = |name: &str| body.joint_names().iter().position(|known| known == name).unwrap();
+        still.joints[joint("head")] = 0.25;
+        let joints = confidence().next(&still).joints;
+        let [hip, knee, ankle, other] = ["left_hip", "left_knee", "left_ankle", "right_knee"].map(joint);
+        assert!(joints[hip].spread < 1e-6 && joints[other].spread == 0.0);
+        assert!(joints[knee].spread > 30.0 && joints[ankle].spread > 1.5 * joints[knee].spread);
+        assert!(joints[ankle].confidence < joints[knee].confidence && joints[other].confidence == 1.0);
+        assert_eq!(joints[joint("head")].confidence, 0.25);
+    }
+
+    #[test]
+    fn a_loss_is_one_of_the_person_not_of_a_camera() {
+        let mut confidence = confidence();
+        let mut judged = |views: &[f32]| confidence.next(&result(0.8, views, 0.0)).is_lost;
+        for _ in 0..10 {
+            assert!(!judged(&[0.9, 0.8, 0.9, 0.8]));
+        }
+        assert!(!judged(&[0.9, 0.8, 0.9, 0.0]), "one camera dropped out");
+        assert!(judged(&[0.9, 0.1, 0.2, 0.0]));
+        assert!(judged(&[0.0; 4]), "nobody there");
+        assert!(judged(&[0.5, 0.45, 0.5, 0.45]), "not yet sure again");
+        assert!(!judged(&[0.9, 0.8, 0.9, 0.8]), "back");
+        // Half the fitness is the normal of another track: only the change counts.
+        let mut poor = self::confidence();
+        for _ in 0..10 {
+            assert!(!poor.next(&result(0.3, &[0.4; 4], 0.0)).is_lost);
+        }
+    }
+
+    #[test]
+    fn joints_are_seen_on_silhouettes() {
+        let (body, cameras) = (Body::adult(1700.0).unwrap(), room());
+        let pose = body.standing_pose();
+        let mut observations = seen(&body, &cameras, &pose);
+        let single: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
+        let all = seen_joints(&body, &cameras, &observations, &single);
+        assert_eq!(all.len(), body.joint_names().len());
+        assert!(all.iter().filter(|share| **share == 1.0).count() * 4 > all.len() * 3, "{all:?}");
+        observations[1].bytes.fill(0);
+        let fewer = seen_joints(&body, &cameras, &observations, &single);
+        assert!(fewer.iter().all(|share| *share < 0.7), "{fewer:?}");
     }
 }

@@ -5,21 +5,23 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, anyhow};
 use serde_json::json;
 
-use super::confidence::Confidence;
+use super::confidence::{Confidence, LossRule, seen_joints};
 use super::feed::{Feed, Prepared};
-use super::journal::{FrameResult, Journal};
+use super::journal::{Extent, FrameResult, Journal};
 use super::overlay::Overlay;
 use super::page::write_report;
 use super::plan::Plan;
+use super::recovery::{LostFrame, Recovery};
+use super::results::Held;
 use super::run_record::RunRecord;
 use super::searcher::{Searched, Start};
 use super::stages::{Span, Stages, Thread};
 use super::truth::Truth;
 use super::{Backend, StageSummary, TrackSettings, results, run_record};
+use crate::evaluate::Components;
 use crate::files::OutputFolder;
 use crate::gpu::DeviceLost;
 use crate::motion::TrajectoryError;
-use crate::search::SearchKind;
 use crate::sequence::Sequence;
 
 /// What a run tells whoever waits for it.
@@ -144,8 +146,9 @@ pub fn track(
     let (journal, done) = if settings.resume {
         record.check_same(output)?;
         let (dofs, views) = (plan.body.dof_count(), sequence.cameras.len());
-        let (journal, done) = Journal::resume(&journal_path, plan.range.start, dofs, views)?;
-        if settings.search.kind == SearchKind::ParticleFilter && !done.is_empty() && done.len() < plan.range.len() {
+        let extent = Extent { dofs, views, joints: plan.body.joint_names().len() };
+        let (journal, done) = Journal::resume(&journal_path, plan.range.start, extent)?;
+        if settings.search.kind.carries_on() && !done.is_empty() && done.len() < plan.range.len() {
             warnings.push(
                 "the particle filter carries its particles on, so the run begins at its first frame again".into(),
             );
@@ -158,6 +161,7 @@ pub fn track(
         record.write(output)?;
         (Journal::create(&journal_path)?, Vec::new())
     };
+    warnings.extend(plan.search.note(plan.backend.evaluator.as_mut()));
     let stages = Stages::new(&output.file("trace.json")?)?;
     progress.start(&RunStart {
         first_frame: plan.range.start,
@@ -167,8 +171,11 @@ pub fn track(
         warnings: warnings.clone(),
     });
     plan.backend.evaluator.measure_passes(settings.trace)?;
-    let confidence = Confidence::new(&plan.body);
-    let mut run = Run { sequence, settings, output, plan, truth, journal, frames: Vec::new(), stages, confidence };
+    let confidence = Confidence::new(&plan.body, LossRule::default());
+    let recovery = Recovery::new(&plan.body, &sequence.cameras, &settings.search, &plan.space);
+    let recovery = settings.recover.then_some(recovery);
+    let mut run =
+        Run { sequence, settings, output, plan, truth, journal, frames: Vec::new(), stages, confidence, recovery };
     run.take_over(done)?;
     run.search_all(progress)?;
     run.finish(&record, warnings)
@@ -185,6 +192,8 @@ struct Run<'a> {
     frames: Vec<FrameResult>,
     stages: Stages,
     confidence: Confidence,
+    /// The search for a lost person, where one is asked for.
+    recovery: Option<Recovery>,
 }
 
 impl Run<'_> {
@@ -194,13 +203,23 @@ impl Run<'_> {
         for result in done {
             let values: Vec<f64> = result.pose.iter().map(|value| f64::from(*value)).collect();
             self.plan.body.check_limits(&values).with_context(|| format!("{name}, frame {}", result.frame))?;
-            self.confidence.next(&result);
-            if let Some(truth) = &mut self.truth {
-                truth.running_error(&self.plan.body, result.frame, &result.pose, self.sequence.fps);
-            }
+            self.judge(&result);
             self.frames.push(result);
         }
         Ok(())
+    }
+
+    /// Takes note of a frame that is done: its confidence, and the mean error so far.
+    fn judge(&mut self, result: &FrameResult) -> (f64, Option<f64>) {
+        let confidence = self.confidence.next(result);
+        let mut is_gap = false;
+        if let Some(recovery) = &mut self.recovery {
+            recovery.note(&result.pose, confidence.is_lost);
+            is_gap = confidence.is_lost;
+        }
+        let (body, fps) = (&self.plan.body, self.sequence.fps);
+        let truth = self.truth.as_mut().filter(|_| !is_gap);
+        (confidence.confidence, truth.and_then(|truth| truth.running_error(body, result.frame, &result.pose, fps)))
     }
 
     fn journal_name(&self) -> String {
@@ -233,10 +252,7 @@ impl Run<'_> {
             }
             self.journal.append(&result)?;
             self.stages.record("output", Thread::Search, frame, Span::since(start))?;
-            let confidence = self.confidence.next(&result).confidence;
-            let fps = self.sequence.fps;
-            let mean_error =
-                self.truth.as_mut().and_then(|truth| truth.running_error(&self.plan.body, frame, &result.pose, fps));
+            let (confidence, mean_error) = self.judge(&result);
             let fitness = result.fitness;
             self.frames.push(result);
             progress.frame(&FrameDone { frame, done: self.frames.len(), fitness, confidence, mean_error });
@@ -263,16 +279,41 @@ impl Run<'_> {
         let frame = prepared.index;
         let begin = Instant::now();
         let spread = self.plan.spread(self.frames.is_empty())?;
-        let Plan { start, objective, backend, search, .. } = &mut self.plan;
-        let previous = self.frames.last().map_or(&*start, |result| &result.pose);
+        let Plan { start, objective, backend, search, space, body, .. } = &mut self.plan;
+        let predicted = match &*self.frames {
+            [] => start.clone(),
+            [only] => only.pose.clone(),
+            [.., earlier, last] => self.settings.predict.start(space, &last.pose, Some(&earlier.pose)),
+        };
         let evaluator = backend.evaluator.as_mut();
         let counter =
             u32::try_from(frame).map_err(|_| anyhow!("frame {frame} is beyond the counters of the search"))?;
-        let start = Start { frame: counter, centre: previous, spread: &spread };
-        let Searched { estimate, components, evaluations, passes } = search
-            .search(evaluator, objective, &prepared.observations, start)
-            .with_context(|| format!("frame {frame}"))?;
-        let views = components.iter().map(|view| objective.view_terms(view)).collect();
+        let start = Start { frame: counter, centre: &predicted, spread: &spread };
+        let observations = &prepared.observations;
+        let in_frame = || format!("frame {frame}");
+        let mut searched = search.search(evaluator, objective, observations, start).with_context(in_frame)?;
+        let cameras = &self.sequence.cameras;
+        let result = |searched: &Searched| FrameResult {
+            frame,
+            pose: searched.estimate.pose.clone(),
+            fitness: searched.estimate.fitness,
+            spread: searched.estimate.spread.clone(),
+            views: searched.components.iter().map(|view| objective.view_terms(view)).collect(),
+            joints: seen_joints(body, cameras, observations, &searched.estimate.pose),
+        };
+        let mut found = result(&searched);
+        if let Some(recovery) = self.recovery.as_ref().filter(|_| self.confidence.foresee(&found).1) {
+            let begin = Instant::now();
+            let is_sure = |components: &[Components]| {
+                let views = components.iter().map(|view| objective.view_terms(view)).collect();
+                !self.confidence.foresee(&FrameResult { views, ..found.clone() }).1
+            };
+            let lost = LostFrame { evaluator, objective, observations, number: counter, spread: &spread };
+            recovery.search(lost, &mut searched, &is_sure).with_context(in_frame)?;
+            searched.evaluations.push(Span::since(begin));
+            found = result(&searched);
+        }
+        let Searched { evaluations, passes, .. } = searched;
 
         let whole = Span::since(begin);
         self.stages.trace("frame", Thread::Search, frame, whole)?;
@@ -283,7 +324,7 @@ impl Run<'_> {
         self.stages.count("evaluate", evaluating);
         self.stages.record_passes(frame, &passes)?;
         self.stages.count("search", whole.time.saturating_sub(evaluating));
-        Ok(FrameResult { frame, pose: estimate.pose, fitness: estimate.fitness, spread: estimate.spread, views })
+        Ok(found)
     }
 
     /// Writes the results, unless the run was stopped.
@@ -291,15 +332,14 @@ impl Run<'_> {
         let (sequence, output, body) = (self.sequence, self.output, &self.plan.body);
         let next = self.next_frame();
         let stopped_before = (next < self.plan.range.end).then_some(next);
+        let confidences = Confidence::of_all(body, LossRule::default(), &self.frames);
+        let held = Held::new(&self.frames, &confidences, self.settings.recover);
         let mut summary = TrackSummary {
             first_frame: self.plan.range.start,
             new_frames: 0,
             frames_per_second: 0.0,
             mean_fitness: mean(self.frames.iter().map(|result| f64::from(result.fitness))),
-            mean_confidence: {
-                let mut confidence = Confidence::new(body);
-                mean(self.frames.iter().map(|result| confidence.next(result).confidence))
-            },
+            mean_confidence: mean(confidences.iter().map(|frame| frame.confidence)),
             error: None,
             stages: Vec::new(),
             backend: [self.plan.backend.evaluator.name(), self.plan.backend.evaluator.variant()],
@@ -325,10 +365,10 @@ impl Run<'_> {
         if stopped_before.is_some() {
             return Ok(summary);
         }
-        results::write(output, body, &sequence.cameras, &summary.frames, sequence.fps)?;
+        summary.warnings.extend(lost_sentence(&held.runs(), summary.frames.len()));
+        results::write(output, body, &sequence.cameras, &summary.frames, &confidences, &held, sequence.fps)?;
         if let Some(truth) = &self.truth {
-            let table = results::pose_table(&summary.frames);
-            match truth.error(body, &table, sequence.fps) {
+            match truth.error(body, &held, sequence.fps) {
                 Ok(error) => summary.error = Some(ErrorSummary { compared: truth.compared.name(), error }),
                 Err(why) => summary.warnings.push(format!("{why:#}")),
             }
@@ -345,9 +385,22 @@ impl Run<'_> {
                 Ok(serde_json::to_writer_pretty(writer, &object)?)
             })?;
         }
-        write_report(output, sequence, body, &summary, self.truth.as_ref(), record.rows())?;
+        write_report(output, sequence, body, &summary, &confidences, &held, self.truth.as_ref(), record.rows())?;
         Ok(summary)
     }
+}
+
+/// What the user should know about the gaps of a track.
+fn lost_sentence(runs: &[[usize; 2]], frames: usize) -> Option<String> {
+    let lost: usize = runs.iter().map(|[first, last]| last + 1 - first).sum();
+    let shown: Vec<String> = runs.iter().take(5).map(|[first, last]| format!("{first} to {last}")).collect();
+    let more = if runs.len() > shown.len() { ", …" } else { "" };
+    (lost > 0).then(|| {
+        format!(
+            "the person is lost in {lost} of {frames} frames, which are gaps in the results: {}{more}",
+            shown.join(", ")
+        )
+    })
 }
 
 fn mean(values: impl Iterator<Item = f64>) -> f64 {

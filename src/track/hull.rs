@@ -29,15 +29,28 @@ impl Hull {
     /// # Errors
     /// When fewer than two cameras see a silhouette, or the silhouettes have no common volume.
     pub(super) fn carve(cameras: &[Camera], observations: &[Observation]) -> Result<Self> {
+        Self::carve_by(VOXEL, HALF, cameras, observations)
+    }
+
+    /// As [`Self::carve`], with voxels of twice the size: an eighth of the work, where only the place matters.
+    ///
+    /// # Errors
+    /// As [`Self::carve`].
+    pub(super) fn carve_coarsely(cameras: &[Camera], observations: &[Observation]) -> Result<Self> {
+        Self::carve_by(2.0 * VOXEL, HALF / 2, cameras, observations)
+    }
+
+    /// Of voxels of side `side`, `half` from the middle to each side.
+    fn carve_by(side: f64, half: i32, cameras: &[Camera], observations: &[Observation]) -> Result<Self> {
         let around = crossing(cameras, observations)?;
-        let offsets = -HALF..=HALF;
+        let offsets = -half..=half;
         let mut voxels: Vec<DVec3> = offsets
             .clone()
             .into_par_iter()
             .flat_map_iter(|z| {
                 let columns = offsets.clone().flat_map(|y| offsets.clone().map(move |x| (x, y)));
                 columns.filter_map(move |(x, y)| {
-                    let at = around + DVec3::new(f64::from(x), f64::from(y), f64::from(z)) * VOXEL;
+                    let at = around + DVec3::new(f64::from(x), f64::from(y), f64::from(z)) * side;
                     is_person(cameras, observations, at).then_some(at)
                 })
             })
@@ -50,7 +63,7 @@ impl Hull {
         let centre = voxels.iter().sum::<DVec3>() / voxels.len() as f64;
         voxels.sort_by(|a, b| a.z.total_cmp(&b.z));
         let cut = (OUTLIERS * voxels.len() as f64) as usize;
-        let span = [voxels[cut].z - 0.5 * VOXEL, voxels[voxels.len() - 1 - cut].z + 0.5 * VOXEL];
+        let span = [voxels[cut].z - 0.5 * side, voxels[voxels.len() - 1 - cut].z + 0.5 * side];
         Ok(Self { centre, span })
     }
 }

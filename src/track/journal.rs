@@ -20,13 +20,23 @@ pub struct FrameResult {
     pub spread: Vec<f32>,
     /// f1 and f2 (SPEC A7) of each view.
     pub views: Vec<[f32; 2]>,
+    /// Share of the views in which a joint lies on the silhouette, one a joint.
+    pub joints: Vec<f32>,
+}
+
+/// How many values a frame's result has.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    pub(super) dofs: usize,
+    pub(super) views: usize,
+    pub(super) joints: usize,
 }
 
 impl FrameResult {
     /// A line of the journal: the frame, the bits of every number in hexadecimal, a checksum of all that.
     fn to_line(&self) -> String {
         let mut line = format!("{} {:08x}", self.frame, self.fitness.to_bits());
-        for value in self.pose.iter().chain(&self.spread).chain(self.views.as_flattened()) {
+        for value in self.pose.iter().chain(&self.spread).chain(self.views.as_flattened()).chain(&self.joints) {
             line.push_str(&format!(" {:08x}", value.to_bits()));
         }
         let sum = checksum(line.as_bytes());
@@ -35,7 +45,7 @@ impl FrameResult {
     }
 
     /// The inverse; `None` for anything that [`Self::to_line`] does not write.
-    fn from_line(line: &str, dof_count: usize, view_count: usize) -> Option<Self> {
+    fn from_line(line: &str, extent: Extent) -> Option<Self> {
         let (values, sum) = line.rsplit_once(' ')?;
         if u64::from_str_radix(sum, 16).ok()? != checksum(values.as_bytes()) {
             return None;
@@ -45,17 +55,20 @@ impl FrameResult {
         let bits: Option<Vec<f32>> =
             words.map(|word| Some(f32::from_bits(u32::from_str_radix(word, 16).ok()?))).collect();
         let bits = bits?;
-        if bits.len() != 1 + 2 * dof_count + 2 * view_count {
+        let Extent { dofs, views, joints } = extent;
+        if bits.len() != 1 + 2 * dofs + 2 * views + joints {
             return None;
         }
-        let (pose, rest) = bits[1..].split_at(dof_count);
-        let (spread, views) = rest.split_at(dof_count);
+        let (pose, rest) = bits[1..].split_at(dofs);
+        let (spread, rest) = rest.split_at(dofs);
+        let (views, joints) = rest.split_at(2 * views);
         Some(Self {
             frame,
             fitness: bits[0],
             pose: pose.to_vec(),
             spread: spread.to_vec(),
             views: views.as_chunks().0.to_vec(),
+            joints: joints.to_vec(),
         })
     }
 }
@@ -87,12 +100,7 @@ impl Journal {
     ///
     /// # Errors
     /// When a line before the last is damaged, frames do not follow each other, or the file cannot be used.
-    pub(super) fn resume(
-        path: &Path,
-        first: usize,
-        dof_count: usize,
-        view_count: usize,
-    ) -> Result<(Self, Vec<FrameResult>)> {
+    pub(super) fn resume(path: &Path, first: usize, extent: Extent) -> Result<(Self, Vec<FrameResult>)> {
         let cannot = || format!("cannot read {}", path.display());
         let mut file =
             OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path).with_context(cannot)?;
@@ -107,7 +115,7 @@ impl Journal {
             }
             let number = results.len() + 1;
             let text = std::str::from_utf8(&line).ok().and_then(|line| line.strip_suffix('\n'));
-            let Some(result) = text.and_then(|text| FrameResult::from_line(text, dof_count, view_count)) else {
+            let Some(result) = text.and_then(|text| FrameResult::from_line(text, extent)) else {
                 let is_last = reader.fill_buf().with_context(cannot)?.is_empty();
                 ensure!(
                     is_last,
@@ -146,6 +154,8 @@ mod tests {
 
     use super::*;
 
+    const EXTENT: Extent = Extent { dofs: 3, views: 2, joints: 2 };
+
     fn result(frame: usize) -> FrameResult {
         let at = frame as f32;
         FrameResult {
@@ -154,6 +164,7 @@ mod tests {
             fitness: 0.1 * at,
             spread: vec![1.0 / 3.0, 0.0, 7.0],
             views: vec![[0.5, 0.25], [at, 1.0]],
+            joints: vec![0.75, at],
         }
     }
 
@@ -168,9 +179,9 @@ mod tests {
     #[test]
     fn every_bit_comes_back() {
         let (_folder, path) = written(4..9);
-        let (_, results) = Journal::resume(&path, 4, 3, 2).unwrap();
+        let (_, results) = Journal::resume(&path, 4, EXTENT).unwrap();
         let bits = |r: &FrameResult| -> Vec<u32> {
-            r.pose.iter().chain(&r.spread).chain(r.views.as_flattened()).map(|v| v.to_bits()).collect()
+            r.pose.iter().chain(&r.spread).chain(r.views.as_flattened()).chain(&r.joints).map(|v| v.to_bits()).collect()
         };
         assert_eq!(results.len(), 5);
         for (at, found) in results.iter().enumerate() {
@@ -184,7 +195,7 @@ mod tests {
         let all = std::fs::read(&path).unwrap();
         for length in 0..all.len() {
             std::fs::write(&path, &all[..length]).unwrap();
-            let (mut journal, results) = Journal::resume(&path, 0, 3, 2).unwrap();
+            let (mut journal, results) = Journal::resume(&path, 0, EXTENT).unwrap();
             let whole = all[..length].iter().filter(|byte| **byte == b'\n').count();
             assert_eq!(results.len(), whole, "cut at {length}");
             (results.len()..3).for_each(|frame| journal.append(&result(frame)).unwrap());
@@ -198,10 +209,10 @@ mod tests {
         let mut bytes = std::fs::read(&path).unwrap();
         bytes[12] ^= 1;
         std::fs::write(&path, &bytes).unwrap();
-        let error = Journal::resume(&path, 0, 3, 2).unwrap_err().to_string();
+        let error = Journal::resume(&path, 0, EXTENT).unwrap_err().to_string();
         assert!(error.contains("journal.txt, line 1: it is damaged"), "{error}");
         let (_folder, path) = written(2..3);
-        let error = Journal::resume(&path, 0, 3, 2).unwrap_err().to_string();
+        let error = Journal::resume(&path, 0, EXTENT).unwrap_err().to_string();
         assert!(error.contains("line 1: it is of frame 2, expected 0"), "{error}");
     }
 
@@ -221,7 +232,7 @@ mod tests {
             let folder = tempfile::tempdir().unwrap();
             let path = folder.path().join("j");
             std::fs::write(&path, bytes).unwrap();
-            let _ = Journal::resume(&path, 0, 3, 2);
+            let _ = Journal::resume(&path, 0, EXTENT);
         }
     }
 }

@@ -6,9 +6,9 @@ use anyhow::{Context, Result};
 use glam::DVec2;
 use image::RgbImage;
 
-use super::confidence::Confidence;
+use super::confidence::FrameConfidence;
 use super::overlay::{file_name, joint_lines};
-use super::results::pose_table;
+use super::results::Held;
 use super::truth::{Compared, Truth};
 use super::{FrameResult, TrackSummary};
 use crate::body::Body;
@@ -32,11 +32,13 @@ pub(super) fn write_report(
     sequence: &Sequence,
     body: &Body,
     summary: &TrackSummary,
+    confidences: &[FrameConfidence],
+    held: &Held,
     truth: Option<&Truth>,
     settings: Vec<(String, String)>,
 ) -> Result<()> {
     let frames = &summary.frames;
-    let joints = body.joint_trajectory(&pose_table(frames), sequence.fps)?;
+    let joints = held.with_gaps(body.joint_trajectory(&held.table, sequence.fps)?);
     let mut data = ReportData {
         title: sequence.name.clone(),
         subtitle: format!(
@@ -51,7 +53,7 @@ pub(super) fn write_report(
         headlines: headlines(summary),
         warnings: summary.warnings.clone(),
         first_frame: summary.first_frame,
-        fitness_per_frame: fitness_curves(body, frames),
+        fitness_per_frame: fitness_curves(confidences, frames),
         overlays: overlays(output.path(), &sequence.cameras, frames)?,
         player: Some(player(sequence, body, &joints, truth)),
         settings,
@@ -91,8 +93,7 @@ fn headlines(summary: &TrackSummary) -> Vec<Headline> {
     all
 }
 
-fn fitness_curves(body: &Body, frames: &[FrameResult]) -> Vec<Series> {
-    let mut confidence = Confidence::new(body);
+fn fitness_curves(confidences: &[FrameConfidence], frames: &[FrameResult]) -> Vec<Series> {
     let curve = |name: &str, colour, values: Vec<f64>| Series {
         name: name.to_string(),
         colour,
@@ -104,7 +105,7 @@ fn fitness_curves(body: &Body, frames: &[FrameResult]) -> Vec<Series> {
     vec![
         curve("fitness", BLUE, frames.iter().map(|result| f64::from(result.fitness)).collect()),
         curve("silhouette (mean f1)", GREEN, frames.iter().map(mean_f1).collect()),
-        curve("confidence", ORANGE, frames.iter().map(|result| confidence.next(result).confidence).collect()),
+        curve("confidence", ORANGE, confidences.iter().map(|frame| frame.confidence).collect()),
     ]
 }
 

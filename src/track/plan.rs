@@ -31,7 +31,7 @@ pub(super) struct Plan {
     pub(super) features: FeatureSettings,
     pub(super) backend: BuiltBackend,
     pub(super) search: Searcher,
-    space: SearchSpace,
+    pub(super) space: SearchSpace,
     fps: f64,
     spread: f64,
 }

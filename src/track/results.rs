@@ -6,14 +6,14 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 
-use super::confidence::Confidence;
+use super::confidence::FrameConfidence;
 use super::journal::{FrameResult, Journal};
 use super::overlay;
 use super::run_record;
 use crate::body::{Body, PoseTable, PoseWriter};
 use crate::files::{OutputFolder, Overwrite};
 use crate::geometry::Camera;
-use crate::motion::{write_bvh, write_points};
+use crate::motion::{PointTrajectory, write_bvh, write_points};
 
 /// Everything a run writes but its overlays.
 const FILES: [&str; 11] = [
@@ -52,11 +52,46 @@ pub(super) fn clear(output: &OutputFolder) -> Result<()> {
     Ok(())
 }
 
-/// The poses of a journal.
-pub(super) fn pose_table(results: &[FrameResult]) -> PoseTable {
-    PoseTable {
-        frames: results.iter().map(|result| result.frame).collect(),
-        poses: results.iter().map(|result| result.pose.iter().map(|v| f64::from(*v)).collect()).collect(),
+/// The poses of a track as its files hold them: where the person is lost, and such frames are to be gaps, the last sure pose
+/// before stands in (the first after, where there is none), so that every frame has its row.
+pub(super) struct Held {
+    pub(super) table: PoseTable,
+    /// Rows that are gaps.
+    gaps: Vec<usize>,
+}
+
+impl Held {
+    /// Of results and their confidence; without gaps when `has_gaps` says so.
+    pub(super) fn new(results: &[FrameResult], confidences: &[FrameConfidence], has_gaps: bool) -> Self {
+        let lost = |row: usize| has_gaps && confidences.get(row).is_some_and(|confidence| confidence.is_lost);
+        let first_sure = (0..results.len()).find(|&row| !lost(row)).unwrap_or(0);
+        let mut held = first_sure;
+        let poses = (0..results.len()).map(|row| {
+            held = if lost(row) { held } else { row };
+            results[held].pose.iter().map(|value| f64::from(*value)).collect()
+        });
+        let table = PoseTable { poses: poses.collect(), frames: results.iter().map(|result| result.frame).collect() };
+        Self { table, gaps: (0..results.len()).filter(|&row| lost(row)).collect() }
+    }
+
+    /// Takes the points of the gaps out of a trajectory of the table.
+    pub(super) fn with_gaps(&self, mut points: PointTrajectory) -> PointTrajectory {
+        for &row in &self.gaps {
+            points.frames[row].fill(None);
+        }
+        points
+    }
+
+    /// Runs of frames that are gaps: the first and the last of each.
+    pub(super) fn runs(&self) -> Vec<[usize; 2]> {
+        let mut runs: Vec<[usize; 2]> = Vec::new();
+        for frame in self.gaps.iter().map(|&row| self.table.frames[row]) {
+            match runs.last_mut() {
+                Some([_, last]) if *last + 1 == frame => *last = frame,
+                _ => runs.push([frame, frame]),
+            }
+        }
+        runs
     }
 }
 
@@ -66,9 +101,11 @@ pub(super) fn write(
     body: &Body,
     cameras: &[Camera],
     results: &[FrameResult],
+    confidences: &[FrameConfidence],
+    held: &Held,
     fps: f64,
 ) -> Result<()> {
-    let table = pose_table(results);
+    let table = &held.table;
     output.write("poses.csv", |writer| {
         let mut rows = PoseWriter::new(writer, body)?;
         for (frame, pose) in table.frames.iter().zip(&table.poses) {
@@ -78,32 +115,46 @@ pub(super) fn write(
     })?;
     // One trajectory at a time: they are the largest things in memory.
     {
-        let joints = body.joint_trajectory(&table, fps)?;
+        let joints = held.with_gaps(body.joint_trajectory(table, fps)?);
         write_points(&output.file("joints.csv")?, &joints, Overwrite::Replace)?;
         write_points(&output.file("joints.trc")?, &joints, Overwrite::Replace)?;
     }
     if !body.markers.is_empty() {
-        write_points(&output.file("markers.c3d")?, &body.marker_trajectory(&table, fps)?, Overwrite::Replace)?;
+        let markers = held.with_gaps(body.marker_trajectory(table, fps)?);
+        write_points(&output.file("markers.c3d")?, &markers, Overwrite::Replace)?;
     }
-    let motion = body.to_bvh(&table, fps)?;
+    let motion = body.to_bvh(table, fps)?;
     output.write("motion.bvh", |writer| write_bvh(writer, &motion))?;
-    output.write("confidence.csv", |writer| write_confidence(writer, body, cameras, results))
+    output.write("confidence.csv", |writer| write_confidence(writer, body, cameras, results, confidences))
 }
 
-/// `frame,fitness,<camera>.f1,<camera>.f2,…,position_spread,angle_spread,confidence`: spreads in mm and degrees, the rest
-/// in [0, 1]; see [`Confidence`].
-fn write_confidence(out: &mut dyn Write, body: &Body, cameras: &[Camera], results: &[FrameResult]) -> Result<()> {
+/// `frame,fitness,<camera>.f1,<camera>.f2,…,position_spread,angle_spread,confidence,agreement,state`, then
+/// `<joint>.spread,<joint>.seen,<joint>.confidence` a joint: spreads in mm and degrees, the state `sure` or `lost`, the rest in
+/// [0, 1]; see [`super::Confidence`].
+fn write_confidence(
+    out: &mut dyn Write,
+    body: &Body,
+    cameras: &[Camera],
+    results: &[FrameResult],
+    confidences: &[FrameConfidence],
+) -> Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     let views = cameras.iter().flat_map(|camera| [format!("{}.f1", camera.name), format!("{}.f2", camera.name)]);
     let header = ["frame", "fitness"].map(str::to_string).into_iter().chain(views);
-    writer.write_record(header.chain(["position_spread", "angle_spread", "confidence"].map(str::to_string)))?;
-    let mut confidence = Confidence::new(body);
-    for result in results {
-        let frame = confidence.next(result);
+    let whole = ["position_spread", "angle_spread", "confidence", "agreement", "state"].map(str::to_string);
+    let joints = body.joint_names();
+    let joints = joints.iter().flat_map(|joint| ["spread", "seen", "confidence"].map(|what| format!("{joint}.{what}")));
+    writer.write_record(header.chain(whole).chain(joints))?;
+    for (result, frame) in results.iter().zip(confidences) {
         let mut cells = vec![result.frame.to_string(), result.fitness.to_string()];
         cells.extend(result.views.as_flattened().iter().map(f32::to_string));
-        let last = [frame.position_spread, frame.angle_spread, frame.confidence];
+        let last = [frame.position_spread, frame.angle_spread, frame.confidence, frame.agreement];
         cells.extend(last.map(|value| format!("{value:.6}")));
+        cells.push(if frame.is_lost { "lost" } else { "sure" }.to_string());
+        cells.extend(frame.joints.iter().flat_map(|joint| {
+            let [spread, seen, confidence] = [joint.spread, joint.seen, joint.confidence];
+            [format!("{spread:.3}"), format!("{seen:.3}"), format!("{confidence:.4}")]
+        }));
         writer.write_record(&cells)?;
     }
     Ok(writer.flush()?)

@@ -103,7 +103,7 @@ fn run(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Table {
     let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
     let command = format!(
         "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-         --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}",
+         --refine {} --predict {} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}",
         sequence.path.display(),
         plan.range.start,
         plan.range.end,
@@ -112,6 +112,9 @@ fn run(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Table {
         search.iterations,
         search.seed,
         settings.spread,
+        search.refine,
+        settings.predict.name(),
+        yes_or_no(settings.recover),
         kind.name(),
         plan.backend.evaluator.name(),
         settings.model.name(),
@@ -136,15 +139,30 @@ fn settings_table(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) ->
     put("iterations", integer(search.iterations as u64));
     put("seed", integer(search.seed));
     put("spread", Value::from(settings.spread));
+    put("refine", integer(search.refine as u64));
+    put("predict", Value::from(settings.predict.name()));
+    put("recover", Value::from(yes_or_no(settings.recover)));
     match search.kind {
         SearchKind::ParticleFilter => {
             put("sigma", single(search.filter.sigma));
         }
-        _ => {
+        SearchKind::Annealed => {
+            put("survival", single(search.annealing.survival));
+            put("last_noise", single(search.annealing.last_noise));
+        }
+        SearchKind::CmaEs => {
+            put("first_sigma", single(search.cma.sigma));
+            put("generation", integer(search.cma.generation as u64));
+        }
+        SearchKind::Pso | SearchKind::Hierarchical => {
             put("inertia", Value::from(search.pso.inertia.map(single).to_vec()));
             put("cognitive", single(search.pso.cognitive));
             put("social", single(search.pso.social));
         }
+    }
+    if search.kind == SearchKind::Hierarchical {
+        put("joint_share", single(search.hierarchy.joint_share));
+        put("joint_spread", single(search.hierarchy.joint_spread));
     }
     put("objective", Value::from(kind.name()));
     put("beta", single(beta));
@@ -217,6 +235,10 @@ fn machine(plan: &Plan) -> Table {
 
 fn sum(bytes: &[u8]) -> Value {
     Value::from(format!("{:016x} ({} bytes)", checksum(bytes), bytes.len()))
+}
+
+fn yes_or_no(value: bool) -> &'static str {
+    if value { "yes" } else { "no" }
 }
 
 /// TOML's integers end at 2^63; a larger one is kept as text.

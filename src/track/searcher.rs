@@ -8,7 +8,7 @@ use super::stages::Span;
 use crate::evaluate::{Components, Evaluator, Objective};
 use crate::features::Observation;
 use crate::gpu::{DevicePass, Timing};
-use crate::search::{DeviceSearch, Estimate, Search, SearchKind, SearchSettings, SearchSpace};
+use crate::search::{DeviceSearch, Estimate, Refinement, Search, SearchKind, SearchSettings, SearchSpace};
 
 /// The search of a run.
 pub(super) enum Searcher {
@@ -26,6 +26,9 @@ pub(super) struct OnDevice {
     objective: Objective,
     timing: Timing,
     recorded: Option<DeviceSearch>,
+    refinement: Refinement,
+    /// What the device estimated last, and what refinement made of it: a filter goes on from its own estimate alone.
+    estimated: [Vec<f32>; 2],
 }
 
 impl OnDevice {
@@ -67,7 +70,8 @@ pub(super) struct Searched {
 }
 
 impl Searcher {
-    /// The search of these settings, on the evaluator's device if it has one; there `timing` is what is measured of its passes.
+    /// The search of these settings, on the evaluator's device if both have a form for that; there `timing` is what is
+    /// measured of its passes.
     ///
     /// # Errors
     /// As [`SearchSettings::build`].
@@ -78,19 +82,19 @@ impl Searcher {
         space: &SearchSpace,
         timing: Timing,
     ) -> Result<Self> {
-        Ok(match evaluator.on_device() {
-            None => Self::Host(settings.build(space)?),
-            Some(_) => {
-                settings.check_room(space)?;
-                Self::Device(Box::new(OnDevice {
-                    settings: *settings,
-                    space: space.clone(),
-                    objective: *objective,
-                    timing,
-                    recorded: None,
-                }))
-            }
-        })
+        if evaluator.on_device().is_none() || !settings.kind.has_device_form() {
+            return Ok(Self::Host(settings.build(space)?));
+        }
+        settings.check_room(space)?;
+        Ok(Self::Device(Box::new(OnDevice {
+            settings: *settings,
+            space: space.clone(),
+            objective: *objective,
+            timing,
+            recorded: None,
+            refinement: Refinement::new(settings.refine, space),
+            estimated: [Vec::new(), Vec::new()],
+        })))
     }
 
     /// Searches a frame whose observations are these.
@@ -122,25 +126,64 @@ impl Searcher {
                 passes.extend(evaluator.device_passes());
                 Ok(Searched { estimate, components, evaluations, passes })
             }
-            Self::Device(search) => {
-                let begin = Instant::now();
-                let search = search.search(evaluator)?;
-                let found = search.search_frame(frame, centre, spread)?;
-                let evaluations = vec![Span::since(begin)];
-                let passes = search.passes_run(Instant::now())?;
-                let components = observations
-                    .iter()
-                    .zip(found.sums)
-                    .map(|(observation, [area_model, overlap, edges, proximity])| Components {
-                        area_obs: observation.area(),
-                        area_model,
-                        overlap,
-                        edges,
-                        proximity,
-                    })
-                    .collect();
-                Ok(Searched { estimate: found.estimate, components, evaluations, passes })
-            }
+            Self::Device(search) => search.search_frame(evaluator, objective, observations, start),
         }
+    }
+
+    /// What the user should know about where it runs.
+    pub(super) fn note(&self, evaluator: &mut dyn Evaluator) -> Option<String> {
+        let Self::Host(search) = self else { return None };
+        evaluator.on_device()?;
+        let (search, backend) = (search.name(), evaluator.name());
+        Some(format!(
+            "the search {search} has no form for devices: the host drives it, and {backend} scores its batches"
+        ))
+    }
+}
+
+impl OnDevice {
+    /// A frame in one submission; its refinement, where there is one, is driven by the host.
+    fn search_frame(
+        &mut self,
+        evaluator: &mut dyn Evaluator,
+        objective: &Objective,
+        observations: &[Observation],
+        Start { frame, centre, spread }: Start<'_>,
+    ) -> Result<Searched> {
+        let begin = Instant::now();
+        let [before, after] = &self.estimated;
+        let own_centre = if after == centre { before.clone() } else { centre.to_vec() };
+        let search = self.search(evaluator)?;
+        let found = search.search_frame(frame, &own_centre, spread)?;
+        let mut evaluations = vec![Span::since(begin)];
+        let mut passes = search.passes_run(Instant::now())?;
+        let mut estimate = found.estimate;
+        if self.settings.refine == 0 {
+            let components = observations
+                .iter()
+                .zip(found.sums)
+                .map(|(observation, [area_model, overlap, edges, proximity])| Components {
+                    area_obs: observation.area(),
+                    area_model,
+                    overlap,
+                    edges,
+                    proximity,
+                })
+                .collect();
+            return Ok(Searched { estimate, components, evaluations, passes });
+        }
+        let before = estimate.pose.clone();
+        self.refinement.improve(&mut estimate, spread, &mut |poses, fitness| {
+            let begin = Instant::now();
+            evaluator.fitness(poses, objective, fitness)?;
+            evaluations.push(Span::since(begin));
+            passes.extend(evaluator.device_passes());
+            Ok(())
+        })?;
+        self.estimated = [before, estimate.pose.clone()];
+        let mut components = vec![Components::default(); evaluator.view_count()];
+        evaluator.components(&estimate.pose, &mut components)?;
+        passes.extend(evaluator.device_passes());
+        Ok(Searched { estimate, components, evaluations, passes })
     }
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Result, ensure};
 
-use super::{Backend, FrameRange, Model, ObjectiveChoice};
+use super::{Backend, FrameRange, Model, ObjectiveChoice, Prediction};
 use crate::search::SearchSettings;
 
 /// How a sequence is tracked.
@@ -21,6 +21,10 @@ pub struct TrackSettings {
     /// Factor on the standard deviation with which a frame's search starts round the previous pose: the body's steps,
     /// scaled to the time between frames.
     pub spread: f64,
+    /// Where a frame's search starts.
+    pub predict: Prediction,
+    /// Whether a lost person is searched for wider, and frames without a find are gaps in the results.
+    pub recover: bool,
     /// Which frames.
     pub frames: FrameRange,
     /// A poses.csv to start from instead of the sequence's: one row, or one whose frame is the first to be tracked.
@@ -41,6 +45,8 @@ impl Default for TrackSettings {
             objective: ObjectiveChoice::default(),
             search: SearchSettings::default(),
             spread: 1.0,
+            predict: Prediction::default(),
+            recover: true,
             frames: FrameRange::default(),
             start: None,
             overlay_every: 10,
@@ -57,6 +63,11 @@ impl TrackSettings {
     /// With the setting, what it is and what was expected.
     pub fn check(&self) -> Result<()> {
         ensure!((0.01..=100.0).contains(&self.spread), "spread is {}, expected 0.01 to 100", self.spread);
+        ensure!(
+            self.predict == Prediction::None || !self.search.kind.carries_on(),
+            "the search {} carries its samples from frame to frame and starts from no predicted pose, expected --predict none",
+            self.search.kind.name()
+        );
         self.search.check()
     }
 }
@@ -64,12 +75,18 @@ impl TrackSettings {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::search::SearchKind;
 
     #[test]
     fn wrong_settings_are_named() {
         TrackSettings::default().check().unwrap();
         let error = TrackSettings { spread: f64::NAN, ..TrackSettings::default() }.check().unwrap_err().to_string();
         assert!(error.contains("spread is NaN"), "{error}");
+        let mut settings = TrackSettings { predict: Prediction::Velocity, ..TrackSettings::default() };
+        settings.check().unwrap();
+        settings.search.kind = SearchKind::ParticleFilter;
+        let error = settings.check().unwrap_err().to_string();
+        assert!(error.contains("the search pf carries its samples"), "{error}");
         let mut settings = TrackSettings::default();
         settings.search.particles = 0;
         let error = settings.check().unwrap_err().to_string();

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
+use super::results::Held;
 use crate::body::{Body, PoseTable};
 use crate::motion::{PointPairs, PointTrajectory, TrajectoryError, read_points};
 
@@ -73,10 +74,13 @@ impl Truth {
         &self.points
     }
 
-    /// The error of all frames of a table.
-    pub(super) fn error(&self, body: &Body, poses: &PoseTable, fps: f64) -> Result<TrajectoryError> {
-        let ours = self.compared.of(body, poses, fps)?;
-        TrajectoryError::between(&ours, &self.points, &self.pairs, false)
+    /// The error of all frames of a track; its gaps have none.
+    pub(super) fn error(&self, body: &Body, held: &Held, fps: f64) -> Result<TrajectoryError> {
+        self.error_of(&held.with_gaps(self.compared.of(body, &held.table, fps)?))
+    }
+
+    fn error_of(&self, ours: &PointTrajectory) -> Result<TrajectoryError> {
+        TrajectoryError::between(ours, &self.points, &self.pairs, false)
             .with_context(|| format!("cannot compare the track with {}", self.path.display()))
     }
 
@@ -84,7 +88,8 @@ impl Truth {
     pub(super) fn running_error(&mut self, body: &Body, frame: usize, pose: &[f32], fps: f64) -> Option<f64> {
         let poses = PoseTable { frames: vec![frame], poses: vec![pose.iter().map(|v| f64::from(*v)).collect()] };
         // A frame that the truth leaves out has no error.
-        let error = self.error(body, &poses, fps).ok().and_then(|error| error.frames.first()?.mean);
+        let ours = self.compared.of(body, &poses, fps).ok()?;
+        let error = self.error_of(&ours).ok().and_then(|error| error.frames.first()?.mean);
         if let Some(error) = error {
             self.running = (self.running.0 + error, self.running.1 + 1);
         }

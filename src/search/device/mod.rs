@@ -74,6 +74,7 @@ impl DeviceSearch {
         match settings.kind {
             SearchKind::Pso => recording.swarm(settings),
             SearchKind::ParticleFilter => recording.filter(settings),
+            kind => bail!("the search {:?} has no form for devices", kind.name()),
         }
         .with_context(|| {
             let SearchSettings { particles, iterations, .. } = settings;

@@ -244,6 +244,11 @@ fn difference(
     None
 }
 
+/// The searches that run whole on a device.
+fn on_devices() -> impl Iterator<Item = SearchKind> {
+    SearchKind::ALL.into_iter().filter(|kind| kind.has_device_form())
+}
+
 #[test]
 fn blocks_and_normals_are_the_processor_s() {
     let Some((device, log)) = device("blocks_and_normals_are_the_processor_s", DeviceSettings::default()) else {
@@ -299,7 +304,7 @@ fn the_device_finds_what_the_processor_finds_to_the_bit() {
         (41, 5, 127),
         (1000, 3, 65),
     ];
-    for kind in SearchKind::ALL {
+    for kind in on_devices() {
         for (particles, iterations, dofs) in cases {
             let settings = settings(kind, particles, iterations);
             let odd = difference(&device, &settings, dofs, NOTHING_BAD, None);
@@ -315,7 +320,7 @@ fn what_is_not_a_number_never_wins_there_either() {
     let Some((device, log)) = device("what_is_not_a_number_never_wins_there_either", DeviceSettings::default()) else {
         return;
     };
-    for kind in SearchKind::ALL {
+    for kind in on_devices() {
         for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -0.0, f32::MAX, f32::MIN] {
             // Filters weigh by the distance from 1, which a large fitness loses.
             if kind == SearchKind::ParticleFilter && value.abs() == f32::MAX {
@@ -342,7 +347,7 @@ fn one_changed_number_is_noticed() {
     else {
         return;
     };
-    for kind in SearchKind::ALL {
+    for kind in on_devices() {
         for place in [31, 17 * 31 + 5, 299 * 31 + 30] {
             let odd = difference(&device, &settings(kind, 300, 15), 31, NOTHING_BAD, Some(place));
             assert!(odd.is_some(), "{kind:?}: value {place} of the second batch was another, and nothing differs");
@@ -358,7 +363,7 @@ fn frames_repeat_and_misuse_has_its_sentence() {
     let (dofs, space) = (5, space(5));
     let mut scorer = Scorer::new(&device, &target_of(3, dofs), NOTHING_BAD);
     let objective = Objective::default();
-    for kind in SearchKind::ALL {
+    for kind in on_devices() {
         let mut make =
             |settings: SearchSettings| DeviceSearch::new(&mut scorer, &objective, &settings, &space, Timing::Off);
         let mut search = make(settings(kind, 70, 4)).unwrap();
@@ -399,7 +404,7 @@ fn time_of_a_frame() {
     let (space, centre) = (space(dofs), start(dofs));
     let spread = space.spread(0.04).unwrap();
     let objective = Objective::default();
-    for kind in SearchKind::ALL {
+    for kind in on_devices() {
         let settings = settings(kind, 512, 15);
         let mut scorer = Scorer::new(&device, &target_of(3, dofs), NOTHING_BAD);
         let begin = Instant::now();

@@ -1,0 +1,203 @@
+//! Finding a person again who was lost: a wider search around the last sure pose, then one over place and heading in the
+//! visual hull of the silhouettes.
+
+use anyhow::Result;
+use glam::DVec3;
+
+use super::hull::Hull;
+use super::searcher::Searched;
+use crate::body::{Body, DofAxis};
+use crate::evaluate::{Components, Evaluator, Objective};
+use crate::features::Observation;
+use crate::geometry::Camera;
+use crate::search::{Estimate, SearchKind, SearchSettings, SearchSpace};
+
+/// Factor on a frame's spread around the last sure pose.
+const WIDE: f32 = 4.0;
+/// Headings that a person in the hull may have, evenly round the circle.
+const HEADINGS: usize = 8;
+/// Angles the arms are lifted sideways to, degrees.
+const ARMS: [f64; 3] = [10.0, 45.0, 88.0];
+/// A start in the hull has this share of a frame's iterations, as its inverse.
+const GLIMPSE: usize = 8;
+/// Starts that are followed further, and the spreads they are followed with, in steps of the body.
+const SURVIVORS: usize = 3;
+const NARROWING: [f32; 2] = [3.0, 1.0];
+/// While the person stays lost, the hull is searched at a distance of 1, 2, 4, … frames, at most this.
+const LONGEST_WAIT: usize = 16;
+/// What makes the random numbers of one search after the other different: the golden ratio's 64 bits.
+const SEED_STEP: u64 = 0x9E37_79B9_7F4A_7C15;
+
+/// The search for a lost person.
+///
+/// Its budget, in evaluations of an ordinary frame: 1 around the last sure pose; in the hull, when it is searched, 32 starts
+/// (8 headings, each with three arm positions of the standing pose and with the last sure pose turned) of an eighth each, and
+/// 3 survivors of 2 each: 11 in all, and somewhat more where the iterations do not divide by eight.
+pub(super) struct Recovery {
+    settings: SearchSettings,
+    space: SearchSpace,
+    body: Body,
+    cameras: Vec<Camera>,
+    /// Places of the root's tx, ty, tz and rz in a pose.
+    root: [Option<usize>; 4],
+    sure: Option<Vec<f32>>,
+    lost_frames: usize,
+}
+
+/// A frame in which the person is lost.
+pub(super) struct LostFrame<'a> {
+    pub(super) evaluator: &'a mut dyn Evaluator,
+    pub(super) objective: &'a Objective,
+    pub(super) observations: &'a [Observation],
+    /// The frame, as the random numbers count it.
+    pub(super) number: u32,
+    /// Standard deviation of an ordinary frame's search.
+    pub(super) spread: &'a [f32],
+}
+
+impl Recovery {
+    pub(super) fn new(body: &Body, cameras: &[Camera], settings: &SearchSettings, space: &SearchSpace) -> Self {
+        let place =
+            |axis: DofAxis| body.dofs().position(|(bone, dof)| body.bones[bone].parent.is_none() && dof.axis == axis);
+        Self {
+            settings: SearchSettings { kind: SearchKind::Pso, refine: 0, ..*settings },
+            space: space.clone(),
+            body: body.clone(),
+            cameras: cameras.to_vec(),
+            root: [DofAxis::Tx, DofAxis::Ty, DofAxis::Tz, DofAxis::Rz].map(place),
+            sure: None,
+            lost_frames: 0,
+        }
+    }
+
+    /// Takes note of a frame that is done.
+    pub(super) fn note(&mut self, pose: &[f32], is_lost: bool) {
+        if is_lost {
+            self.lost_frames += 1;
+        } else {
+            self.lost_frames = 0;
+            self.sure = Some(pose.to_vec());
+        }
+    }
+
+    /// Searches wider; replaces `found` by what fits better, if anything does. `is_sure` says whether a pose with these
+    /// components would do, so that no more is searched.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(super) fn search(
+        &self,
+        mut frame: LostFrame<'_>,
+        found: &mut Searched,
+        is_sure: &dyn Fn(&[Components]) -> bool,
+    ) -> Result<()> {
+        let mut searches = 0;
+        if let Some(sure) = &self.sure {
+            let spread: Vec<f32> = frame.spread.iter().map(|spread| spread * WIDE).collect();
+            let wide = self.around(&mut frame, sure, &spread, self.settings.iterations, &mut searches)?;
+            self.keep_better(&mut frame, found, wide)?;
+            if is_sure(&found.components) {
+                return Ok(());
+            }
+        }
+        let is_turn = self.lost_frames == 0
+            || self.lost_frames.is_power_of_two()
+            || self.lost_frames.is_multiple_of(LONGEST_WAIT);
+        // Without a hull there is nobody to be found.
+        let Some(hull) = is_turn.then(|| Hull::carve_coarsely(&self.cameras, frame.observations).ok()).flatten() else {
+            return Ok(());
+        };
+        let steps = self.space.spread(1.0 / 25.0)?;
+        let scaled = |factor: f32| -> Vec<f32> { steps.iter().map(|step| step * factor).collect() };
+        let mut starts = Vec::new();
+        for centre in self.starts(&hull) {
+            let iterations = self.settings.iterations.div_ceil(GLIMPSE);
+            starts.push(self.around(&mut frame, &centre, &scaled(NARROWING[0]), iterations, &mut searches)?);
+        }
+        starts.sort_by(|a, b| b.fitness.total_cmp(&a.fitness));
+        for mut start in starts.into_iter().take(SURVIVORS) {
+            for factor in NARROWING {
+                let centre = start.pose.clone();
+                let (iterations, spread) = (self.settings.iterations, scaled(factor));
+                let next = self.around(&mut frame, &centre, &spread, iterations, &mut searches)?;
+                start = Estimate { evaluations: start.evaluations + next.evaluations, ..next };
+            }
+            self.keep_better(&mut frame, found, start)?;
+        }
+        Ok(())
+    }
+
+    /// A swarm around a pose. Each search of a frame has random numbers of its own.
+    fn around(
+        &self,
+        frame: &mut LostFrame<'_>,
+        centre: &[f32],
+        spread: &[f32],
+        iterations: usize,
+        searches: &mut u64,
+    ) -> Result<Estimate> {
+        *searches += 1;
+        let seed = self.settings.seed.wrapping_add(searches.wrapping_mul(SEED_STEP));
+        let mut search = SearchSettings { iterations, seed, ..self.settings }.build(&self.space)?;
+        let LostFrame { evaluator, objective, number, .. } = frame;
+        search.search_frame(*number, centre, spread, &mut |poses, fitness| evaluator.fitness(poses, objective, fitness))
+    }
+
+    fn keep_better(&self, frame: &mut LostFrame<'_>, found: &mut Searched, estimate: Estimate) -> Result<()> {
+        let evaluations = found.estimate.evaluations + estimate.evaluations;
+        if estimate.fitness > found.estimate.fitness {
+            found.estimate = estimate;
+            frame.evaluator.components(&found.estimate.pose, &mut found.components)?;
+        }
+        found.estimate.evaluations = evaluations;
+        Ok(())
+    }
+
+    /// Poses in the middle of the hull.
+    fn starts(&self, hull: &Hull) -> Vec<Vec<f32>> {
+        let names = self.body.dof_names();
+        let mut rests: Vec<Vec<f64>> = ARMS
+            .iter()
+            .map(|arms| {
+                let mut pose = self.body.standing_pose();
+                for (name, sign) in [("left_shoulder.rx", 1.0), ("right_shoulder.rx", -1.0)] {
+                    if let Some(place) = names.iter().position(|known| known == name) {
+                        pose[place] = sign * arms.to_radians();
+                    }
+                }
+                if let Some(lift) = self.root[2] {
+                    pose[lift] += hull.span[0];
+                }
+                pose
+            })
+            .collect();
+        rests.extend(self.sure.iter().map(|sure| sure.iter().map(|value| f64::from(*value)).collect()));
+        let mut starts = Vec::with_capacity(HEADINGS * rests.len());
+        for turn in 0..HEADINGS {
+            let angle = std::f64::consts::TAU * turn as f64 / HEADINGS as f64;
+            starts.extend(rests.iter().map(|rest| self.placed(rest, hull.centre, angle)));
+        }
+        starts
+    }
+
+    /// A pose turned by `angle` and moved over `at`, within the limits.
+    fn placed(&self, pose: &[f64], at: DVec3, angle: f64) -> Vec<f32> {
+        let mut pose = pose.to_vec();
+        if let Some(heading) = self.root[3] {
+            let [low, high] = [self.space.lower()[heading], self.space.upper()[heading]].map(f64::from);
+            pose[heading] += angle;
+            // The same heading within the limits, where there is one.
+            if pose[heading] > high && pose[heading] - std::f64::consts::TAU >= low {
+                pose[heading] -= std::f64::consts::TAU;
+            }
+        }
+        for (place, at) in self.root.into_iter().zip([at.x, at.y]) {
+            if let Some(place) = place {
+                pose[place] = at;
+            }
+        }
+        let mut pose: Vec<f32> = pose.into_iter().map(|value| value as f32).collect();
+        self.space.clamp(&mut pose);
+        pose
+    }
+}

@@ -1,0 +1,280 @@
+//! Scripted losses of a walking person in the synthetic room, and how well the tracker knows of them (docs/CONFIDENCE.md).
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
+
+use std::collections::HashMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use pantin::motion::{PointTrajectory, read_points};
+use plotters::prelude::*;
+
+const CAMERAS: [&str; 4] = ["cam1", "cam2", "cam3", "cam4"];
+/// A frame is off when its joints are farther from the truth than this on average, mm.
+const OFF: f64 = 150.0;
+
+/// What happens to the pictures of some frames.
+struct Script {
+    name: &'static str,
+    frames: Range<usize>,
+    /// Cameras that it happens to.
+    cameras: &'static [&'static str],
+    what: What,
+}
+
+enum What {
+    /// They show the empty room: the person has left, or the camera shows its last background.
+    Empty,
+    /// They are black: the camera is off.
+    Black,
+    /// They show another person beside the one who walks.
+    Bystander,
+    /// They show the same as all frames at the end of the walk shifted by as many: a cut, after which the person is elsewhere.
+    Cut(usize),
+}
+
+const SCRIPTS: [Script; 6] = [
+    Script { name: "undisturbed", frames: 0..0, cameras: &[], what: What::Empty },
+    Script { name: "leaves and returns", frames: 30..50, cameras: &CAMERAS, what: What::Empty },
+    Script { name: "camera off", frames: 30..60, cameras: &["cam2"], what: What::Black },
+    Script { name: "three cameras off", frames: 30..50, cameras: &["cam1", "cam2", "cam3"], what: What::Empty },
+    Script { name: "bystander", frames: 20..70, cameras: &CAMERAS, what: What::Bystander },
+    Script { name: "cut", frames: 40..65, cameras: &CAMERAS, what: What::Cut(25) },
+];
+
+fn pantin(arguments: &[&str]) {
+    let done = Command::new(env!("CARGO_BIN_EXE_pantin")).args(arguments).output().unwrap();
+    assert!(done.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&done.stderr));
+}
+
+/// The walk of `frames` frames in a folder; `others` are more people, as TOML.
+fn make(folder: &Path, frames: usize, others: &str) {
+    let scene = folder.with_extension("toml");
+    let walker = "[[actor]]\n[actor.motion]\ngait = \"circle\"\n";
+    fs::create_dir_all(folder.parent().unwrap()).unwrap();
+    fs::write(&scene, format!("frames = {frames}\n[rig]\nsize = [320, 240]\n{walker}{others}")).unwrap();
+    pantin(&["synth", scene.to_str().unwrap(), "-o", folder.to_str().unwrap(), "--force"]);
+}
+
+/// A sequence after a script, from the plain walk and the one with a bystander; and the frames without a person in them.
+fn play(script: &Script, walk: &Path, together: &Path, folder: &Path, frames: usize) {
+    fs::create_dir_all(folder.join("frames")).unwrap();
+    for name in ["body.toml", "cameras.toml", "sequence.toml", "start.csv", "truth.trc"] {
+        fs::copy(walk.join(name), folder.join(name)).unwrap();
+    }
+    fs::create_dir_all(folder.join("plates")).unwrap();
+    for camera in CAMERAS {
+        let plate = format!("plates/{camera}.png");
+        fs::copy(walk.join(&plate), folder.join(&plate)).unwrap();
+        let black = folder.join("black.png");
+        let size = image::image_dimensions(walk.join(&plate)).unwrap();
+        image::RgbImage::new(size.0, size.1).save(&black).unwrap();
+        for frame in 0..frames {
+            let picture = |frame: usize| format!("frames/{camera}_{frame:04}.png");
+            let is_hit = script.frames.contains(&frame) && script.cameras.contains(&camera);
+            let from = match &script.what {
+                What::Empty if is_hit => walk.join(&plate),
+                What::Black if is_hit => black.clone(),
+                What::Bystander if is_hit => together.join(picture(frame)),
+                What::Cut(shift) if is_hit => walk.join(picture(frame + shift)),
+                _ => walk.join(picture(frame)),
+            };
+            fs::copy(from, folder.join(picture(frame))).unwrap();
+        }
+    }
+}
+
+/// The frame of the walk that a frame of a script shows; none where nobody is to be seen by two cameras.
+fn shown(script: &Script, frame: usize) -> Option<usize> {
+    match script.what {
+        _ if !script.frames.contains(&frame) => Some(frame),
+        What::Cut(shift) => Some(frame + shift),
+        What::Empty if script.cameras.len() >= 3 => None,
+        _ => Some(frame),
+    }
+}
+
+/// Mean distance of the joints in a frame of a track from those of a frame of the truth, mm; none in a gap.
+fn off_by(ours: &PointTrajectory, frame: usize, truth: &PointTrajectory, true_frame: usize) -> Option<f64> {
+    let distances: Vec<f64> = ours
+        .names
+        .iter()
+        .zip(&ours.frames[frame])
+        .filter_map(|(name, point)| Some(point.as_ref()?.distance(truth.frames[true_frame][truth.column(name)?]?)))
+        .collect();
+    (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)
+}
+
+/// A column of a track's confidence.csv.
+fn column(track: &Path, name: &str) -> Vec<String> {
+    let mut reader = csv::Reader::from_path(track.join("confidence.csv")).unwrap();
+    let place = reader.headers().unwrap().iter().position(|known| known == name).unwrap();
+    reader.records().map(|record| record.unwrap()[place].to_string()).collect()
+}
+
+/// Tracks a sequence.
+fn track(sequence: &Path, output: &Path, seed: usize, budget: [&str; 2], recover: &str) {
+    let [sequence, output] = [sequence, output].map(|path| path.to_str().unwrap());
+    let seed = seed.to_string();
+    let [particles, iterations] = budget;
+    let search = ["--particles", particles, "--iterations", iterations, "--seed", &seed, "--spread", "0.5"];
+    let rest = ["--backend", "cpu", "--overlay-every", "0", "--recover", recover, "--force"];
+    pantin(&[&["track", sequence, "-o", output], &search[..], &rest[..]].concat());
+}
+
+fn scratch(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
+}
+
+#[test]
+fn a_person_who_leaves_is_a_gap_and_is_found_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let [walk, played, output] = ["walk", "played", "track"].map(|name| folder.path().join(name));
+    make(&walk, 24, "");
+    let script = Script { name: "", frames: 5..20, cameras: &CAMERAS, what: What::Empty };
+    play(&script, &walk, &walk, &played, 24);
+    track(&played, &output, 1, ["150", "8"], "yes");
+    let states = column(&output, "state");
+    for (frame, state) in states.iter().enumerate() {
+        let is_away = (5..20).contains(&frame);
+        assert!(!is_away || state == "lost", "frame {frame} is {state}");
+        assert!(frame >= 5 || state == "sure", "frame {frame} is {state}");
+    }
+    assert_eq!(states[23], "sure", "{states:?}");
+    // Every file has its 24 rows, and gaps where he is away.
+    let rows = |name: &str| fs::read_to_string(output.join(name)).unwrap().lines().count() - 1;
+    assert_eq!((rows("poses.csv"), rows("confidence.csv")), (24, 24));
+    let truth = read_points(&walk.join("truth.trc")).unwrap();
+    for name in ["joints.csv", "joints.trc", "markers.c3d"] {
+        let points = read_points(&output.join(name)).unwrap();
+        assert_eq!(points.frames.len(), 24, "{name}");
+        for (frame, row) in points.frames.iter().enumerate() {
+            let is_gap = row.iter().all(Option::is_none);
+            assert_eq!(is_gap, states[frame] == "lost", "{name}, frame {frame}");
+        }
+    }
+    let joints = read_points(&output.join("joints.csv")).unwrap();
+    let off = off_by(&joints, 23, &truth, 23).unwrap();
+    assert!(off < OFF, "found {off} mm off");
+    // The file of motion holds the last pose.
+    let poses: Vec<String> = fs::read_to_string(output.join("poses.csv"))
+        .unwrap()
+        .lines()
+        .map(|l| l.split_once(',').unwrap().1.into())
+        .collect();
+    assert!(poses[6..21].iter().all(|pose| *pose == poses[5]), "the last sure pose stands in");
+
+    // Going on from any frame ends with the same bytes.
+    let whole: HashMap<&str, Vec<u8>> = ["poses.csv", "joints.csv", "confidence.csv", "markers.c3d"]
+        .map(|name| (name, fs::read(output.join(name)).unwrap()))
+        .into();
+    let journal = fs::read_to_string(output.join("journal.txt")).unwrap();
+    let half: Vec<&str> = journal.lines().take(12).collect();
+    fs::write(output.join("journal.txt"), half.join("\n") + "\n").unwrap();
+    let [sequence, out] = [&played, &output].map(|path| path.to_str().unwrap());
+    let search = ["--particles", "150", "--iterations", "8", "--seed", "1", "--spread", "0.5"];
+    let rest = ["--backend", "cpu", "--overlay-every", "0", "--recover", "yes", "--resume"];
+    pantin(&[&["track", sequence, "-o", out], &search[..], &rest[..]].concat());
+    for (name, bytes) in whole {
+        assert!(fs::read(output.join(name)).unwrap() == bytes, "{name} is another after going on");
+    }
+}
+
+/// The numbers and the plot of docs/CONFIDENCE.md, in `target/tmp/losses`:
+/// `cargo test --release --test losses -- --ignored --nocapture`.
+#[test]
+#[ignore = "minutes; run it in release"]
+fn misses_against_false_alarms() {
+    let (folder, frames, seeds) = (scratch("losses"), 90, 1..=3);
+    let [walk, together] = ["walk", "together"].map(|name| folder.join(name));
+    make(&walk, frames, "");
+    make(&together, frames, "[[actor]]\nheight = 1850.0\n[actor.motion]\ngait = \"stand\"\nat = [900.0, 700.0]\n");
+    let truth = read_points(&walk.join("truth.trc")).unwrap();
+    // Agreement, and whether the frame is off.
+    let mut judged: Vec<(f64, bool)> = Vec::new();
+    println!("| script | budget | off | said lost | with recovery: lost | error of the sure, mm | off but sure |");
+    println!("|---|---|---|---|---|---|---|");
+    for script in &SCRIPTS {
+        let played = folder.join("played").join(script.name);
+        play(script, &walk, &together, &played, frames);
+        for budget in [["300", "15"], ["100", "8"]] {
+            let mut counts = [0; 4];
+            let (mut sum, mut sure) = (0.0, 0);
+            for seed in seeds.clone() {
+                let output = folder.join("track");
+                for recover in ["no", "yes"] {
+                    track(&played, &output, seed, budget, recover);
+                    let joints = read_points(&output.join("joints.csv")).unwrap();
+                    let (agreements, states) = (column(&output, "agreement"), column(&output, "state"));
+                    for frame in 0..frames {
+                        let off = shown(script, frame).and_then(|real| off_by(&joints, frame, &truth, real));
+                        let is_off = off.is_none_or(|off| off > OFF);
+                        let is_lost = states[frame] == "lost";
+                        if recover == "no" {
+                            judged.push((agreements[frame].parse().unwrap(), is_off));
+                            counts[0] += usize::from(is_off);
+                            counts[1] += usize::from(is_lost);
+                        } else {
+                            counts[2] += usize::from(is_lost);
+                            counts[3] += usize::from(is_off && !is_lost);
+                            if let (false, Some(off)) = (is_lost, off) {
+                                sum += off;
+                                sure += 1;
+                            }
+                        }
+                    }
+                }
+            }
+            let [off, said, lost, missed] = counts;
+            let (name, [particles, iterations]) = (script.name, budget);
+            let mean = sum / f64::from(sure.max(1));
+            println!("| {name} | {particles} x {iterations} | {off} | {said} | {lost} | {mean:.1} | {missed} |");
+        }
+    }
+    let rates: Vec<[f64; 3]> = (0..=100)
+        .map(|step| {
+            let threshold = f64::from(step) / 100.0;
+            let share = |is_off: bool, is_wrong: &dyn Fn(f64) -> bool| {
+                let all = judged.iter().filter(|(_, off)| *off == is_off);
+                let wrong = all.clone().filter(|(agreement, _)| is_wrong(*agreement)).count();
+                wrong as f64 / all.count().max(1) as f64
+            };
+            [threshold, share(true, &|agreement| agreement >= threshold), share(false, &|a| a < threshold)]
+        })
+        .collect();
+    let mut text = "threshold,misses,false_alarms\n".to_string();
+    for [threshold, misses, alarms] in &rates {
+        writeln!(text, "{threshold},{misses:.4},{alarms:.4}").unwrap();
+    }
+    fs::write(folder.join("roc.csv"), text).unwrap();
+    draw(&folder.join("roc.svg"), &rates);
+    println!("\n| threshold | misses | false alarms |\n|---|---|---|");
+    for [threshold, misses, alarms] in rates.iter().filter(|[threshold, ..]| (threshold * 100.0).round() % 5.0 == 0.0) {
+        println!("| {threshold:.2} | {:.1} % | {:.1} % |", misses * 100.0, alarms * 100.0);
+    }
+    let best = rates.iter().map(|[_, misses, alarms]| misses + alarms).fold(2.0, f64::min);
+    assert!(best < 0.3, "misses and false alarms add up to {best} at best");
+}
+
+fn draw(path: &Path, rates: &[[f64; 3]]) {
+    let root = SVGBackend::new(path, (480, 440)).into_drawing_area();
+    root.fill(&WHITE).unwrap();
+    let mut chart = ChartBuilder::on(&root)
+        .margin(12)
+        .x_label_area_size(40)
+        .y_label_area_size(50)
+        .build_cartesian_2d(0.0..1.0, 0.0..1.0)
+        .unwrap();
+    chart.configure_mesh().x_desc("false alarms").y_desc("misses").draw().unwrap();
+    chart.draw_series(LineSeries::new(rates.iter().map(|[_, misses, alarms]| (*alarms, *misses)), &BLUE)).unwrap();
+    let marks = rates.iter().filter(|[threshold, ..]| (threshold * 100.0).round() % 10.0 == 0.0);
+    let marks = marks.map(|[threshold, misses, alarms]| {
+        EmptyElement::at((*alarms, *misses))
+            + Circle::new((0, 0), 3, BLUE.filled())
+            + Text::new(format!("{threshold:.1}"), (6, -12), ("sans-serif", 12))
+    });
+    chart.draw_series(marks).unwrap();
+    root.present().unwrap();
+}
