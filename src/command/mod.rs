@@ -11,6 +11,7 @@ mod features;
 mod fit;
 mod objective_flags;
 mod progress;
+mod realtime_flags;
 mod score;
 mod synth;
 mod texture;

@@ -3,9 +3,11 @@
 mod html;
 mod overlay;
 mod plot;
+mod timeline;
 
 pub use html::{
     CameraFrame, Headline, JointError, OverlayFrame, Player, ReportData, Skeleton, StageTime, page, write_page,
 };
 pub use overlay::{Canvas, OverlayPolygon, part_colour, side_by_side};
 pub use plot::{Series, bar_chart, line_chart};
+pub use timeline::{Bar, Mark, TimelineChart, timeline_chart};

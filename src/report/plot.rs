@@ -16,9 +16,9 @@ pub struct Series {
     pub values: Vec<Option<f64>>,
 }
 
-const INK: RGBColor = RGBColor(70, 78, 88);
-const RULE: RGBColor = RGBColor(226, 229, 233);
-const FONT: &str = "system-ui, sans-serif";
+pub(super) const INK: RGBColor = RGBColor(70, 78, 88);
+pub(super) const RULE: RGBColor = RGBColor(226, 229, 233);
+pub(super) const FONT: &str = "system-ui, sans-serif";
 
 /// Curves over the frames from `first_frame` on; the vertical axis starts at 0.
 ///
@@ -111,9 +111,9 @@ pub fn bar_chart(bars: &[(String, f64)], unit: &str, colour: [u8; 3], width: u32
     })
 }
 
-type SvgArea<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
+pub(super) type SvgArea<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 
-fn drawn(
+pub(super) fn drawn(
     size: [u32; 2],
     draw: impl FnOnce(&SvgArea) -> Result<(), DrawingAreaErrorKind<std::io::Error>>,
 ) -> Result<String> {

@@ -9,6 +9,7 @@ use anyhow::{Context, Result};
 use super::confidence::Confidence;
 use super::journal::{FrameResult, Journal};
 use super::overlay;
+use super::realtime;
 use super::run_record;
 use crate::body::{Body, PoseTable, PoseWriter};
 use crate::files::{OutputFolder, Overwrite};
@@ -16,7 +17,7 @@ use crate::geometry::Camera;
 use crate::motion::{write_bvh, write_points};
 
 /// Everything a run writes but its overlays.
-const FILES: [&str; 11] = [
+const FILES: [&str; 13] = [
     "poses.csv",
     "joints.csv",
     "joints.trc",
@@ -26,6 +27,8 @@ const FILES: [&str; 11] = [
     "stages.json",
     "trace.json",
     "report.html",
+    realtime::SUMMARY,
+    realtime::TIMELINE,
     run_record::NAME,
     Journal::NAME,
 ];
@@ -60,7 +63,24 @@ pub(super) fn pose_table(results: &[FrameResult]) -> PoseTable {
     }
 }
 
-/// Writes poses.csv, joints.csv, joints.trc, markers.c3d, motion.bvh and confidence.csv.
+/// The table with every frame: one that was left out has the pose before it.
+fn held(table: PoseTable) -> PoseTable {
+    let Some(&first) = table.frames.first() else { return table };
+    let mut all = PoseTable { frames: Vec::new(), poses: Vec::new() };
+    for (frame, pose) in table.frames.into_iter().zip(table.poses) {
+        while let (Some(before), true) = (all.poses.last(), first + all.frames.len() < frame) {
+            let before = before.clone();
+            all.frames.push(first + all.frames.len());
+            all.poses.push(before);
+        }
+        all.frames.push(frame);
+        all.poses.push(pose);
+    }
+    all
+}
+
+/// Writes poses.csv, joints.csv, joints.trc, markers.c3d, motion.bvh and confidence.csv. Frames that real time left out are
+/// gaps, but for BVH, which knows none: there the pose before is held.
 pub(super) fn write(
     output: &OutputFolder,
     body: &Body,
@@ -85,7 +105,7 @@ pub(super) fn write(
     if !body.markers.is_empty() {
         write_points(&output.file("markers.c3d")?, &body.marker_trajectory(&table, fps)?, Overwrite::Replace)?;
     }
-    let motion = body.to_bvh(&table, fps)?;
+    let motion = body.to_bvh(&held(table), fps)?;
     output.write("motion.bvh", |writer| write_bvh(writer, &motion))?;
     output.write("confidence.csv", |writer| write_confidence(writer, body, cameras, results))
 }
