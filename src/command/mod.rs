@@ -14,6 +14,7 @@ mod fit;
 mod interrupt;
 mod objective_flags;
 mod progress;
+mod realtime_flags;
 mod score;
 mod study;
 mod synth;

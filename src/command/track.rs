@@ -10,11 +10,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::interrupt::Interrupt;
 use super::objective_flags::ObjectiveFlags;
+use super::realtime_flags::{RealtimeFlags, duration};
 use crate::files::{OutputFolder, Overwrite};
 use crate::search::{SearchKind, SearchSettings};
-use crate::sequence::Sequence;
+use crate::sequence::{STALL_TIMEOUT, Sequence};
 use crate::track::{
-    Backend, FrameDone, FrameRange, Model, Prediction, Progress, RunStart, TrackSettings, TrackSummary, track,
+    Backend, FrameDone, FrameRange, Model, Prediction, Progress, RealtimeSummary, RunStart, TrackSettings,
+    TrackSummary, track,
 };
 
 /// Tracks a person through a sequence: poses, joints and markers over time (CSV, TRC, C3D, BVH), how far they can be
@@ -67,12 +69,17 @@ pub struct TrackArgs {
     /// A poses.csv to start from instead of the sequence's: one row, or one whose frame is the first.
     #[arg(long, value_name = "FILE")]
     start: Option<PathBuf>,
-    /// Draw the model over the pictures every N frames; 0 for never.
-    #[arg(long, value_name = "N", default_value_t = TrackSettings::default().overlay_every)]
-    overlay_every: usize,
+    /// Draw the model over the pictures every N frames; 0 for never. Without: 10, and 0 in real time, which drawing disturbs.
+    #[arg(long, value_name = "N")]
+    overlay_every: Option<usize>,
     /// Measure every pass on the Vulkan device too, for trace.json and stages.json; it costs some time of its own.
     #[arg(long)]
     trace: bool,
+    /// How long a view may take for a picture, s, before the run ends with a sentence that names it.
+    #[arg(long, value_name = "S", default_value_t = STALL_TIMEOUT.as_secs_f64())]
+    stall_timeout: f64,
+    #[command(flatten)]
+    realtime: RealtimeFlags,
     /// Go on with the run that the folder holds.
     #[arg(long, conflicts_with = "force")]
     resume: bool,
@@ -97,8 +104,10 @@ fn yes_or_no(word: &str) -> Result<bool> {
 }
 
 impl TrackArgs {
-    fn settings(&self) -> TrackSettings {
-        TrackSettings {
+    fn settings(&self) -> Result<TrackSettings> {
+        let realtime = self.realtime.settings()?;
+        let default_overlay = if realtime.is_some() { 0 } else { TrackSettings::default().overlay_every };
+        Ok(TrackSettings {
             backend: self.backend,
             model: self.model,
             objective: self.objective.choice(),
@@ -115,10 +124,12 @@ impl TrackArgs {
             recover: self.recover,
             frames: self.frames,
             start: self.start.clone(),
-            overlay_every: self.overlay_every,
+            overlay_every: self.overlay_every.unwrap_or(default_overlay),
             trace: self.trace,
             resume: self.resume,
-        }
+            stall_timeout: duration("the stall time-out", self.stall_timeout)?,
+            realtime,
+        })
     }
 }
 
@@ -127,9 +138,13 @@ impl TrackArgs {
 /// # Errors
 /// As [`track`]; and when it was interrupted: the sentence says how to go on.
 pub fn run(args: &TrackArgs) -> Result<()> {
-    let settings = args.settings();
+    let settings = args.settings()?;
     settings.check()?;
-    let sequence = Sequence::open(&args.sequence)?;
+    let sequence = if settings.realtime.is_some() {
+        Sequence::open_live(&args.sequence)?
+    } else {
+        Sequence::open(&args.sequence)?
+    };
     let output = if args.resume {
         if !args.output.is_dir() {
             bail!("there is no folder {} to resume a run in: leave out --resume", args.output.display());
@@ -159,7 +174,13 @@ pub(super) fn print_summary(summary: &TrackSummary, folder: &std::path::Path) {
         eprintln!("note: {warning}");
     }
     let [name, variant] = summary.backend;
-    println!("{} frames at {:.1} frames/s with {name} ({variant})", summary.frames.len(), summary.frames_per_second);
+    match &summary.realtime {
+        None => {
+            let (frames, rate) = (summary.frames.len(), summary.frames_per_second);
+            println!("{frames} frames at {rate:.1} frames/s with {name} ({variant})");
+        }
+        Some(realtime) => print_realtime(realtime, &format!("{name} ({variant})")),
+    }
     println!("fitness {:.3}, confidence {:.2} on average", summary.mean_fitness, summary.mean_confidence);
     if let Some(error) = &summary.error {
         let count = error.error.points.len();
@@ -171,7 +192,36 @@ pub(super) fn print_summary(summary: &TrackSummary, folder: &std::path::Path) {
         });
         println!("a frame: {}", shares.collect::<Vec<_>>().join(", "));
     }
-    println!("results in {}, start with {}", folder.display(), folder.join("report.html").display());
+    let first = if summary.realtime.is_some() { "timeline.svg" } else { "report.html" };
+    println!("results in {}, start with {}", folder.display(), folder.join(first).display());
+}
+
+fn print_realtime(realtime: &RealtimeSummary, evaluator: &str) {
+    let RealtimeSummary { input_fps, output_fps, captured, poses, latency_ms: latency, drops, .. } = realtime;
+    println!(
+        "{captured} frames came at {input_fps:.1} frames/s, {poses} poses went at {output_fps:.1} with {evaluator}"
+    );
+    println!(
+        "from capture to pose: half within {:.1} ms, 90 % within {:.1}, 99 % within {:.1}, all within {:.1}",
+        latency.p50, latency.p90, latency.p99, latency.max
+    );
+    if let (Some(deadline), Some(in_time)) = (realtime.deadline_ms, realtime.in_time) {
+        let evaluations = realtime.evaluations;
+        println!(
+            "{:.2} % within the deadline of {deadline} ms, with {evaluations:.0} evaluations a pose",
+            1e2 * in_time
+        );
+    }
+    println!(
+        "passed over: {} in acquisition, {} before processing, {} before tracking; {} were read late",
+        drops.acquisition, drops.processing, drops.tracking, realtime.late
+    );
+    if realtime.complaints > 0 {
+        println!("the decoders complained {} times: pictures were damaged", realtime.complaints);
+    }
+    if let Some(error) = realtime.error_mm {
+        println!("error {error:.2} mm on average");
+    }
 }
 
 /// A bar on a terminal, a line now and then elsewhere; and Ctrl-C.
@@ -181,7 +231,8 @@ pub(super) struct TrackProgress {
     begin: Instant,
     last_line: Instant,
     first: usize,
-    total: usize,
+    /// None where a live source has no end.
+    total: Option<usize>,
 }
 
 /// Between two plain lines.
@@ -191,7 +242,7 @@ impl TrackProgress {
     pub(super) fn new() -> Result<Self> {
         let stop = Interrupt::listen()?;
         let now = Instant::now();
-        Ok(Self { stop, bar: None, begin: now, last_line: now, first: 0, total: 0 })
+        Ok(Self { stop, bar: None, begin: now, last_line: now, first: 0, total: None })
     }
 
     pub(super) fn clear(&mut self) {
@@ -205,15 +256,21 @@ impl Progress for TrackProgress {
     fn start(&mut self, run: &RunStart) {
         eprintln!("{}", run.backend);
         if run.done > 0 {
-            eprintln!("going on from frame {}, {} of {} are done", run.first_frame + run.done, run.done, run.frames);
+            let total = run.frames.map(|frames| format!(" of {frames}")).unwrap_or_default();
+            eprintln!("going on from frame {}, {}{total} are done", run.first_frame + run.done, run.done);
         }
         (self.first, self.total) = (run.done, run.frames);
         (self.begin, self.last_line) = (Instant::now(), Instant::now());
         if std::io::stderr().is_terminal() {
-            let bar = ProgressBar::new(run.frames as u64).with_position(run.done as u64);
+            let (bar, template) = match run.frames {
+                Some(frames) => {
+                    (ProgressBar::new(frames as u64), "{bar:30} {pos}/{len} frames, {per_sec}, {eta} left  {msg}")
+                }
+                None => (ProgressBar::new_spinner(), "{spinner} {pos} frames, {per_sec}  {msg} (Ctrl-C ends it)"),
+            };
+            let bar = bar.with_position(run.done as u64);
             bar.reset_eta();
-            if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} frames, {per_sec}, {eta} left  {msg}")
-            {
+            if let Ok(style) = ProgressStyle::with_template(template) {
                 bar.set_style(style);
             }
             self.bar = Some(bar);
@@ -229,8 +286,14 @@ impl Progress for TrackProgress {
         } else if self.last_line.elapsed() >= LINE_INTERVAL {
             self.last_line = Instant::now();
             let each = self.begin.elapsed().as_secs_f64() / (frame.done - self.first).max(1) as f64;
-            let left = each * (self.total - frame.done) as f64;
-            eprintln!("frame {}, {}/{}, {left:.0} s left: {message}", frame.frame, frame.done, self.total);
+            let (at, done) = (frame.frame, frame.done);
+            match self.total {
+                Some(total) => {
+                    let left = each * (total - done) as f64;
+                    eprintln!("frame {at}, {done}/{total}, {left:.0} s left: {message}");
+                }
+                None => eprintln!("frame {at}: {message}"),
+            }
         }
     }
 

@@ -5,6 +5,7 @@ mod comparison;
 mod html;
 mod overlay;
 mod plot;
+mod timeline;
 
 pub use arrows::{Arrow, arrow_chart};
 pub use comparison::{Shares, XyLine, share_chart, xy_chart};
@@ -13,3 +14,4 @@ pub use html::{
 };
 pub use overlay::{Canvas, OverlayPolygon, part_colour, side_by_side};
 pub use plot::{Series, bar_chart, line_chart};
+pub use timeline::{Bar, Mark, TimelineChart, timeline_chart};

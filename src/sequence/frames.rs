@@ -2,16 +2,19 @@
 
 use std::ops::Range;
 use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
+use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow, bail};
 use image::{GrayImage, RgbImage};
 
+use super::live::LiveSource;
 use super::manifest::{Sequence, View};
 use super::pictures::{PicturePattern, read_picture};
+use super::program::Stopper;
 use super::resample::{area_average, nearest_mask};
-use super::video::{PixelFormat, Stopper, VideoDecoder};
+use super::video::{PixelFormat, VideoDecoder};
 
 /// Frames a view's thread may be ahead of the reader. Together with the one it is working on this bounds the memory,
 /// however long the sequence is.
@@ -35,7 +38,14 @@ pub enum Source {
     Video(PathBuf),
     /// Numbered pictures.
     Pictures(PicturePattern),
+    /// A camera or a stream, without an end and without frame numbers.
+    Live(LiveSource),
 }
+
+/// How long a view may take for a picture before it counts as stalled, unless told otherwise.
+pub const STALL_TIMEOUT: Duration = Duration::from_secs(60);
+/// What the decoder gets besides for each frame that it has to pass over first.
+const PASSED_OVER: Duration = Duration::from_millis(500);
 
 /// Reads consecutive frames of a sequence. Dropping it ends its threads and their decoders.
 #[derive(Debug)]
@@ -43,6 +53,9 @@ pub struct FrameReader {
     views: Vec<ViewThread>,
     next: usize,
     end: usize,
+    stall_timeout: Duration,
+    /// Frames before the first that the decoders pass over.
+    passed_over: usize,
 }
 
 /// A view's picture and mask of one frame.
@@ -73,7 +86,13 @@ impl Sequence {
                 self.frame_count
             );
         }
-        let mut reader = FrameReader { views: Vec::new(), next: range.start, end: range.end };
+        let mut reader = FrameReader {
+            views: Vec::new(),
+            next: range.start,
+            end: range.end,
+            stall_timeout: STALL_TIMEOUT,
+            passed_over: range.start,
+        };
         if range.is_empty() {
             return Ok(reader);
         }
@@ -104,10 +123,18 @@ impl Sequence {
 }
 
 impl FrameReader {
+    /// The same reader, whose views may take `timeout` for a picture; [`STALL_TIMEOUT`] without.
+    #[must_use]
+    pub fn with_stall_timeout(mut self, timeout: Duration) -> Self {
+        self.stall_timeout = timeout;
+        self
+    }
+
     /// The next frame of every view; `None` after the last of the range, and after an error.
     ///
     /// # Errors
-    /// One sentence with the file: a decoder that stopped, a picture that cannot be read or has another size.
+    /// One sentence with the file: a decoder that stopped, a picture that cannot be read or has another size; or with the
+    /// camera: no picture came in time.
     pub fn next_frame(&mut self) -> Result<Option<FrameSet>> {
         if self.next >= self.end {
             return Ok(None);
@@ -121,13 +148,22 @@ impl FrameReader {
         set.map(Some)
     }
 
-    fn receive(&self) -> Result<FrameSet> {
+    fn receive(&mut self) -> Result<FrameSet> {
+        let patience = self.stall_timeout + PASSED_OVER * u32::try_from(self.passed_over).unwrap_or(u32::MAX);
+        self.passed_over = 0;
         let mut set = FrameSet { index: self.next, pictures: Vec::new(), masks: Vec::new() };
         for view in &self.views {
-            let (picture, mask) = view
-                .frames
-                .recv()
-                .map_err(|_| anyhow!("the pictures of camera {:?} ended before frame {}", view.camera, self.next))??;
+            let (picture, mask) = view.frames.recv_timeout(patience).map_err(|error| match error {
+                RecvTimeoutError::Timeout => anyhow!(
+                    "camera {:?} stalled: no picture of frame {} came in {:.1} s (--stall-timeout)",
+                    view.camera,
+                    self.next,
+                    patience.as_secs_f64()
+                ),
+                RecvTimeoutError::Disconnected => {
+                    anyhow!("the pictures of camera {:?} ended before frame {}", view.camera, self.next)
+                }
+            })??;
             set.pictures.push(picture);
             set.masks.push(mask);
         }
@@ -169,6 +205,7 @@ impl Stream {
         Ok(match source {
             Source::Video(path) => Self::Video(VideoDecoder::open(path, frames, size, format)?),
             Source::Pictures(pattern) => Self::Pictures(pattern.clone()),
+            Source::Live(live) => bail!("{} is live, which only `track --realtime` reads", live.address),
         })
     }
 }

@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use serde::Deserialize;
 
 use super::calibration::read_cameras;
 use super::coverage::check_coverage;
 use super::frames::Source;
+use super::live::LiveSource;
+use super::live_options;
 use super::pictures::{PicturePattern, picture_size, shown};
 use super::video::{VideoInfo, probe_video};
 use crate::files::{parse_toml, read_toml};
@@ -38,7 +40,7 @@ pub struct Sequence {
     pub truth: Option<PathBuf>,
     /// What each camera saw.
     pub views: Vec<View>,
-    /// Frames in every view.
+    /// Frames in every view; [`Sequence::NO_END`] where they are live.
     pub frame_count: usize,
     /// The `[objective]` table as written, for the search to read.
     pub objective: Option<toml::Table>,
@@ -83,6 +85,7 @@ struct ManifestFile {
 struct ViewTable {
     camera: String,
     source: PathBuf,
+    input: Option<Vec<String>>,
     background: Option<PathBuf>,
     mask: Option<PathBuf>,
 }
@@ -102,6 +105,10 @@ impl ManifestFile {
         }
         if self.view.is_empty() {
             bail!("{name} has no views, expected a [[view]] with `camera` and `source` for each camera");
+        }
+        for view in &self.view {
+            let options = view.input.as_deref().unwrap_or_default();
+            live_options::check(options).with_context(|| format!("{name}: the source of camera {:?}", view.camera))?;
         }
         Ok(())
     }
@@ -125,7 +132,37 @@ impl Sequence {
     /// the calibration's, a missing or unreadable file, a scale or frame rate out of range, a camera that does not see
     /// what the others see.
     pub fn open(path: &Path) -> Result<Self> {
+        let sequence = Self::open_with(path, true)?;
+        sequence.refuse_live()?;
+        Ok(sequence)
+    }
+
+    /// As [`Self::open`], but the views may be live sources: cameras and streams (INTERFACES: `source` with an address like
+    /// `rtsp://…` or a device like `/dev/video0`, or any `source` with `input`, options for ffmpeg).
+    ///
+    /// # Errors
+    /// As [`Self::open`]; and when some views are live and others are not.
+    pub fn open_live(path: &Path) -> Result<Self> {
         Self::open_with(path, true)
+    }
+
+    /// The number of frames of a live sequence.
+    pub const NO_END: usize = u32::MAX as usize;
+
+    /// Whether its views are live sources.
+    pub fn is_live(&self) -> bool {
+        self.views.iter().any(|view| matches!(view.source, Source::Live(_)))
+    }
+
+    fn refuse_live(&self) -> Result<()> {
+        if let Some(view) = self.views.iter().find(|view| matches!(view.source, Source::Live(_))) {
+            bail!(
+                "{}: the source of camera {:?} is live, which only `track --realtime` reads",
+                self.path.display(),
+                view.camera
+            );
+        }
+        Ok(())
     }
 
     /// As [`Self::open`], but the files of the body and the start pose may be yet to be made.
@@ -133,7 +170,9 @@ impl Sequence {
     /// # Errors
     /// As [`Self::open`], those two files apart.
     pub fn open_unfitted(path: &Path) -> Result<Self> {
-        Self::open_with(path, false)
+        let sequence = Self::open_with(path, false)?;
+        sequence.refuse_live()?;
+        Ok(sequence)
     }
 
     fn open_with(path: &Path, is_fitted: bool) -> Result<Self> {
@@ -220,7 +259,18 @@ fn open_view(
 ) -> Result<(View, usize)> {
     let name = &table.camera;
     let key = |part: &str| format!("the {part} of camera {name:?}");
-    let source = open_source(&key("source"), &table.source, existing, dir)?;
+    let source = match LiveSource::of(&table.source, table.input.as_deref(), dir) {
+        Some(live) => {
+            if table.mask.is_some() {
+                bail!("camera {name:?} is live and has `mask`, expected `background` alone");
+            }
+            let shown = live.address.clone();
+            // What it delivers is looked at when it is opened: a camera can be opened once.
+            let (size, frame_count) = (camera.size, Sequence::NO_END);
+            OpenedSource { shown, source: Source::Live(live), size, frame_count, rotation: 0 }
+        }
+        None => open_source(&key("source"), &table.source, existing, dir)?,
+    };
     if source.size != camera.size {
         let turned = if source.rotation % 180 != 0 && source.size == [camera.size[1], camera.size[0]] {
             ", which are stored lying and marked to be turned for display: re-encode them upright"
@@ -307,6 +357,14 @@ fn open_source(
 fn common_length(path: &Path, views: &[(View, usize)]) -> Result<usize> {
     let Some((first, length)) = views.first() else { return Ok(0) };
     if let Some((other, other_length)) = views.iter().find(|(_, other)| other != length) {
+        if [*length, *other_length].contains(&Sequence::NO_END) {
+            bail!(
+                "{}: one of the cameras {:?} and {:?} is live and one is recorded, expected the same of all",
+                path.display(),
+                first.camera,
+                other.camera
+            );
+        }
         bail!(
             "{}: camera {:?} has {length} frames and camera {:?} has {other_length}, expected views of the same length",
             path.display(),
@@ -319,4 +377,4 @@ fn common_length(path: &Path, views: &[(View, usize)]) -> Result<usize> {
 
 #[cfg(test)]
 #[path = "manifest_tests.rs"]
-mod tests;
+pub(super) mod tests;

@@ -10,7 +10,7 @@ struct Scene {
 
 const CAMERA_SIZE: [u32; 2] = [40, 30];
 
-fn camera_table(name: &str, size: [u32; 2], rotation: [f64; 3]) -> String {
+pub(in crate::sequence) fn camera_table(name: &str, size: [u32; 2], rotation: [f64; 3]) -> String {
     let [width, height] = size.map(f64::from);
     format!(
         "[{name}]\nname = \"{name}\"\nsize = [{width:.1}, {height:.1}]\n\

@@ -3,8 +3,12 @@
 mod calibration;
 mod coverage;
 mod frames;
+mod live;
+mod live_options;
 mod manifest;
 mod pictures;
+mod player;
+mod program;
 mod resample;
 mod video;
 mod video_encoder;
@@ -13,8 +17,10 @@ pub use calibration::{
     cameras_toml, parse_cameras_toml, parse_opencv_xml, parse_opencv_yaml, parse_qualisys, read_cameras,
     write_cameras_toml,
 };
-pub use frames::{FrameReader, FrameSet, Source};
+pub use frames::{FrameReader, FrameSet, STALL_TIMEOUT, Source};
+pub use live::{LiveReader, LiveSource};
 pub use manifest::{Sequence, View, check_manifest};
 pub use pictures::PicturePattern;
+pub use player::{Captured, Playback, Player};
 pub use video::{VideoInfo, probe_video};
 pub use video_encoder::VideoEncoder;

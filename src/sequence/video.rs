@@ -1,15 +1,15 @@
 //! Video files, read through the `ffmpeg` and `ffprobe` programs: every stored frame once, in decoding order, in the
 //! orientation it is stored in (a calibration is made for the file as it is, not for how a player would turn it).
 
-use std::fmt;
 use std::io::{BufRead, BufReader, ErrorKind, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdout, Command, ExitStatus, Stdio};
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
-use std::thread::{self, JoinHandle};
+use std::process::Command;
+use std::sync::OnceLock;
 
 use anyhow::{Context, Result, anyhow, bail};
+
+use super::program::{Process, Stopper, missing_program};
 
 /// What a video file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,7 +131,7 @@ impl VideoDecoder {
 
     /// What ends the decoder from another thread: a reader blocked in [`Self::next_frame`] then gets an error.
     pub(super) fn stopper(&self) -> Stopper {
-        Stopper(Arc::clone(&self.process.child))
+        self.process.stopper()
     }
 
     /// The next frame, row-major bytes; `None` after the last of the range.
@@ -164,113 +164,9 @@ impl VideoDecoder {
     }
 }
 
-/// Ends a decoder from another thread.
-#[derive(Debug)]
-pub(super) struct Stopper(Arc<Mutex<Child>>);
-
-impl Stopper {
-    pub(super) fn stop(&self) {
-        // Fails only when the program has ended already.
-        let _ = lock(&self.0).kill();
-    }
-}
-
-/// A child is never left half changed, so a lock that a dying thread held is as good as any.
-fn lock(child: &Mutex<Child>) -> MutexGuard<'_, Child> {
-    child.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// A running program whose output we read; killed when dropped.
-#[derive(Debug)]
-struct Process {
-    child: Arc<Mutex<Child>>,
-    output: ChildStdout,
-    /// Drains what the program complains about, so that it never blocks on a full pipe, and keeps the last line.
-    complaints: Option<JoinHandle<String>>,
-}
-
-impl Process {
-    fn spawn(mut command: Command) -> Result<Self> {
-        let program = command.get_program().to_string_lossy().into_owned();
-        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child = command.spawn().map_err(|error| missing_program(&program, &error))?;
-        let (Some(output), Some(errors)) = (child.stdout.take(), child.stderr.take()) else {
-            bail!("cannot read the output of `{program}`");
-        };
-        let complaints = thread::spawn(move || {
-            let mut last = String::new();
-            let mut errors = BufReader::new(errors);
-            let mut line = Vec::new();
-            while errors.read_until(b'\n', &mut line).is_ok_and(|read| read > 0) {
-                let text = String::from_utf8_lossy(&line).trim().to_string();
-                if !text.is_empty() {
-                    last = text;
-                }
-                line.clear();
-            }
-            last
-        });
-        Ok(Self { child: Arc::new(Mutex::new(child)), output, complaints: Some(complaints) })
-    }
-
-    /// Ends the program (it normally has ended by itself) and says how it went.
-    fn finish(&mut self) -> Ended {
-        // Its output is closed by now, so this waits for no more than the program's own farewell.
-        let status = lock(&self.child).wait().ok();
-        let last_line = self.complaints.take().and_then(|thread| thread.join().ok()).unwrap_or_default();
-        Ended { status, last_line }
-    }
-}
-
-impl Drop for Process {
-    fn drop(&mut self) {
-        let mut child = lock(&self.child);
-        // Both fail only when the program has ended already.
-        let _ = child.kill();
-        let _ = child.wait();
-        drop(child);
-        if let Some(thread) = self.complaints.take() {
-            let _ = thread.join();
-        }
-    }
-}
-
-/// How a program ended, and the last line it complained with.
-struct Ended {
-    status: Option<ExitStatus>,
-    last_line: String,
-}
-
-impl Ended {
-    fn success(&self) -> bool {
-        self.status.is_some_and(|status| status.success())
-    }
-}
-
-impl fmt::Display for Ended {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (&self.status, self.last_line.as_str()) {
-            (Some(status), "") => write!(f, "ffmpeg gave no reason ({status})"),
-            (None, "") => write!(f, "ffmpeg gave no reason"),
-            (_, line) => write!(f, "ffmpeg says {line:?}"),
-        }
-    }
-}
-
-fn missing_program(program: &str, error: &std::io::Error) -> anyhow::Error {
-    if error.kind() == ErrorKind::NotFound {
-        anyhow!(
-            "the program `{program}` was not found, and videos are read with it: install ffmpeg (apt install ffmpeg, \
-             brew install ffmpeg, winget install ffmpeg) so that it is on the PATH, or give pictures (frames/cam_%04d.png)"
-        )
-    } else {
-        anyhow!("cannot start `{program}`: {error}")
-    }
-}
-
 /// The option that hands on every frame exactly once, whatever its time stamp. It was renamed in ffmpeg 5.1, and later
 /// versions drop the old name.
-fn passthrough_option(program: &Path) -> Result<[&'static str; 2]> {
+pub(super) fn passthrough_option(program: &Path) -> Result<[&'static str; 2]> {
     static NEW_NAME: OnceLock<bool> = OnceLock::new();
     let known = match NEW_NAME.get() {
         Some(known) => *known,

@@ -1,5 +1,6 @@
 use std::fs;
 
+use super::super::program::lock;
 use super::*;
 
 /// Whether the programs are there; says so where not, so that a skipped test is seen.

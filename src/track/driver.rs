@@ -1,4 +1,4 @@
-//! The offline driver: every frame of a range in order, however long it takes.
+//! The driver: offline every frame of a range in order, however long it takes; in real time those that can be done in time.
 
 use std::time::{Duration, Instant};
 
@@ -6,11 +6,12 @@ use anyhow::{Context, Result, anyhow};
 use serde_json::json;
 
 use super::confidence::{Confidence, LossRule, seen_joints};
-use super::feed::{Feed, Prepared};
-use super::journal::{Extent, FrameResult, Journal};
+use super::feed::{Feed, Frames, Prepared};
+use super::journal::{Extent, FrameResult, Journal, Numbering};
 use super::overlay::Overlay;
 use super::page::write_report;
 use super::plan::Plan;
+use super::realtime::{Realtime, RealtimeSummary};
 use super::recovery::{LostFrame, Recovery};
 use super::results::Held;
 use super::run_record::RunRecord;
@@ -49,8 +50,8 @@ impl Progress for Silent {}
 pub struct RunStart {
     /// The first frame.
     pub first_frame: usize,
-    /// Frames in all.
-    pub frames: usize,
+    /// Frames in all; none where a live source has no end.
+    pub frames: Option<usize>,
     /// Frames that an earlier run did already.
     pub done: usize,
     /// Which evaluator, and why.
@@ -64,7 +65,7 @@ pub struct RunStart {
 pub struct FrameDone {
     /// Its index.
     pub frame: usize,
-    /// Frames done, those of an earlier run included.
+    /// Frames done, those of an earlier run and those that real time left out included.
     pub done: usize,
     /// The fitness of its pose.
     pub fitness: f32,
@@ -88,7 +89,7 @@ pub struct ErrorSummary {
 pub struct TrackSummary {
     /// The first frame.
     pub first_frame: usize,
-    /// Every frame that was tracked, in order.
+    /// Every frame that was tracked, in order; none after a run in real time that was too long to be kept.
     pub frames: Vec<FrameResult>,
     /// Frames of them that this run did itself, not an earlier one it went on from.
     pub new_frames: usize,
@@ -108,6 +109,8 @@ pub struct TrackSummary {
     pub warnings: Vec<String>,
     /// The next frame, when the run was asked to stop before its end; the folder then holds the journal alone.
     pub stopped_before: Option<usize>,
+    /// How a run in real time kept time.
+    pub realtime: Option<RealtimeSummary>,
 }
 
 /// Tracks a sequence and fills `output` with what INTERFACES calls a track's folder.
@@ -117,6 +120,10 @@ pub struct TrackSummary {
 /// never stopped. Without, what an earlier run left in `output` is removed.
 ///
 /// The result files depend on the sequence, the settings and the seed alone, never on the number of threads.
+///
+/// In real time ([`TrackSettings::realtime`]) frames are left out and searched as time allows, so no two runs are the same.
+/// poses.csv and joints.csv grow with every pose, realtime.json and timeline.svg tell of the times, and there is no page. A
+/// run that is asked to stop, or whose source fails, keeps what it has: all files are written.
 ///
 /// # Errors
 /// Anything wrong with an input, named, before a file is written; a run that cannot be resumed; a picture that cannot be
@@ -147,7 +154,9 @@ pub fn track(
         record.check_same(output)?;
         let (dofs, views) = (plan.body.dof_count(), sequence.cameras.len());
         let extent = Extent { dofs, views, joints: plan.body.joint_names().len() };
-        let (journal, done) = Journal::resume(&journal_path, plan.range.start, extent)?;
+        let numbering =
+            if settings.realtime.is_some() { Numbering::Rising } else { Numbering::EachFrom(plan.range.start) };
+        let (journal, done) = Journal::resume(&journal_path, numbering, extent)?;
         if settings.search.kind.carries_on() && !done.is_empty() && done.len() < plan.range.len() {
             warnings.push(
                 "the particle filter carries its particles on, so the run begins at its first frame again".into(),
@@ -163,9 +172,15 @@ pub fn track(
     };
     warnings.extend(plan.search.note(plan.backend.evaluator.as_mut()));
     let stages = Stages::new(&output.file("trace.json")?)?;
+    let realtime = match &settings.realtime {
+        Some(realtime) => {
+            Some(Realtime::new(sequence, settings, realtime, output, &plan.body, &mut plan.range, &done)?)
+        }
+        None => None,
+    };
     progress.start(&RunStart {
         first_frame: plan.range.start,
-        frames: plan.range.len(),
+        frames: (!sequence.is_live()).then_some(plan.range.len()),
         done: done.len(),
         backend: plan.backend.reason.clone(),
         warnings: warnings.clone(),
@@ -173,12 +188,33 @@ pub fn track(
     plan.backend.evaluator.measure_passes(settings.trace)?;
     let confidence = Confidence::new(&plan.body, LossRule::default());
     let recovery = Recovery::new(&plan.body, &sequence.cameras, &settings.search, &plan.space);
-    let recovery = settings.recover.then_some(recovery);
-    let mut run =
-        Run { sequence, settings, output, plan, truth, journal, frames: Vec::new(), stages, confidence, recovery };
+    // A wider search takes the time that real time has not.
+    let recovery = (settings.recover && realtime.is_none()).then_some(recovery);
+    let mut run = Run {
+        sequence,
+        settings,
+        output,
+        plan,
+        truth,
+        journal,
+        frames: Vec::new(),
+        done: 0,
+        stages,
+        confidence,
+        recovery,
+        realtime,
+    };
     run.take_over(done)?;
-    run.search_all(progress)?;
-    run.finish(&record, warnings)
+    let searched = run.search_all(progress);
+    if run.realtime.is_none() || run.done == 0 {
+        searched?;
+        return run.finish(&record, warnings);
+    }
+    // What a source delivered before it failed is as good as ever.
+    let done = run.done;
+    let finished = run.finish(&record, warnings);
+    searched.map_err(|error| anyhow!("{error:#}; the {done} poses before it are in {}", output.path().display()))?;
+    finished
 }
 
 /// A run in work.
@@ -189,11 +225,15 @@ struct Run<'a> {
     plan: Plan,
     truth: Option<Truth>,
     journal: Journal,
+    /// The frames done; in real time the last of them, so that memory does not grow.
     frames: Vec<FrameResult>,
+    /// How many are done.
+    done: usize,
     stages: Stages,
     confidence: Confidence,
     /// The search for a lost person, where one is asked for.
     recovery: Option<Recovery>,
+    realtime: Option<Realtime>,
 }
 
 impl Run<'_> {
@@ -204,7 +244,7 @@ impl Run<'_> {
             let values: Vec<f64> = result.pose.iter().map(|value| f64::from(*value)).collect();
             self.plan.body.check_limits(&values).with_context(|| format!("{name}, frame {}", result.frame))?;
             self.judge(&result);
-            self.frames.push(result);
+            self.keep(result);
         }
         Ok(())
     }
@@ -217,9 +257,8 @@ impl Run<'_> {
             recovery.note(&result.pose, confidence.is_lost);
             is_gap = confidence.is_lost;
         }
-        let (body, fps) = (&self.plan.body, self.sequence.fps);
-        let truth = self.truth.as_mut().filter(|_| !is_gap);
-        (confidence.confidence, truth.and_then(|truth| truth.running_error(body, result.frame, &result.pose, fps)))
+        let error = if is_gap { None } else { self.running_error(result) };
+        (confidence.confidence, error)
     }
 
     fn journal_name(&self) -> String {
@@ -227,7 +266,33 @@ impl Run<'_> {
     }
 
     fn next_frame(&self) -> usize {
-        self.plan.range.start + self.frames.len()
+        self.frames.last().map_or(self.plan.range.start, |last| last.frame + 1)
+    }
+
+    fn keep(&mut self, result: FrameResult) {
+        if self.realtime.is_some() {
+            self.frames.clear();
+        }
+        self.frames.push(result);
+        self.done += 1;
+    }
+
+    /// Mean error against the truth up to and with this frame, mm.
+    fn running_error(&mut self, result: &FrameResult) -> Option<f64> {
+        let frame = self.realtime.as_ref().map_or(result.frame, |realtime| realtime.in_sequence(result.frame));
+        self.truth.as_mut()?.running_error(&self.plan.body, frame, &result.pose, self.sequence.fps)
+    }
+
+    /// Where the frames that are left come from.
+    fn feed(&self) -> Result<Box<dyn Frames>> {
+        let (sequence, next) = (self.sequence, self.next_frame());
+        Ok(match &self.realtime {
+            Some(realtime) => Box::new(realtime.feed(sequence, &self.plan, next)?),
+            None => {
+                let Plan { features, range, .. } = &self.plan;
+                Box::new(Feed::start(sequence, *features, range.clone(), next, self.settings.stall_timeout)?)
+            }
+        })
     }
 
     /// Searches the frames that are left, until the last or until asked to stop.
@@ -235,7 +300,7 @@ impl Run<'_> {
         if self.next_frame() >= self.plan.range.end {
             return Ok(());
         }
-        let mut feed = Feed::start(self.sequence, self.plan.features, self.plan.range.clone(), self.next_frame())?;
+        let mut feed = self.feed()?;
         loop {
             let start = Instant::now();
             let Some(prepared) = feed.next()? else { break };
@@ -251,11 +316,18 @@ impl Run<'_> {
                 overlay.write(self.output, frame, &prepared.pictures, &result.pose)?;
             }
             self.journal.append(&result)?;
+            if let Some(realtime) = &mut self.realtime {
+                realtime.deliver(&self.plan.body, &result, prepared.captured)?;
+            }
             self.stages.record("output", Thread::Search, frame, Span::since(start))?;
             let (confidence, mean_error) = self.judge(&result);
             let fitness = result.fitness;
-            self.frames.push(result);
-            progress.frame(&FrameDone { frame, done: self.frames.len(), fitness, confidence, mean_error });
+            self.keep(result);
+            if let Some(realtime) = &mut self.realtime {
+                realtime.judge(fitness, confidence);
+            }
+            let done = frame + 1 - self.plan.range.start;
+            progress.frame(&FrameDone { frame, done, fitness, confidence, mean_error });
             if progress.should_stop() {
                 break;
             }
@@ -269,7 +341,7 @@ impl Run<'_> {
         anyhow!(
             "frame {frame}: {lost}; the {} frames before it are safe in {}: run the same command with --resume to go on, or \
              begin another folder with --backend cpu, which needs no device",
-            self.frames.len(),
+            self.done,
             self.output.path().display()
         )
     }
@@ -278,9 +350,18 @@ impl Run<'_> {
     fn search(&mut self, prepared: &Prepared) -> Result<FrameResult> {
         let frame = prepared.index;
         let begin = Instant::now();
-        let spread = self.plan.spread(self.frames.is_empty())?;
+        let before = self.frames.last().map(|result| result.frame);
+        let turn = self.realtime.as_ref().map(|realtime| realtime.turn(prepared, before, self.sequence.fps));
+        let starts_anew = turn.map_or(before.is_none(), |turn| turn.starts_anew);
+        let mut spread = self.plan.spread(starts_anew)?;
+        if let Some(turn) = turn {
+            spread.iter_mut().for_each(|deviation| *deviation *= turn.widen);
+            let [particles, iterations] = turn.size;
+            self.plan.resize(particles, iterations)?;
+        }
         let Plan { start, objective, backend, search, space, body, .. } = &mut self.plan;
         let predicted = match &*self.frames {
+            _ if starts_anew => start.clone(),
             [] => start.clone(),
             [only] => only.pose.clone(),
             [.., earlier, last] => self.settings.predict.start(space, &last.pose, Some(&earlier.pose)),
@@ -288,7 +369,8 @@ impl Run<'_> {
         let evaluator = backend.evaluator.as_mut();
         let counter =
             u32::try_from(frame).map_err(|_| anyhow!("frame {frame} is beyond the counters of the search"))?;
-        let start = Start { frame: counter, centre: &predicted, spread: &spread };
+        let start =
+            Start { frame: counter, centre: &predicted, spread: &spread, until: turn.and_then(|turn| turn.until) };
         let observations = &prepared.observations;
         let in_frame = || format!("frame {frame}");
         let mut searched = search.search(evaluator, objective, observations, start).with_context(in_frame)?;
@@ -313,9 +395,12 @@ impl Run<'_> {
             searched.evaluations.push(Span::since(begin));
             found = result(&searched);
         }
-        let Searched { evaluations, passes, .. } = searched;
+        let Searched { estimate, evaluations, passes, .. } = searched;
 
         let whole = Span::since(begin);
+        if let Some(realtime) = &mut self.realtime {
+            realtime.searched(estimate.evaluations, whole);
+        }
         self.stages.trace("frame", Thread::Search, frame, whole)?;
         for evaluation in &evaluations {
             self.stages.trace("evaluate", Thread::Search, frame, *evaluation)?;
@@ -328,12 +413,16 @@ impl Run<'_> {
     }
 
     /// Writes the results, unless the run was stopped.
-    fn finish(self, record: &RunRecord, warnings: Vec<String>) -> Result<TrackSummary> {
+    fn finish(mut self, record: &RunRecord, warnings: Vec<String>) -> Result<TrackSummary> {
         let (sequence, output, body) = (self.sequence, self.output, &self.plan.body);
         let next = self.next_frame();
-        let stopped_before = (next < self.plan.range.end).then_some(next);
+        let stopped_before = (self.realtime.is_none() && next < self.plan.range.end).then_some(next);
+        if let Some(realtime) = &self.realtime {
+            let journal = output.path().join(Journal::NAME);
+            self.frames = realtime.frames(&journal, body, sequence.cameras.len(), self.done)?;
+        }
         let confidences = Confidence::of_all(body, LossRule::default(), &self.frames);
-        let held = Held::new(&self.frames, &confidences, self.settings.recover);
+        let held = Held::new(&self.frames, &confidences, self.recovery.is_some());
         let mut summary = TrackSummary {
             first_frame: self.plan.range.start,
             new_frames: 0,
@@ -345,6 +434,7 @@ impl Run<'_> {
             backend: [self.plan.backend.evaluator.name(), self.plan.backend.evaluator.variant()],
             warnings,
             stopped_before,
+            realtime: None,
             frames: self.frames,
         };
         let has_passes = self.stages.has_device_passes();
@@ -366,8 +456,10 @@ impl Run<'_> {
             return Ok(summary);
         }
         summary.warnings.extend(lost_sentence(&held.runs(), summary.frames.len()));
-        results::write(output, body, &sequence.cameras, &summary.frames, &confidences, &held, sequence.fps)?;
-        if let Some(truth) = &self.truth {
+        if !summary.frames.is_empty() {
+            results::write(output, body, &sequence.cameras, &summary.frames, &confidences, &held, sequence.fps)?;
+        }
+        if let (Some(truth), None) = (&self.truth, &self.realtime) {
             match truth.error(body, &held, sequence.fps) {
                 Ok(error) => summary.error = Some(ErrorSummary { compared: truth.compared.name(), error }),
                 Err(why) => summary.warnings.push(format!("{why:#}")),
@@ -384,6 +476,12 @@ impl Run<'_> {
                 });
                 Ok(serde_json::to_writer_pretty(writer, &object)?)
             })?;
+        }
+        if let Some(realtime) = &self.realtime {
+            [summary.mean_fitness, summary.mean_confidence] = realtime.means();
+            let (truth, warnings) = (self.truth.as_ref(), &mut summary.warnings);
+            summary.realtime = Some(realtime.finish(output, sequence, truth, warnings, self.done)?);
+            return Ok(summary);
         }
         write_report(output, sequence, body, &summary, &confidences, &held, self.truth.as_ref(), record.rows())?;
         Ok(summary)

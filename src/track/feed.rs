@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail, ensure};
 use image::RgbImage;
@@ -27,6 +27,17 @@ pub(super) struct Prepared {
     pub(super) read: Span,
     /// Making the features.
     pub(super) features: Span,
+    /// When it was captured, where it was just now.
+    pub(super) captured: Option<Instant>,
+}
+
+/// Where prepared frames come from.
+pub(super) trait Frames {
+    /// The next frame; `None` after the last.
+    ///
+    /// # Errors
+    /// What went wrong in another thread: a picture that cannot be read, say.
+    fn next(&mut self) -> Result<Option<Prepared>>;
 }
 
 /// The thread. Dropping it ends it.
@@ -48,13 +59,12 @@ impl Feed {
         settings: FeatureSettings,
         range: Range<usize>,
         from: usize,
+        stall_timeout: Duration,
     ) -> Result<Self> {
         let first_read = if learns_background(sequence, &range)? { 0 } else { from };
-        let plates = sequence.backgrounds()?;
-        let sources = plates.into_iter().zip(&sequence.sizes);
-        let sources = sources.map(|(plate, &[width, height])| ViewSource { width, height, plate }).collect();
-        let extractor = Extractor::new(settings, sources).with_context(|| sequence.path.display().to_string())?;
-        let reader = sequence.read_frames(first_read..range.end)?;
+        let extractor =
+            Extractor::new(settings, view_sources(sequence)?).with_context(|| sequence.path.display().to_string())?;
+        let reader = sequence.read_frames(first_read..range.end)?.with_stall_timeout(stall_timeout);
         let (sender, frames) = sync_channel(AHEAD);
         let mut worker = Worker { reader, extractor, features: Vec::new(), range, from };
         let thread = thread::Builder::new()
@@ -63,12 +73,10 @@ impl Feed {
             .context("cannot start the thread for the features")?;
         Ok(Self { frames: Some(frames), thread: Some(thread) })
     }
+}
 
-    /// The next frame; `None` after the last.
-    ///
-    /// # Errors
-    /// What went wrong in the thread: a picture that cannot be read, say.
-    pub(super) fn next(&mut self) -> Result<Option<Prepared>> {
+impl Frames for Feed {
+    fn next(&mut self) -> Result<Option<Prepared>> {
         let Some(frames) = &self.frames else { return Ok(None) };
         match frames.recv() {
             Ok(prepared) => prepared.map(Some),
@@ -91,6 +99,15 @@ impl Drop for Feed {
             let _ = thread.join();
         }
     }
+}
+
+/// What the features must know of each view.
+///
+/// # Errors
+/// When a plate cannot be read.
+pub(super) fn view_sources(sequence: &Sequence) -> Result<Vec<ViewSource>> {
+    let sources = sequence.backgrounds()?.into_iter().zip(&sequence.sizes);
+    Ok(sources.map(|(plate, &[width, height])| ViewSource { width, height, plate }).collect())
 }
 
 /// Whether a view's background must be learnt from the frames, having neither mask nor plate.
@@ -152,6 +169,7 @@ impl Worker {
                     pictures: frame.pictures,
                     read,
                     features,
+                    captured: None,
                 }));
             }
         }

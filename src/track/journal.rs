@@ -78,6 +78,15 @@ pub(super) fn checksum(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
+/// Which frames a journal holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Numbering {
+    /// Each from this one on.
+    EachFrom(usize),
+    /// Rising ones: real time leaves some out.
+    Rising,
+}
+
 /// The open journal of a run.
 #[derive(Debug)]
 pub(super) struct Journal {
@@ -95,12 +104,12 @@ impl Journal {
         Ok(Self { path: path.to_path_buf(), file })
     }
 
-    /// Opens the journal of an earlier run, which tracked from frame `first` on, and yields its frames. A last line that
+    /// Opens the journal of an earlier run and yields its frames. A last line that
     /// was not written whole is cut off; a missing file is an empty journal.
     ///
     /// # Errors
     /// When a line before the last is damaged, frames do not follow each other, or the file cannot be used.
-    pub(super) fn resume(path: &Path, first: usize, extent: Extent) -> Result<(Self, Vec<FrameResult>)> {
+    pub(super) fn resume(path: &Path, numbering: Numbering, extent: Extent) -> Result<(Self, Vec<FrameResult>)> {
         let cannot = || format!("cannot read {}", path.display());
         let mut file =
             OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path).with_context(cannot)?;
@@ -124,9 +133,19 @@ impl Journal {
                 );
                 break;
             };
-            let expected = first + results.len();
-            if result.frame != expected {
-                bail!("{}, line {number}: it is of frame {}, expected {expected}", path.display(), result.frame);
+            let frame = result.frame;
+            match (numbering, results.last()) {
+                (Numbering::EachFrom(first), _) if frame != first + results.len() => {
+                    bail!(
+                        "{}, line {number}: it is of frame {frame}, expected {}",
+                        path.display(),
+                        first + results.len()
+                    );
+                }
+                (Numbering::Rising, Some(before)) if frame <= before.frame => {
+                    bail!("{}, line {number}: it is of frame {frame}, after {}", path.display(), before.frame);
+                }
+                _ => {}
             }
             whole += line.len() as u64;
             results.push(result);
@@ -179,7 +198,7 @@ mod tests {
     #[test]
     fn every_bit_comes_back() {
         let (_folder, path) = written(4..9);
-        let (_, results) = Journal::resume(&path, 4, EXTENT).unwrap();
+        let (_, results) = Journal::resume(&path, Numbering::EachFrom(4), EXTENT).unwrap();
         let bits = |r: &FrameResult| -> Vec<u32> {
             r.pose.iter().chain(&r.spread).chain(r.views.as_flattened()).chain(&r.joints).map(|v| v.to_bits()).collect()
         };
@@ -195,7 +214,7 @@ mod tests {
         let all = std::fs::read(&path).unwrap();
         for length in 0..all.len() {
             std::fs::write(&path, &all[..length]).unwrap();
-            let (mut journal, results) = Journal::resume(&path, 0, EXTENT).unwrap();
+            let (mut journal, results) = Journal::resume(&path, Numbering::EachFrom(0), EXTENT).unwrap();
             let whole = all[..length].iter().filter(|byte| **byte == b'\n').count();
             assert_eq!(results.len(), whole, "cut at {length}");
             (results.len()..3).for_each(|frame| journal.append(&result(frame)).unwrap());
@@ -209,11 +228,21 @@ mod tests {
         let mut bytes = std::fs::read(&path).unwrap();
         bytes[12] ^= 1;
         std::fs::write(&path, &bytes).unwrap();
-        let error = Journal::resume(&path, 0, EXTENT).unwrap_err().to_string();
+        let error = Journal::resume(&path, Numbering::EachFrom(0), EXTENT).unwrap_err().to_string();
         assert!(error.contains("journal.txt, line 1: it is damaged"), "{error}");
         let (_folder, path) = written(2..3);
-        let error = Journal::resume(&path, 0, EXTENT).unwrap_err().to_string();
+        let error = Journal::resume(&path, Numbering::EachFrom(0), EXTENT).unwrap_err().to_string();
         assert!(error.contains("line 1: it is of frame 2, expected 0"), "{error}");
+        // Frames left out are no damage where they are expected; frames that go back are.
+        let (_folder, path) = written(0..3);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let lines: Vec<&str> = text.split_inclusive('\n').collect();
+        std::fs::write(&path, [lines[0], lines[2]].concat()).unwrap();
+        assert!(Journal::resume(&path, Numbering::EachFrom(0), EXTENT).is_err());
+        assert_eq!(Journal::resume(&path, Numbering::Rising, EXTENT).unwrap().1.len(), 2);
+        std::fs::write(&path, [lines[2], lines[1]].concat()).unwrap();
+        let error = Journal::resume(&path, Numbering::Rising, EXTENT).unwrap_err().to_string();
+        assert!(error.contains("line 2: it is of frame 1, after 2"), "{error}");
     }
 
     #[test]
@@ -232,7 +261,7 @@ mod tests {
             let folder = tempfile::tempdir().unwrap();
             let path = folder.path().join("j");
             std::fs::write(&path, bytes).unwrap();
-            let _ = Journal::resume(&path, 0, EXTENT);
+            let _ = Journal::resume(&path, Numbering::EachFrom(0), EXTENT);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Tracking: one frame in order (features, search, pose, confidence) and the drivers that take a sequence through it
 //! (SPEC A1, A8), with everything a track's folder holds (INTERFACES).
 //!
-//! [`track`] is the offline driver. [`score_poses`] scores given poses of one frame.
+//! [`track`] is the driver, offline and in real time. [`score_poses`] scores given poses of one frame.
 
 mod auto;
 mod backend;
@@ -10,6 +10,7 @@ mod driver;
 mod feed;
 mod fit;
 mod frame_range;
+mod histogram;
 mod hull;
 mod journal;
 mod model;
@@ -18,6 +19,7 @@ mod overlay;
 mod page;
 mod plan;
 mod prediction;
+mod realtime;
 mod recovery;
 mod results;
 mod run_record;
@@ -37,6 +39,7 @@ pub use journal::FrameResult;
 pub use model::Model;
 pub use objective_choice::ObjectiveChoice;
 pub use prediction::Prediction;
+pub use realtime::{Drops, LatencySummary, RealtimeSettings, RealtimeSummary, Repeat};
 pub use scoring::{ScoredFrame, Scores, score_poses, write_fitness};
 pub use settings::TrackSettings;
 pub use stages::StageSummary;

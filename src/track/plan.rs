@@ -12,7 +12,7 @@ use crate::body::{Body, Mesh, PoseTable};
 use crate::evaluate::Objective;
 use crate::features::FeatureSettings;
 use crate::gpu::Timing;
-use crate::search::SearchSpace;
+use crate::search::{SearchSettings, SearchSpace};
 use crate::sequence::Sequence;
 
 /// The time the start pose is taken to be old, s: a pose set by hand is no nearer than one of a video of 25 frames/s.
@@ -32,6 +32,8 @@ pub(super) struct Plan {
     pub(super) backend: BuiltBackend,
     pub(super) search: Searcher,
     pub(super) space: SearchSpace,
+    settings: SearchSettings,
+    timing: Timing,
     fps: f64,
     spread: f64,
 }
@@ -70,11 +72,23 @@ impl Plan {
             backend,
             search,
             space,
+            settings: settings.search,
+            timing,
             mesh,
             fps: sequence.fps,
             spread: settings.spread,
             body,
         })
+    }
+
+    /// Makes the search one of `particles` and `iterations`, when it is another yet.
+    pub(super) fn resize(&mut self, particles: usize, iterations: usize) -> Result<()> {
+        if [self.settings.particles, self.settings.iterations] != [particles, iterations] {
+            self.settings = SearchSettings { particles, iterations, ..self.settings };
+            let evaluator = self.backend.evaluator.as_mut();
+            self.search = Searcher::new(evaluator, &self.objective, &self.settings, &self.space, self.timing)?;
+        }
+        Ok(())
     }
 
     /// Standard deviation to start a frame's search with.

@@ -9,6 +9,7 @@ use anyhow::{Context, Result};
 use super::confidence::FrameConfidence;
 use super::journal::{FrameResult, Journal};
 use super::overlay;
+use super::realtime;
 use super::run_record;
 use crate::body::{Body, PoseTable, PoseWriter};
 use crate::files::{OutputFolder, Overwrite};
@@ -16,7 +17,7 @@ use crate::geometry::Camera;
 use crate::motion::{PointTrajectory, write_bvh, write_points};
 
 /// Everything a run writes but its overlays.
-const FILES: [&str; 11] = [
+const FILES: [&str; 13] = [
     "poses.csv",
     "joints.csv",
     "joints.trc",
@@ -26,6 +27,8 @@ const FILES: [&str; 11] = [
     "stages.json",
     "trace.json",
     "report.html",
+    realtime::SUMMARY,
+    realtime::TIMELINE,
     run_record::NAME,
     Journal::NAME,
 ];
@@ -95,7 +98,24 @@ impl Held {
     }
 }
 
-/// Writes poses.csv, joints.csv, joints.trc, markers.c3d, motion.bvh and confidence.csv.
+/// The table with every frame: one that was left out has the pose before it.
+fn every_frame(table: &PoseTable) -> PoseTable {
+    let mut all = PoseTable { frames: Vec::new(), poses: Vec::new() };
+    let Some(&first) = table.frames.first() else { return all };
+    for (&frame, pose) in table.frames.iter().zip(&table.poses) {
+        while let (Some(before), true) = (all.poses.last(), first + all.frames.len() < frame) {
+            let before = before.clone();
+            all.frames.push(first + all.frames.len());
+            all.poses.push(before);
+        }
+        all.frames.push(frame);
+        all.poses.push(pose.clone());
+    }
+    all
+}
+
+/// Writes poses.csv, joints.csv, joints.trc, markers.c3d, motion.bvh and confidence.csv. Frames that real time left out are
+/// gaps, but for BVH, which knows none: there the pose before is held.
 pub(super) fn write(
     output: &OutputFolder,
     body: &Body,
@@ -123,7 +143,7 @@ pub(super) fn write(
         let markers = held.with_gaps(body.marker_trajectory(table, fps)?);
         write_points(&output.file("markers.c3d")?, &markers, Overwrite::Replace)?;
     }
-    let motion = body.to_bvh(table, fps)?;
+    let motion = body.to_bvh(&every_frame(table), fps)?;
     output.write("motion.bvh", |writer| write_bvh(writer, &motion))?;
     output.write("confidence.csv", |writer| write_confidence(writer, body, cameras, results, confidences))
 }

@@ -103,7 +103,7 @@ fn run(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Table {
     let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
     let command = format!(
         "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-         --refine {} --predict {} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}",
+         --refine {} --predict {} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}",
         sequence.path.display(),
         plan.range.start,
         plan.range.end,
@@ -119,6 +119,7 @@ fn run(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Table {
         plan.backend.evaluator.name(),
         settings.model.name(),
         settings.overlay_every,
+        settings.realtime.as_ref().map(|realtime| realtime.flags()).unwrap_or_default(),
     );
     Table::from_iter([
         ("pantin".to_string(), Value::from(env!("CARGO_PKG_VERSION"))),
@@ -171,6 +172,11 @@ fn settings_table(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) ->
     put("backend", Value::from(plan.backend.evaluator.name()));
     put("model", Value::from(settings.model.name()));
     put("overlay_every", integer(settings.overlay_every as u64));
+    if let Some(realtime) = &settings.realtime {
+        put("rate", Value::from(realtime.rate));
+        put("loop", Value::from(realtime.repeat.to_string()));
+        put("deadline", Value::from(realtime.deadline.map_or_else(|| "none".to_string(), |time| format!("{time:?}"))));
+    }
     put("features", Value::Table(sequence.features.clone().unwrap_or_default()));
     table
 }
@@ -209,6 +215,7 @@ fn inputs(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Result<
 /// A source by its name and size, which tell a replaced one without reading it.
 fn described(source: &Source) -> Result<String> {
     match source {
+        Source::Live(live) => Ok(live.address.clone()),
         Source::Video(path) => {
             let size = fs::metadata(path).with_context(|| format!("cannot read {}", path.display()))?.len();
             let name = path.file_name().unwrap_or_default().to_string_lossy();

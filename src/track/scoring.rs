@@ -7,7 +7,7 @@ use anyhow::{Result, bail, ensure};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 
-use super::feed::Feed;
+use super::feed::{Feed, Frames};
 use super::overlay::file_stem;
 use super::plan::feature_settings;
 use super::{Backend, Model};
@@ -16,7 +16,7 @@ use crate::evaluate::{Components, Evaluator, Objective, Reference};
 use crate::features::Observation;
 use crate::files::OutputFolder;
 use crate::geometry::Camera;
-use crate::sequence::Sequence;
+use crate::sequence::{STALL_TIMEOUT, Sequence};
 
 /// Poses scored at once: enough to keep every worker busy, and a bound on the memory.
 const BATCH: usize = 4096;
@@ -43,7 +43,7 @@ impl ScoredFrame {
             sequence.path.display(),
             sequence.frame_count.saturating_sub(1)
         );
-        let mut feed = Feed::start(sequence, feature_settings(sequence)?, frame..frame + 1, frame)?;
+        let mut feed = Feed::start(sequence, feature_settings(sequence)?, frame..frame + 1, frame, STALL_TIMEOUT)?;
         let Some(prepared) = feed.next()? else {
             bail!("{} ended before frame {frame}", sequence.path.display());
         };

@@ -47,6 +47,9 @@ impl OnDevice {
     }
 }
 
+/// Iterations of a frame that are done however late it is.
+const FEWEST_ITERATIONS: usize = 2;
+
 /// Where a frame's search starts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Start<'a> {
@@ -56,6 +59,9 @@ pub(super) struct Start<'a> {
     pub(super) centre: &'a [f32],
     /// Standard deviation of the change since.
     pub(super) spread: &'a [f32],
+    /// When to be done: an iteration that would take longer is left out. A search on a device is one piece and takes no
+    /// notice.
+    pub(super) until: Option<Instant>,
 }
 
 /// A frame's result.
@@ -108,19 +114,30 @@ impl Searcher {
         observations: &[Observation],
         start: Start<'_>,
     ) -> Result<Searched> {
-        let Start { frame, centre, spread } = start;
+        let Start { frame, centre, spread, until } = start;
         evaluator.observe(observations)?;
         match self {
             Self::Host(search) => {
                 let mut evaluations = Vec::with_capacity(search.iterations() + 1);
                 let mut passes = Vec::new();
-                let estimate = search.search_frame(frame, centre, spread, &mut |poses, fitness| {
+                let fitness = &mut |poses: &[f32], fitness: &mut [f32]| {
                     let begin = Instant::now();
                     evaluator.fitness(poses, objective, fitness)?;
                     evaluations.push(Span::since(begin));
                     passes.extend(evaluator.device_passes());
                     Ok(())
-                })?;
+                };
+                search.start_frame(frame, centre, spread)?;
+                for done in 0..search.iterations() {
+                    let begin = Instant::now();
+                    search.iterate(fitness)?;
+                    if until.is_some_and(|until| Instant::now() + begin.elapsed() > until)
+                        && done + 1 >= FEWEST_ITERATIONS
+                    {
+                        break;
+                    }
+                }
+                let estimate = search.estimate(fitness)?;
                 let mut components = vec![Components::default(); evaluator.view_count()];
                 evaluator.components(&estimate.pose, &mut components)?;
                 passes.extend(evaluator.device_passes());
@@ -148,7 +165,7 @@ impl OnDevice {
         evaluator: &mut dyn Evaluator,
         objective: &Objective,
         observations: &[Observation],
-        Start { frame, centre, spread }: Start<'_>,
+        Start { frame, centre, spread, .. }: Start<'_>,
     ) -> Result<Searched> {
         let begin = Instant::now();
         let [before, after] = &self.estimated;

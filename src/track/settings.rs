@@ -1,11 +1,13 @@
 //! Everything a run is asked for.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use anyhow::{Result, ensure};
 
-use super::{Backend, FrameRange, Model, ObjectiveChoice, Prediction};
-use crate::search::SearchSettings;
+use super::{Backend, FrameRange, Model, ObjectiveChoice, Prediction, RealtimeSettings};
+use crate::search::{SearchKind, SearchSettings};
+use crate::sequence::STALL_TIMEOUT;
 
 /// How a sequence is tracked.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +37,10 @@ pub struct TrackSettings {
     pub trace: bool,
     /// Go on with the run that the output folder holds.
     pub resume: bool,
+    /// How long a view may take for a picture.
+    pub stall_timeout: Duration,
+    /// Keep time with the pictures, and leave out what comes too fast.
+    pub realtime: Option<RealtimeSettings>,
 }
 
 impl Default for TrackSettings {
@@ -52,6 +58,8 @@ impl Default for TrackSettings {
             overlay_every: 10,
             trace: false,
             resume: false,
+            stall_timeout: STALL_TIMEOUT,
+            realtime: None,
         }
     }
 }
@@ -68,6 +76,16 @@ impl TrackSettings {
             "the search {} carries its samples from frame to frame and starts from no predicted pose, expected --predict none",
             self.search.kind.name()
         );
+        let stall = self.stall_timeout.as_secs_f64();
+        ensure!((0.1..=86_400.0).contains(&stall), "the stall time-out is {stall} s, expected 0.1 to 86400");
+        if let Some(realtime) = &self.realtime {
+            realtime.check()?;
+            ensure!(
+                realtime.deadline.is_none() || self.search.kind == SearchKind::Pso,
+                "a deadline changes the number of poses from frame to frame, which --search {} cannot: expected pso",
+                self.search.kind.name()
+            );
+        }
         self.search.check()
     }
 }

@@ -10,12 +10,11 @@ use anyhow::{Context, Result};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::histogram::Histogram;
 use crate::gpu::DevicePass;
 
-/// Ratio of the borders of a histogram's bucket: the median is known to half a per cent.
-const BUCKET: f64 = 1.01;
-/// Buckets from a nanosecond to over a day.
-const BUCKETS: usize = 3300;
+/// Events that a trace holds at most, some 60 MB: what comes later is counted and not traced.
+const MOST_EVENTS: usize = 500_000;
 
 /// When something ran.
 #[derive(Clone, Copy, Debug)]
@@ -53,29 +52,19 @@ pub struct StageSummary {
 #[derive(Debug)]
 struct Stage {
     name: Cow<'static, str>,
-    count: u64,
-    total: Duration,
-    min: Duration,
-    max: Duration,
-    histogram: Vec<u64>,
+    times: Histogram,
 }
 
 impl Stage {
     fn summary(&self) -> StageSummary {
-        let ms = |time: Duration| time.as_secs_f64() * 1e3;
-        let mut seen = 0;
-        let middle = self.histogram.iter().position(|count| {
-            seen += count;
-            2 * seen >= self.count
-        });
-        let middle = BUCKET.powf(middle.unwrap_or(0) as f64 + 0.5) * 1e-6;
+        let times = &self.times;
         StageSummary {
             name: self.name.to_string(),
-            count: self.count,
-            total: ms(self.total),
-            median: middle.clamp(ms(self.min), ms(self.max)),
-            min: ms(self.min),
-            max: ms(self.max),
+            count: times.count(),
+            total: times.total(),
+            median: times.quantile(0.5),
+            min: times.quantile(0.0),
+            max: times.quantile(1.0),
         }
     }
 }
@@ -87,7 +76,7 @@ pub(super) struct Stages {
     zero: Instant,
     trace: BufWriter<File>,
     trace_path: PathBuf,
-    is_first_event: bool,
+    events: usize,
     has_device: bool,
 }
 
@@ -114,14 +103,7 @@ impl Stages {
         trace
             .write_all(b"{\"displayTimeUnit\":\"ms\",\"traceEvents\":[")
             .with_context(|| format!("cannot write {}", temporary.display()))?;
-        Ok(Self {
-            stages: Vec::new(),
-            zero: Instant::now(),
-            trace,
-            trace_path,
-            is_first_event: true,
-            has_device: false,
-        })
+        Ok(Self { stages: Vec::new(), zero: Instant::now(), trace, trace_path, events: 0, has_device: false })
     }
 
     /// Counts a time for a stage.
@@ -130,24 +112,11 @@ impl Stages {
         let index = match self.stages.iter().position(|stage| stage.name == name) {
             Some(index) => index,
             None => {
-                self.stages.push(Stage {
-                    name,
-                    count: 0,
-                    total: Duration::ZERO,
-                    min: Duration::MAX,
-                    max: Duration::ZERO,
-                    histogram: vec![0; BUCKETS],
-                });
+                self.stages.push(Stage { name, times: Histogram::default() });
                 self.stages.len() - 1
             }
         };
-        let stage = &mut self.stages[index];
-        stage.count += 1;
-        stage.total += time;
-        stage.min = stage.min.min(time);
-        stage.max = stage.max.max(time);
-        let bucket = (time.as_nanos().max(1) as f64).ln() / BUCKET.ln();
-        stage.histogram[(bucket as usize).min(BUCKETS - 1)] += 1;
+        self.stages[index].times.add(time);
     }
 
     /// Puts an event on the time-line.
@@ -184,6 +153,9 @@ impl Stages {
     }
 
     fn event(&mut self, name: &str, process: u32, thread: u32, span: Span, arguments: &Value) -> Result<()> {
+        if self.events >= MOST_EVENTS {
+            return Ok(());
+        }
         let start = span.start.saturating_duration_since(self.zero).as_secs_f64() * 1e6;
         let time = span.time.as_secs_f64() * 1e6;
         self.comma()?;
@@ -198,8 +170,8 @@ impl Stages {
 
     /// What stands before an event.
     fn comma(&mut self) -> Result<()> {
-        let comma = if self.is_first_event { "\n" } else { ",\n" };
-        self.is_first_event = false;
+        let comma = if self.events == 0 { "\n" } else { ",\n" };
+        self.events += 1;
         let written = self.trace.write_all(comma.as_bytes());
         written.with_context(|| format!("cannot write {}", temporary(&self.trace_path).display()))
     }

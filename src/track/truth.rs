@@ -93,6 +93,11 @@ impl Truth {
         if let Some(error) = error {
             self.running = (self.running.0 + error, self.running.1 + 1);
         }
+        self.mean_error()
+    }
+
+    /// The mean over the frames taken in, mm.
+    pub(super) fn mean_error(&self) -> Option<f64> {
         (self.running.1 > 0).then(|| self.running.0 / self.running.1 as f64)
     }
 }

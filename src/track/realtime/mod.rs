@@ -1,0 +1,224 @@
+//! Tracking in real time (SPEC A11): acquisition, processing (a worker a view) and tracking in threads of their own. Between
+//! two modules there is room for one set, and the newest wins: what is older is passed over and counted, so nothing queues up.
+//! The driver is that of a run without a clock; this room gives it its frames, its budget and the account of its times.
+
+mod budget;
+mod feed;
+mod processing;
+mod rounds;
+mod rows;
+mod settings;
+mod slot;
+mod tally;
+mod timeline;
+
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use anyhow::{Result, ensure};
+
+use budget::{Budget, Size};
+use feed::{Input, RealtimeFeed};
+use rounds::Rounds;
+use rows::Rows;
+pub use settings::{RealtimeSettings, Repeat};
+use tally::{Counts, Tally};
+pub use tally::{Drops, LatencySummary, RealtimeSummary};
+use timeline::{Row, Timeline};
+
+use super::TrackSettings;
+use super::feed::Prepared;
+use super::journal::{Extent, FrameResult, Journal, Numbering};
+use super::plan::Plan;
+use super::stages::Span;
+use super::truth::Truth;
+use crate::body::Body;
+use crate::files::OutputFolder;
+use crate::sequence::Sequence;
+
+/// The account of a run, in a track's folder.
+pub(super) const SUMMARY: &str = "realtime.json";
+/// The picture of its last moments.
+pub(super) const TIMELINE: &str = "timeline.svg";
+/// The longest time that the start of a search is widened for, s: by then the person may be anywhere within a step.
+const LONGEST_AGE: f64 = 0.5;
+/// Frames of which all result files are made; a longer run keeps its rows and its journal, and memory stays flat.
+const LONGEST_RUN: u64 = 50_000;
+
+/// A run's real time.
+pub(super) struct Realtime {
+    settings: RealtimeSettings,
+    stall_timeout: Duration,
+    rounds: Rounds,
+    budget: Budget,
+    tally: Tally,
+    counts: Arc<Counts>,
+    timeline: Arc<Timeline>,
+    rows: Rows,
+    /// The search of the frame in work and the time after it.
+    searched: Option<(Span, Instant)>,
+}
+
+/// How a frame is to be searched.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turn {
+    /// Whether it has nothing to do with the frame before: a loop has begun again.
+    pub(super) starts_anew: bool,
+    /// Factor on the width of the start: frame times since the frame before.
+    pub(super) widen: f32,
+    /// Particles and iterations.
+    pub(super) size: [usize; 2],
+    /// When to be done.
+    pub(super) until: Option<Instant>,
+}
+
+impl Realtime {
+    /// For the frames of `range`, to the end of which a run of many rounds is moved; `done` are the frames of an earlier run.
+    ///
+    /// # Errors
+    /// When there are more frames than can be counted, or the rows cannot be written.
+    pub(super) fn new(
+        sequence: &Sequence,
+        settings: &TrackSettings,
+        realtime: &RealtimeSettings,
+        output: &OutputFolder,
+        body: &Body,
+        range: &mut Range<usize>,
+        done: &[FrameResult],
+    ) -> Result<Self> {
+        let rounds = Rounds::of(range.clone());
+        if !sequence.is_live() {
+            let frames = realtime.repeat.frames(range.len(), sequence.fps * realtime.rate);
+            let end = range.start.saturating_add(frames);
+            ensure!(u32::try_from(end).is_ok(), "{end} frames are too many to count, expected a shorter --loop");
+            range.end = end;
+        }
+        let asked = Size { particles: settings.search.particles, iterations: settings.search.iterations };
+        Ok(Self {
+            settings: realtime.clone(),
+            stall_timeout: settings.stall_timeout,
+            rounds,
+            budget: Budget::new(asked, realtime.deadline),
+            tally: Tally::default(),
+            counts: Arc::default(),
+            timeline: Arc::default(),
+            rows: Rows::create(output, body, sequence.fps, done)?,
+            searched: None,
+        })
+    }
+
+    /// Starts the threads in front of the tracker.
+    ///
+    /// # Errors
+    /// As [`RealtimeFeed::start`].
+    pub(super) fn feed(&self, sequence: &Sequence, plan: &Plan, from: usize) -> Result<RealtimeFeed> {
+        let rate = if sequence.is_live() { 1.0 } else { self.settings.rate };
+        let input = Input {
+            range: self.rounds.range(),
+            frames: plan.range.len(),
+            from,
+            fps: sequence.fps * rate,
+            stall_timeout: self.stall_timeout,
+        };
+        RealtimeFeed::start(sequence, plan.features, &input, &self.counts, &self.timeline)
+    }
+
+    /// How to search a frame after the frame `before`.
+    pub(super) fn turn(&self, prepared: &Prepared, before: Option<usize>, fps: f64) -> Turn {
+        let frame = prepared.index;
+        let before = before.filter(|before| self.rounds.are_together(*before, frame));
+        let age = before.map_or_else(|| self.rounds.since_start(frame), |before| frame - before);
+        let longest = (LONGEST_AGE * fps).max(1.0);
+        let now = Instant::now();
+        let captured = prepared.captured.unwrap_or(now);
+        let Size { particles, iterations } = self.budget.size(captured, now);
+        Turn {
+            starts_anew: before.is_none(),
+            widen: (age as f64).min(longest) as f32,
+            size: [particles, iterations],
+            until: if self.tally.poses() > 0 { self.budget.until(captured) } else { None },
+        }
+    }
+
+    /// Takes note of a search.
+    pub(super) fn searched(&mut self, evaluations: usize, whole: Span) {
+        self.budget.searched(evaluations, whole.time);
+        self.tally.searched(evaluations);
+        self.searched = Some((whole, Instant::now()));
+    }
+
+    /// Writes the pose out; its age is taken then.
+    ///
+    /// # Errors
+    /// When the rows cannot be written.
+    pub(super) fn deliver(&mut self, body: &Body, result: &FrameResult, captured: Option<Instant>) -> Result<()> {
+        self.rows.append(body, result)?;
+        if let (Some((span, after)), Some(captured)) = (self.searched.take(), captured) {
+            self.tally.deliver(captured, self.settings.deadline);
+            self.budget.delivered(after.elapsed());
+            self.timeline.worked(Row::Tracking, result.frame, Span::since(span.start));
+        }
+        Ok(())
+    }
+
+    /// Takes note of how good a pose is.
+    pub(super) fn judge(&mut self, fitness: f32, confidence: f64) {
+        self.tally.fitness += f64::from(fitness);
+        self.tally.confidence += confidence;
+    }
+
+    /// Means of fitness and confidence over the run.
+    pub(super) fn means(&self) -> [f64; 2] {
+        let count = self.tally.poses().max(1) as f64;
+        [self.tally.fitness / count, self.tally.confidence / count]
+    }
+
+    /// A frame of the run as the truth counts it.
+    pub(super) fn in_sequence(&self, frame: usize) -> usize {
+        self.rounds.in_sequence(frame)
+    }
+
+    /// Every frame of the run, from its journal; none of a run that is too long to be kept in memory.
+    ///
+    /// # Errors
+    /// When the journal cannot be read.
+    pub(super) fn frames(&self, journal: &Path, body: &Body, views: usize, done: usize) -> Result<Vec<FrameResult>> {
+        if done as u64 > LONGEST_RUN {
+            return Ok(Vec::new());
+        }
+        let extent = Extent { dofs: body.dof_count(), views, joints: body.joint_names().len() };
+        Ok(Journal::resume(journal, Numbering::Rising, extent)?.1)
+    }
+
+    /// Writes realtime.json and the time-line, if this run did anything.
+    ///
+    /// # Errors
+    /// When they cannot be written.
+    pub(super) fn finish(
+        &self,
+        output: &OutputFolder,
+        sequence: &Sequence,
+        truth: Option<&Truth>,
+        warnings: &mut Vec<String>,
+        done: usize,
+    ) -> Result<RealtimeSummary> {
+        let summary = self.tally.summary(&self.counts, &self.settings, truth.and_then(Truth::mean_error));
+        warnings.extend(summary.ended.clone());
+        if done as u64 > LONGEST_RUN {
+            warnings.push(format!(
+                "the run has more than {LONGEST_RUN} poses, so poses.csv and joints.csv are all there is: `pantin convert` makes \
+                 the other formats"
+            ));
+        }
+        if summary.poses > 0 {
+            output.write(SUMMARY, |writer| Ok(serde_json::to_writer_pretty(writer, &summary)?))?;
+            let cameras: Vec<String> = sequence.cameras.iter().map(|camera| camera.name.clone()).collect();
+            let fps = sequence.fps * if sequence.is_live() { 1.0 } else { self.settings.rate };
+            let svg = self.timeline.draw(&cameras, fps, self.settings.deadline)?;
+            output.write(TIMELINE, |writer| Ok(writer.write_all(svg.as_bytes())?))?;
+        }
+        Ok(summary)
+    }
+}
