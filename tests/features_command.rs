@@ -99,6 +99,32 @@ fn pictures_of_every_stage_are_written() {
     assert!(pantin(&[&arguments[..], &["--force"]].concat()).0);
 }
 
+/// Head and hands by skin, the rest by position, with every other stage chosen anew.
+#[test]
+fn body_parts_and_other_operators_are_written() {
+    let folder = tempfile::tempdir().unwrap();
+    write_sequence(
+        folder.path(),
+        "[features]\nedges = { operator = \"laplace8\", threshold = 60 }\ndistance = { metric = \"euclidean\" }\n\
+         proximity = { normalisation = \"exponential\", d_max = 30, n_range = 0.9 }\n\
+         [[features.segment]]\nname = \"top\"\nlabels = [1, 2]\nweight = 0.5\ncue = \"skin\"\nwithin = [0, 0, 1, 0.25]\n\
+         [[features.segment]]\nname = \"rest\"\nlabels = [3]\nweight = 0.5\ncue = \"position\"\n",
+    );
+    let manifest = folder.path().join("sequence.toml").display().to_string();
+    let out = folder.path().join("out");
+    let arguments = ["features", &manifest, "--frames", "1..2", "-o", &out.display().to_string()];
+    let (done, messages) = pantin(&arguments);
+    assert!(done, "{messages}");
+    let segments = image::open(out.join("right/segments_000001.png")).unwrap().to_rgb8();
+    let colours = |rows: std::ops::Range<u32>| {
+        let mut colours: Vec<[u8; 3]> = rows.map(|y| segments.get_pixel(30, y).0).collect();
+        colours.dedup();
+        colours
+    };
+    let (top, rest) = (colours(10..20), colours(20..50));
+    assert!(top.len() == 1 && rest.len() == 1 && top != rest && colours(0..10) == [[0; 3]], "{top:?}, {rest:?}");
+}
+
 #[test]
 fn what_is_wrong_is_named() {
     let folder = tempfile::tempdir().unwrap();

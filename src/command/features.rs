@@ -7,6 +7,7 @@ use image::codecs::png::PngEncoder;
 use rayon::prelude::*;
 
 use super::progress::Progress;
+use crate::body::Body;
 use crate::features::{Extractor, FeatureSettings, ViewSource};
 use crate::files::{OutputFolder, Overwrite};
 use crate::sequence::Sequence;
@@ -15,7 +16,7 @@ use crate::track::FrameRange;
 /// Writes silhouettes, edges, distance maps and packed observations as PNG.
 ///
 /// For every frame and camera, CAMERA/STAGE_NNNNNN.png with the stages input, foreground, silhouette, edges, distance,
-/// proximity, observation and region, and frame_NNNNNN/CAMERA.png, the packed observations of a frame in one folder
+/// proximity, observation and region (and segments, where the sequence has [[features.segment]]), and frame_NNNNNN/CAMERA.png, the packed observations of a frame in one folder
 /// as `evaluate --observations` reads them.
 #[derive(clap::Args, Debug)]
 pub struct FeaturesArgs {
@@ -40,10 +41,15 @@ pub fn run(args: &FeaturesArgs) -> Result<()> {
     let sequence = Sequence::open(&args.sequence)?;
     let frames = args.frames.within(sequence.frame_count, &sequence.path.display().to_string())?;
     let name = args.sequence.display().to_string();
-    let settings = match &sequence.features {
+    let mut settings = match &sequence.features {
         Some(table) => FeatureSettings::from_table(table, &name)?,
         None => FeatureSettings::default(),
     };
+    if settings.segment.iter().any(|segment| !segment.parts.is_empty()) {
+        let body = Body::load(&sequence.body)?;
+        let parts: Vec<_> = body.parts.iter().map(|part| (part.name.as_str(), part.label)).collect();
+        settings.take_labels(&parts).with_context(|| name.clone())?;
+    }
     let views = sequence
         .sizes
         .iter()

@@ -216,7 +216,8 @@ impl Run<'_> {
         if self.next_frame() >= self.plan.range.end {
             return Ok(());
         }
-        let mut feed = Feed::start(self.sequence, self.plan.features, self.plan.range.clone(), self.next_frame())?;
+        let mut feed =
+            Feed::start(self.sequence, self.plan.features.clone(), self.plan.range.clone(), self.next_frame())?;
         loop {
             let start = Instant::now();
             let Some(prepared) = feed.next()? else { break };
