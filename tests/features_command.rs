@@ -99,9 +99,9 @@ fn pictures_of_every_stage_are_written() {
     assert!(pantin(&[&arguments[..], &["--force"]].concat()).0);
 }
 
-/// Head and hands by skin, the rest by position, with every other stage chosen anew.
+/// Head and hands by skin, the rest by position, with every other stage chosen anew; on a device the same files.
 #[test]
-fn body_parts_and_other_operators_are_written() {
+fn body_parts_and_other_operators_are_written_and_a_device_agrees() {
     let folder = tempfile::tempdir().unwrap();
     write_sequence(
         folder.path(),
@@ -123,6 +123,21 @@ fn body_parts_and_other_operators_are_written() {
     };
     let (top, rest) = (colours(10..20), colours(20..50));
     assert!(top.len() == 1 && rest.len() == 1 && top != rest && colours(0..10) == [[0; 3]], "{top:?}, {rest:?}");
+
+    if let Err(error) = pantin::gpu::Instance::open(pantin::gpu::Validation::Off) {
+        assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
+        println!("SKIPPED the device: {error:#}");
+        return;
+    }
+    let device = folder.path().join("device");
+    let (done, messages) = pantin(&[&arguments[..5], &[&device.display().to_string(), "--backend", "device"]].concat());
+    assert!(done, "{messages}");
+    for camera in ["left", "right"] {
+        for stage in ["edges", "distance", "proximity", "observation", "segments"] {
+            let name = format!("{camera}/{stage}_000001.png");
+            assert_eq!(fs::read(out.join(&name)).unwrap(), fs::read(device.join(&name)).unwrap(), "{name}");
+        }
+    }
 }
 
 #[test]

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::progress::Progress;
 use crate::body::Body;
+use crate::evaluate::vulkan::open_device;
 use crate::features::{Extractor, FeatureSettings, ViewSource};
 use crate::files::{OutputFolder, Overwrite};
 use crate::sequence::Sequence;
@@ -28,9 +29,19 @@ pub struct FeaturesArgs {
     /// The folder to write into
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    /// What makes the features: the processor, or from the silhouettes on a Vulkan device, to the same bits
+    #[arg(long, value_enum, default_value_t = FeatureBackend::Cpu)]
+    backend: FeatureBackend,
     /// Write into a folder that is not empty, replacing its files
     #[arg(long)]
     force: bool,
+}
+
+/// Where features are made.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+enum FeatureBackend {
+    Cpu,
+    Device,
 }
 
 /// Runs the command.
@@ -56,7 +67,11 @@ pub fn run(args: &FeaturesArgs) -> Result<()> {
         .zip(sequence.backgrounds()?)
         .map(|(&[width, height], plate)| ViewSource { width, height, plate })
         .collect();
-    let mut extractor = Extractor::new(settings, views).with_context(|| name.clone())?;
+    let extractor = match args.backend {
+        FeatureBackend::Cpu => Extractor::new(settings, views),
+        FeatureBackend::Device => Extractor::on_device(settings, views, &open_device()?),
+    };
+    let mut extractor = extractor.with_context(|| name.clone())?;
     let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;
 
     // A background that is learnt needs the frames before the first one wanted.

@@ -4,11 +4,13 @@ use anyhow::{Result, bail};
 use image::{GrayImage, RgbImage};
 use rayon::prelude::*;
 
+use super::device::DeviceChain;
 use super::edges::EdgeDetector;
 use super::foreground::Foreground;
 use super::morphology::Morphology;
 use super::segment::Segmenter;
 use super::{BitImage, DistanceMap, FeatureSettings, Observation, Region};
+use crate::gpu::Device;
 
 /// Larger working pictures are a mistake in the scale, and their memory would be too.
 const LARGEST_SIDE: u32 = 16384;
@@ -75,6 +77,8 @@ pub struct Extractor {
     proximity: Vec<u8>,
     segmenter: Option<Segmenter>,
     views: Vec<View>,
+    /// Where edges, distances and packing are done by a device.
+    device: Option<DeviceChain>,
 }
 
 impl Extractor {
@@ -95,7 +99,18 @@ impl Extractor {
             .collect::<Result<_>>()?;
         let proximity = settings.proximity.table(settings.distance.metric);
         let segmenter = Segmenter::new(&settings.segment)?;
-        Ok(Self { settings, proximity, segmenter, views })
+        Ok(Self { settings, proximity, segmenter, views, device: None })
+    }
+
+    /// As [`Self::new`], with all that follows the silhouette done by a Vulkan device: the same features, bit by bit.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; when the edge operator is Canny's, which only the processor does; when the device fails.
+    pub fn on_device(settings: FeatureSettings, views: Vec<ViewSource>, device: &Device) -> Result<Self> {
+        let mut extractor = Self::new(settings, views)?;
+        let sizes: Vec<_> = extractor.views.iter().map(|view| [view.width, view.height]).collect();
+        extractor.device = Some(DeviceChain::new(device, &sizes, &extractor.settings, &extractor.proximity)?);
+        Ok(extractor)
     }
 
     /// The settings in use.
@@ -146,12 +161,17 @@ impl Extractor {
                 None => features.push(ViewFeatures::empty(view.width, view.height)),
             }
         }
-        let (settings, proximity) = (&self.settings, &self.proximity);
+        let (settings, proximity, on_device) = (&self.settings, &self.proximity, self.device.is_some());
         let views = self.views.par_iter_mut().zip(pictures).zip(masks).zip(features.par_iter_mut());
         views.for_each(|(((view, picture), mask), features)| {
             view.find_silhouette(picture, mask.as_ref(), settings, features);
-            view.find_edges(picture, settings, proximity, features);
+            if !on_device {
+                view.find_edges(picture, settings, proximity, features);
+            }
         });
+        if let Some(device) = &mut self.device {
+            device.run(pictures, features)?;
+        }
         let Some(segmenter) = &self.segmenter else {
             features.iter_mut().for_each(|features| features.observation.segmentation = None);
             return Ok(());

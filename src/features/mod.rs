@@ -1,10 +1,12 @@
 //! From pictures to packed observations (SPEC A5).
 //!
 //! One file a stage, in the order of the data: [`plate`] or [`mixture`] (with [`shadow`]) → [`morphology`] and [`blobs`]
-//! → [`edges`] → [`distance`] → [`proximity`] → [`Observation`]. [`Extractor`] runs them all, one view a task.
+//! → [`edges`] → [`distance`] → [`proximity`] → [`Observation`]. [`Extractor`] runs them all, one view a task; from the silhouette on
+//! a Vulkan device can do the same.
 
 mod bit_image;
 pub mod blobs;
+mod device;
 pub mod distance;
 pub mod edges;
 mod extractor;
@@ -21,6 +23,7 @@ mod segment;
 mod segmentation;
 mod settings;
 pub mod shadow;
+mod stages;
 
 pub use bit_image::BitImage;
 pub use distance::{DistanceMap, Metric};

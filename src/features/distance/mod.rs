@@ -92,6 +92,21 @@ impl DistanceMap {
         image
     }
 
+    /// Takes a map that was measured elsewhere: a code for each of `width * height` pixels.
+    pub(super) fn take_codes(&mut self, [width, height]: [u32; 2], metric: Metric, limit: u8, codes: &[u32]) {
+        (self.width, self.height, self.limit, self.metric) = (width, height, limit, metric);
+        match metric {
+            Metric::Chessboard | Metric::CityBlock => {
+                self.bytes.clear();
+                self.bytes.extend(codes.iter().map(|&code| code as u8));
+            }
+            Metric::Euclidean | Metric::QuasiEuclidean => {
+                self.codes.clear();
+                self.codes.extend_from_slice(codes);
+            }
+        }
+    }
+
     /// Measures `min(distance to the nearest pixel of edges, limit)` for every pixel; everywhere `limit` when there is
     /// no edge. The time is linear in the pixels nearer than the limit to the edges' bounding box.
     pub fn measure(&mut self, edges: &BitImage, metric: Metric, limit: u8) {
