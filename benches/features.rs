@@ -1,5 +1,5 @@
-//! The stages of `pantin::features`, ids as their files are named: one view of 480 x 270 pixels each, and the whole
-//! extractor with four.
+//! The stages of `pantin::features`, ids as their files are named: one view of 640 x 480 pixels each; and the whole extractor
+//! with four such views, with every edge operator and metric, and with one view of 1920 x 1080.
 #![allow(missing_docs, reason = "criterion_group! makes an undocumented function")]
 
 use std::hint::black_box;
@@ -12,21 +12,23 @@ use pantin::features::mixture::Mixture;
 use pantin::features::morphology::{Element, Morphology};
 use pantin::features::plate::Plate;
 use pantin::features::{
-    BitImage, DistanceMap, Extractor, FeatureSettings, Magnitude, Region, Shape, ViewFeatures, ViewSource,
+    BitImage, DistanceMap, EdgeSettings, Extractor, FeatureSettings, Metric, Operator, Shape, ViewFeatures, ViewSource,
 };
 
-const WIDTH: u32 = 480;
-const HEIGHT: u32 = 270;
+const WIDTH: u32 = 640;
+const HEIGHT: u32 = 480;
 
-fn room() -> RgbImage {
-    RgbImage::from_fn(WIDTH, HEIGHT, |x, y| {
+fn room(width: u32, height: u32) -> RgbImage {
+    RgbImage::from_fn(width, height, |x, y| {
         let noise = (x.wrapping_mul(2_654_435_761) ^ y.wrapping_mul(2_246_822_519)) >> 28;
-        Rgb([(80 + x / 8 % 90 + noise) as u8, (90 + y / 4 + noise) as u8, ((x / 20 + y / 15) % 2 * 60 + 70) as u8])
+        Rgb([(80 + x / 8 % 90 + noise) as u8, (90 + y / 4 % 70 + noise) as u8, ((x / 20 + y / 15) % 2 * 60 + 70) as u8])
     })
 }
 
-/// Head, trunk, arms and legs, 150 pixels tall.
-fn person(x: u32, y: u32) -> bool {
+/// Head, trunk, arms and legs, six tenths of the picture's height.
+fn person(x: u32, y: u32, width: u32, height: u32) -> bool {
+    // In a picture 270 pixels high.
+    let (x, y) = ((x * 270 / height + 240).saturating_sub(width * 135 / height), y * 270 / height);
     let (dx, dy) = (x.abs_diff(240), y.abs_diff(75));
     dx * dx + dy * dy < 120
         || (86..140).contains(&y) && dx < 16
@@ -34,10 +36,10 @@ fn person(x: u32, y: u32) -> bool {
         || (140..220).contains(&y) && (3..13).contains(&dx)
 }
 
-fn picture() -> RgbImage {
-    let mut picture = room();
+fn picture(width: u32, height: u32) -> RgbImage {
+    let mut picture = room(width, height);
     for (x, y, pixel) in picture.enumerate_pixels_mut() {
-        if person(x, y) {
+        if person(x, y, width, height) {
             *pixel = Rgb([210, (150 + y % 17) as u8, 120]);
         }
     }
@@ -46,8 +48,8 @@ fn picture() -> RgbImage {
 
 fn stages(criterion: &mut Criterion) {
     let settings = FeatureSettings::default();
-    let (room, picture) = (room(), picture());
-    let silhouette = BitImage::from_fn(WIDTH, HEIGHT, person);
+    let (room, picture) = (room(WIDTH, HEIGHT), picture(WIDTH, HEIGHT));
+    let silhouette = BitImage::from_fn(WIDTH, HEIGHT, |x, y| person(x, y, WIDTH, HEIGHT));
 
     let plate = Plate::new(room.clone());
     criterion.bench_function("gain", |b| b.iter(|| plate.gain(black_box(&picture))));
@@ -76,28 +78,71 @@ fn stages(criterion: &mut Criterion) {
     });
     let mut detector = EdgeDetector::default();
     let mut edges = BitImage::new(WIDTH, HEIGHT);
-    let whole = Region::whole(WIDTH, HEIGHT);
-    criterion.bench_function("edges", |b| {
-        b.iter(|| detector.detect(black_box(&picture), whole, Magnitude::Exact, 70, &mut edges));
-    });
+    let whole = BitImage::from_fn(WIDTH, HEIGHT, |_, _| true);
+    for (id, operator) in OPERATORS {
+        let edge_settings = EdgeSettings { operator, ..settings.edges };
+        criterion.bench_function(&format!("edges, {id}"), |b| {
+            b.iter(|| detector.detect(black_box(&picture), &whole, &edge_settings, &mut edges));
+        });
+    }
     edges = silhouette.clone();
     let mut distance = DistanceMap::default();
-    criterion.bench_function("distance", |b| b.iter(|| distance.measure(black_box(&edges), 16)));
-
-    for (id, plate) in [("four views, plate", Some(room.clone())), ("four views, mixture", None)] {
-        let views = vec![ViewSource { width: WIDTH, height: HEIGHT, plate }; 4];
-        let Ok(mut extractor) = Extractor::new(settings, views) else { unreachable!("the defaults are sound") };
-        let empty = [&room, &room, &room, &room].map(Clone::clone);
-        let seen = [&picture, &picture, &picture, &picture].map(Clone::clone);
-        let masks = [None, None, None, None];
-        let mut features: Vec<ViewFeatures> = Vec::new();
-        let primed = extractor.prime(&empty);
-        assert!(primed.is_ok() && extractor.extract_into(&seen, &masks, &mut features).is_ok());
-        let found: Vec<u32> = features.iter().map(|view| view.silhouette.count()).collect();
-        assert!(found.iter().all(|&area| area.abs_diff(silhouette.count()) < 400), "person not found: {found:?}");
-        criterion.bench_function(id, |b| b.iter(|| extractor.extract_into(black_box(&seen), &masks, &mut features)));
+    for (id, metric) in METRICS {
+        criterion.bench_function(&format!("distance, {id}"), |b| {
+            b.iter(|| distance.measure(black_box(&edges), metric, 16));
+        });
     }
 }
 
-criterion_group!(features, stages);
+const OPERATORS: [(&str, Operator); 7] = [
+    ("sobel", Operator::Sobel),
+    ("prewitt", Operator::Prewitt),
+    ("roberts", Operator::Roberts),
+    ("laplace4", Operator::LaplaceFour),
+    ("laplace8", Operator::LaplaceEight),
+    ("laplace-product", Operator::LaplaceProduct),
+    ("canny", Operator::Canny),
+];
+
+const METRICS: [(&str, Metric); 4] = [
+    ("chessboard", Metric::Chessboard),
+    ("city-block", Metric::CityBlock),
+    ("euclidean", Metric::Euclidean),
+    ("quasi-euclidean", Metric::QuasiEuclidean),
+];
+
+/// Whole frames of `views` equal views.
+fn frames(criterion: &mut Criterion, id: &str, settings: FeatureSettings, plate: bool, views: usize, size: [u32; 2]) {
+    let [width, height] = size;
+    let (room, picture) = (room(width, height), picture(width, height));
+    let sources = vec![ViewSource { width, height, plate: plate.then(|| room.clone()) }; views];
+    let Ok(mut extractor) = Extractor::new(settings, sources) else { unreachable!("the settings are sound") };
+    let (empty, seen, masks) = (vec![room; views], vec![picture; views], vec![None; views]);
+    let mut features: Vec<ViewFeatures> = Vec::new();
+    let primed = extractor.prime(&empty);
+    assert!(primed.is_ok() && extractor.extract_into(&seen, &masks, &mut features).is_ok());
+    let expected = BitImage::from_fn(width, height, |x, y| person(x, y, width, height)).count();
+    let found: Vec<u32> = features.iter().map(|view| view.silhouette.count()).collect();
+    assert!(
+        found.iter().all(|&area| area.abs_diff(expected) < expected / 5),
+        "person not found: {found:?}, {expected}"
+    );
+    criterion.bench_function(id, |b| b.iter(|| extractor.extract_into(black_box(&seen), &masks, &mut features)));
+}
+
+fn whole_frames(criterion: &mut Criterion) {
+    let settings = FeatureSettings::default;
+    let (small, large) = ([WIDTH, HEIGHT], [1920, 1080]);
+    frames(criterion, "four views, plate", settings(), true, 4, small);
+    frames(criterion, "four views, mixture", settings(), false, 4, small);
+    let mut dear = settings();
+    dear.edges.operator = Operator::Canny;
+    dear.distance.metric = Metric::Euclidean;
+    frames(criterion, "four views, plate, canny, euclidean", dear, true, 4, small);
+    frames(criterion, "one view, plate", settings(), true, 1, small);
+    frames(criterion, "one view of 1920 x 1080, plate", settings(), true, 1, large);
+    frames(criterion, "one view of 1920 x 1080, mixture", settings(), false, 1, large);
+}
+
+criterion_group!(features, stages, whole_frames);
 criterion_main!(features);

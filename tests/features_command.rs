@@ -99,6 +99,47 @@ fn pictures_of_every_stage_are_written() {
     assert!(pantin(&[&arguments[..], &["--force"]].concat()).0);
 }
 
+/// Head and hands by skin, the rest by position, with every other stage chosen anew; on a device the same files.
+#[test]
+fn body_parts_and_other_operators_are_written_and_a_device_agrees() {
+    let folder = tempfile::tempdir().unwrap();
+    write_sequence(
+        folder.path(),
+        "[features]\nedges = { operator = \"laplace8\", threshold = 60 }\ndistance = { metric = \"euclidean\" }\n\
+         proximity = { normalisation = \"exponential\", d_max = 30, n_range = 0.9 }\n\
+         [[features.segment]]\nname = \"top\"\nlabels = [1, 2]\nweight = 0.5\ncue = \"skin\"\nwithin = [0, 0, 1, 0.25]\n\
+         [[features.segment]]\nname = \"rest\"\nlabels = [3]\nweight = 0.5\ncue = \"position\"\n",
+    );
+    let manifest = folder.path().join("sequence.toml").display().to_string();
+    let out = folder.path().join("out");
+    let arguments = ["features", &manifest, "--frames", "1..2", "-o", &out.display().to_string()];
+    let (done, messages) = pantin(&arguments);
+    assert!(done, "{messages}");
+    let segments = image::open(out.join("right/segments_000001.png")).unwrap().to_rgb8();
+    let colours = |rows: std::ops::Range<u32>| {
+        let mut colours: Vec<[u8; 3]> = rows.map(|y| segments.get_pixel(30, y).0).collect();
+        colours.dedup();
+        colours
+    };
+    let (top, rest) = (colours(10..20), colours(20..50));
+    assert!(top.len() == 1 && rest.len() == 1 && top != rest && colours(0..10) == [[0; 3]], "{top:?}, {rest:?}");
+
+    if let Err(error) = pantin::gpu::Instance::open(pantin::gpu::Validation::Off) {
+        assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
+        println!("SKIPPED the device: {error:#}");
+        return;
+    }
+    let device = folder.path().join("device");
+    let (done, messages) = pantin(&[&arguments[..5], &[&device.display().to_string(), "--backend", "device"]].concat());
+    assert!(done, "{messages}");
+    for camera in ["left", "right"] {
+        for stage in ["edges", "distance", "proximity", "observation", "segments"] {
+            let name = format!("{camera}/{stage}_000001.png");
+            assert_eq!(fs::read(out.join(&name)).unwrap(), fs::read(device.join(&name)).unwrap(), "{name}");
+        }
+    }
+}
+
 #[test]
 fn what_is_wrong_is_named() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,7 +1,7 @@
 //! report.html in a real browser, without a screen and without a network: nothing fails in it, the slider shows another
 //! frame's overlays, the player draws.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a helper of tests may unwrap as they do")]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a helper of tests may fail as they do")]
 
 use std::path::Path;
 use std::process::Command;

@@ -292,8 +292,7 @@ pub(super) fn unit_deviations(mut derivative: DMatrix<f64>, names: &[&str]) -> R
     let svd = derivative.svd(false, true);
     let Some(directions) = &svd.v_t else { bail!("the parameters' deviations cannot be computed") };
     let (largest, smallest) = (svd.singular_values.max(), svd.singular_values.min());
-    // Written so that what is not a number fails.
-    if !(smallest > OBSERVABLE * largest) {
+    if smallest.is_nan() || smallest <= OBSERVABLE * largest {
         let weakest = directions.row(svd.singular_values.imin());
         let mut order: Vec<usize> = (0..names.len()).collect();
         order.sort_by(|&a, &b| weakest[b].abs().total_cmp(&weakest[a].abs()));

@@ -7,6 +7,8 @@ use image::codecs::png::PngEncoder;
 use rayon::prelude::*;
 
 use super::progress::Progress;
+use crate::body::Body;
+use crate::evaluate::vulkan::open_device;
 use crate::features::{Extractor, FeatureSettings, ViewSource};
 use crate::files::{OutputFolder, Overwrite};
 use crate::sequence::Sequence;
@@ -15,7 +17,7 @@ use crate::track::FrameRange;
 /// Writes silhouettes, edges, distance maps and packed observations as PNG.
 ///
 /// For every frame and camera, CAMERA/STAGE_NNNNNN.png with the stages input, foreground, silhouette, edges, distance,
-/// proximity, observation and region, and frame_NNNNNN/CAMERA.png, the packed observations of a frame in one folder
+/// proximity, observation and region (and segments, where the sequence has [[features.segment]]), and frame_NNNNNN/CAMERA.png, the packed observations of a frame in one folder
 /// as `evaluate --observations` reads them.
 #[derive(clap::Args, Debug)]
 pub struct FeaturesArgs {
@@ -27,9 +29,19 @@ pub struct FeaturesArgs {
     /// The folder to write into
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    /// What makes the features: the processor, or from the silhouettes on a Vulkan device, to the same bits
+    #[arg(long, value_enum, default_value_t = FeatureBackend::Cpu)]
+    backend: FeatureBackend,
     /// Write into a folder that is not empty, replacing its files
     #[arg(long)]
     force: bool,
+}
+
+/// Where features are made.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+enum FeatureBackend {
+    Cpu,
+    Device,
 }
 
 /// Runs the command.
@@ -40,17 +52,26 @@ pub fn run(args: &FeaturesArgs) -> Result<()> {
     let sequence = Sequence::open(&args.sequence)?;
     let frames = args.frames.within(sequence.frame_count, &sequence.path.display().to_string())?;
     let name = args.sequence.display().to_string();
-    let settings = match &sequence.features {
+    let mut settings = match &sequence.features {
         Some(table) => FeatureSettings::from_table(table, &name)?,
         None => FeatureSettings::default(),
     };
+    if settings.segment.iter().any(|segment| !segment.parts.is_empty()) {
+        let body = Body::load(&sequence.body)?;
+        let parts: Vec<_> = body.parts.iter().map(|part| (part.name.as_str(), part.label)).collect();
+        settings.take_labels(&parts).with_context(|| name.clone())?;
+    }
     let views = sequence
         .sizes
         .iter()
         .zip(sequence.backgrounds()?)
         .map(|(&[width, height], plate)| ViewSource { width, height, plate })
         .collect();
-    let mut extractor = Extractor::new(settings, views).with_context(|| name.clone())?;
+    let extractor = match args.backend {
+        FeatureBackend::Cpu => Extractor::new(settings, views),
+        FeatureBackend::Device => Extractor::on_device(settings, views, &open_device()?),
+    };
+    let mut extractor = extractor.with_context(|| name.clone())?;
     let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;
 
     // A background that is learnt needs the frames before the first one wanted.

@@ -117,6 +117,11 @@ impl BitImage {
         &mut self.words[y * self.stride..][..self.stride]
     }
 
+    /// All words.
+    pub(super) fn words(&self) -> &[u64] {
+        &self.words
+    }
+
     /// All words, to be written; bits past the width must stay zero.
     pub(super) fn words_mut(&mut self) -> &mut [u64] {
         &mut self.words

@@ -4,11 +4,13 @@ use anyhow::{Result, bail};
 use image::{GrayImage, RgbImage};
 use rayon::prelude::*;
 
+use super::device::DeviceChain;
 use super::edges::EdgeDetector;
 use super::foreground::Foreground;
 use super::morphology::Morphology;
-use super::settings::EdgeSettings;
+use super::segment::Segmenter;
 use super::{BitImage, DistanceMap, FeatureSettings, Observation, Region};
+use crate::gpu::Device;
 
 /// Larger working pictures are a mistake in the scale, and their memory would be too.
 const LARGEST_SIDE: u32 = 16384;
@@ -72,8 +74,11 @@ struct View {
 /// frames first with [`Extractor::prime`]. A person who was there from the start is learnt as background.
 pub struct Extractor {
     settings: FeatureSettings,
-    proximity: [u8; 256],
+    proximity: Vec<u8>,
+    segmenter: Option<Segmenter>,
     views: Vec<View>,
+    /// Where edges, distances and packing are done by a device.
+    device: Option<DeviceChain>,
 }
 
 impl Extractor {
@@ -92,7 +97,20 @@ impl Extractor {
             .enumerate()
             .map(|(at, source)| View::new(at, source, &settings))
             .collect::<Result<_>>()?;
-        Ok(Self { settings, proximity: settings.proximity.table(), views })
+        let proximity = settings.proximity.table(settings.distance.metric);
+        let segmenter = Segmenter::new(&settings.segment)?;
+        Ok(Self { settings, proximity, segmenter, views, device: None })
+    }
+
+    /// As [`Self::new`], with all that follows the silhouette done by a Vulkan device: the same features, bit by bit.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; when the edge operator is Canny's, which only the processor does; when the device fails.
+    pub fn on_device(settings: FeatureSettings, views: Vec<ViewSource>, device: &Device) -> Result<Self> {
+        let mut extractor = Self::new(settings, views)?;
+        let sizes: Vec<_> = extractor.views.iter().map(|view| [view.width, view.height]).collect();
+        extractor.device = Some(DeviceChain::new(device, &sizes, &extractor.settings, &extractor.proximity)?);
+        Ok(extractor)
     }
 
     /// The settings in use.
@@ -143,12 +161,25 @@ impl Extractor {
                 None => features.push(ViewFeatures::empty(view.width, view.height)),
             }
         }
-        let (settings, proximity) = (&self.settings, &self.proximity);
-        let views = self.views.par_iter_mut().zip(pictures).zip(masks).zip(features);
+        let (settings, proximity, on_device) = (&self.settings, &self.proximity, self.device.is_some());
+        let views = self.views.par_iter_mut().zip(pictures).zip(masks).zip(features.par_iter_mut());
         views.for_each(|(((view, picture), mask), features)| {
-            view.extract(picture, mask.as_ref(), settings, proximity, features);
+            view.find_silhouette(picture, mask.as_ref(), settings, features);
+            if !on_device {
+                view.find_edges(picture, settings, proximity, features);
+            }
         });
-        Ok(())
+        if let Some(device) = &mut self.device {
+            device.run(pictures, features)?;
+        }
+        let Some(segmenter) = &self.segmenter else {
+            features.iter_mut().for_each(|features| features.observation.segmentation = None);
+            return Ok(());
+        };
+        features.par_iter_mut().zip(pictures).try_for_each(|(features, picture)| {
+            features.observation.segmentation = Some(segmenter.segment(picture, &features.silhouette)?);
+            Ok(())
+        })
     }
 
     fn check_frame(&self, pictures: &[RgbImage], masks: Option<&[Option<GrayImage>]>) -> Result<()> {
@@ -204,12 +235,11 @@ impl View {
         })
     }
 
-    fn extract(
+    fn find_silhouette(
         &mut self,
         picture: &RgbImage,
         mask: Option<&GrayImage>,
         settings: &FeatureSettings,
-        proximity: &[u8; 256],
         features: &mut ViewFeatures,
     ) {
         match mask {
@@ -225,16 +255,19 @@ impl View {
         features.region = bounds.map_or(Region::whole(self.width, self.height), |bounds| {
             bounds.enlarged(settings.silhouette.motion, self.width, self.height)
         });
+    }
 
+    fn find_edges(
+        &mut self,
+        picture: &RgbImage,
+        settings: &FeatureSettings,
+        proximity: &[u8],
+        features: &mut ViewFeatures,
+    ) {
         self.near.copy_from(&features.silhouette);
         self.morphology.dilate(&mut self.near, settings.dilation());
-        let nowhere = Region { x0: 0, y0: 0, x1: 0, y1: 0 };
-        let region = bounds.map_or(nowhere, |b| b.enlarged(settings.dilation().radius, self.width, self.height));
-        let EdgeSettings { magnitude, threshold, .. } = settings.edges;
-        self.detector.detect(picture, region, magnitude, threshold, &mut features.edges);
-        features.edges.and(&self.near);
-
-        features.distance.measure(&features.edges, settings.proximity.limit());
+        self.detector.detect(picture, &self.near, &settings.edges, &mut features.edges);
+        features.distance.measure(&features.edges, settings.distance.metric, settings.proximity.limit());
         features.observation.pack(&features.silhouette, &features.distance, proximity);
     }
 }
@@ -329,6 +362,30 @@ mod tests {
         let features = extractor.extract(&[black], &[None]).unwrap();
         assert_eq!(features[0].observation, Observation::empty(90, 60));
         assert_eq!(features[0].region, Region::whole(90, 60));
+    }
+
+    #[test]
+    fn a_picture_of_3840_by_2160_is_seen_whole() {
+        let (width, height) = (3840, 2160);
+        let body = |x: u32, y: u32| (3000..3400).contains(&x) && (400..2100).contains(&y);
+        let mut seen = room(width, height);
+        for (x, y, pixel) in seen.enumerate_pixels_mut() {
+            if body(x, y) {
+                *pixel = Rgb([250, 150, 120]);
+            }
+        }
+        let mut settings = settings();
+        settings.distance.metric = super::super::Metric::Euclidean;
+        settings.proximity.d_max = 255;
+        let source = ViewSource { width, height, plate: Some(room(width, height)) };
+        let features = Extractor::new(settings, vec![source]).unwrap().extract(&[seen], &[None]).unwrap();
+        assert_eq!(features[0].silhouette, BitImage::from_fn(width, height, body));
+        let distances = features[0].distance.distances();
+        let at = |x: u32, y: u32| distances[(y * width + x) as usize];
+        // The outermost edge pixels lie one outside the body; the room has a few of its own beside it.
+        assert_eq!((at(2999, 1000), at(2000, 1000)), (0.0, 255.0));
+        assert!((at(2900, 1000) - 99.0).abs() < 4.0, "{}", at(2900, 1000));
+        assert!((at(2979, 389) - 10_f32.hypot(20.0)).abs() < 4.0, "{}", at(2979, 389));
     }
 
     #[test]

@@ -1,14 +1,17 @@
 //! From pictures to packed observations (SPEC A5).
 //!
 //! One file a stage, in the order of the data: [`plate`] or [`mixture`] (with [`shadow`]) → [`morphology`] and [`blobs`]
-//! → [`edges`] → [`distance`] → [`proximity`] → [`Observation`]. [`Extractor`] runs them all, one view a task.
+//! → [`edges`] → [`distance`] → [`proximity`] → [`Observation`]. [`Extractor`] runs them all, one view a task; from the silhouette on
+//! a Vulkan device can do the same.
 
 mod bit_image;
 pub mod blobs;
+mod device;
 pub mod distance;
 pub mod edges;
 mod extractor;
 mod foreground;
+mod light;
 pub mod mixture;
 pub mod morphology;
 mod observation;
@@ -16,13 +19,15 @@ mod pictures;
 pub mod plate;
 pub mod proximity;
 mod region;
+mod segment;
 mod segmentation;
 mod settings;
 pub mod shadow;
+mod stages;
 
 pub use bit_image::BitImage;
-pub use distance::DistanceMap;
-pub use edges::Magnitude;
+pub use distance::{DistanceMap, Metric};
+pub use edges::{EdgeSettings, Magnitude, Operator};
 pub use extractor::{Extractor, ViewFeatures, ViewSource};
 pub use mixture::{Adaptation, MixtureSettings};
 pub use morphology::Shape;
@@ -30,6 +35,7 @@ pub use observation::Observation;
 pub use plate::PlateSettings;
 pub use proximity::{Normalisation, ProximitySettings};
 pub use region::Region;
+pub use segment::{Cue, SegmentSettings};
 pub use segmentation::{Segment, Segmentation, Segments};
-pub use settings::{EdgeSettings, FeatureSettings, SilhouetteSettings};
+pub use settings::{DistanceSettings, FeatureSettings, SilhouetteSettings};
 pub use shadow::ShadowSettings;

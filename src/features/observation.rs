@@ -6,6 +6,7 @@ use anyhow::{Context, Result, bail, ensure};
 use image::codecs::png::PngEncoder;
 use image::{DynamicImage, ExtendedColorType, GrayImage, ImageEncoder, ImageReader};
 
+use super::distance::Codes;
 use super::{BitImage, DistanceMap, Segmentation};
 use crate::files::{Overwrite, write_atomically};
 
@@ -60,17 +61,15 @@ impl Observation {
         self.bytes.iter().map(|byte| u32::from(byte >> 7)).sum()
     }
 
-    /// Packs a silhouette and a distance map of one size; `proximity` holds the 7-bit value of every distance.
-    pub(super) fn pack(&mut self, silhouette: &BitImage, distance: &DistanceMap, proximity: &[u8; 256]) {
+    /// Packs a silhouette and a distance map of one size; `proximity` holds the 7-bit value of every code of the map.
+    pub(super) fn pack(&mut self, silhouette: &BitImage, distance: &DistanceMap, proximity: &[u8]) {
         let width = silhouette.width() as usize;
         (self.width, self.height) = (silhouette.width(), silhouette.height());
         self.bytes.resize(width * self.height as usize, 0);
         for (y, bytes) in self.bytes.chunks_exact_mut(width.max(1)).enumerate() {
-            let words = bytes.chunks_mut(64).zip(distance.row(y).chunks(64)).zip(silhouette.row(y));
-            for ((bytes, distances), &word) in words {
-                for (at, (byte, &distance)) in bytes.iter_mut().zip(distances).enumerate() {
-                    *byte = proximity[usize::from(distance)] | ((word >> at & 1) as u8) << 7;
-                }
+            match distance.row(y) {
+                Codes::Bytes(codes) => pack_row(bytes, codes, silhouette.row(y), proximity),
+                Codes::Words(codes) => pack_row(bytes, codes, silhouette.row(y), proximity),
             }
         }
     }
@@ -133,12 +132,22 @@ impl Observation {
     }
 }
 
+/// Packs one row of bytes from its distances and the words of its silhouette.
+fn pack_row<T: Copy + Into<u32>>(bytes: &mut [u8], codes: &[T], silhouette: &[u64], proximity: &[u8]) {
+    for ((bytes, codes), &word) in bytes.chunks_mut(64).zip(codes.chunks(64)).zip(silhouette) {
+        for (at, (byte, &code)) in bytes.iter_mut().zip(codes).enumerate() {
+            let code: u32 = code.into();
+            *byte = proximity[code as usize] | ((word >> at & 1) as u8) << 7;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
 
     use super::super::bit_image::any_bit_image;
-    use super::super::{ProximitySettings, Segment, Segments};
+    use super::super::{Metric, ProximitySettings, Segment, Segments};
     use super::*;
     use proptest::prelude::*;
 
@@ -146,15 +155,18 @@ mod tests {
         #[test]
         fn packing_round_trip(silhouette in any_bit_image()) {
             let edges = BitImage::from_fn(silhouette.width(), silhouette.height(), |x, y| x == 3 && y % 5 == 0);
-            let mut distance = DistanceMap::default();
-            distance.measure(&edges, 16);
-            let table = ProximitySettings::default().table();
-            let mut packed = Observation::empty(1, 1);
-            packed.pack(&silhouette, &distance, &table);
-            prop_assert_eq!(packed.area(), silhouette.count());
-            prop_assert_eq!(packed.silhouette(), silhouette);
-            let expected: Vec<u8> = distance.values().iter().map(|&d| table[usize::from(d)]).collect();
-            prop_assert_eq!(packed.proximity().into_raw(), expected);
+            for metric in [Metric::Chessboard, Metric::Euclidean] {
+                let mut distance = DistanceMap::default();
+                distance.measure(&edges, metric, 16);
+                let table = ProximitySettings::default().table(metric);
+                let mut packed = Observation::empty(1, 1);
+                packed.pack(&silhouette, &distance, &table);
+                prop_assert_eq!(packed.area(), silhouette.count());
+                prop_assert_eq!(&packed.silhouette(), &silhouette);
+                let code = |d: f32| if metric == Metric::Euclidean { d * d } else { d };
+                let expected = distance.distances().into_iter().map(|d| table[code(d).round() as usize]);
+                prop_assert_eq!(packed.proximity().into_raw(), expected.collect::<Vec<u8>>());
+            }
         }
     }
 

@@ -3,6 +3,7 @@
 use image::RgbImage;
 use serde::Deserialize;
 
+use super::light::{GRID, Ratios};
 use super::shadow::ShadowSettings;
 
 /// The parameters of the plate difference.
@@ -28,15 +29,9 @@ impl Default for PlateSettings {
     }
 }
 
-/// Gains outside this range are no mild change of the lighting but another scene, and are not believed.
-const GAINS: (f32, f32) = (0.5, 2.0);
-
 /// The sum of the channels below which a pixel is so dark that it says nothing when the plate is as dark: black clothes
 /// before black furniture may not differ at all.
 const DARK: f32 = 192.0;
-
-/// The steps a ratio is counted in.
-const STEPS: usize = 128;
 
 /// What differs from the plate in one row, one flag (0 or 1) a pixel.
 #[derive(Clone, Debug)]
@@ -79,24 +74,13 @@ impl Plate {
     /// What to multiply the plate with, channel by channel, so that it is as bright as `picture`: the median ratio over
     /// a grid of pixels, which no person covering less than half the picture can move far.
     pub fn gain(&self, picture: &RgbImage) -> [f32; 3] {
-        let mut counts = [[0_u32; 2 * STEPS + STEPS / 2]; 3];
-        let pixels =
-            picture.as_raw().chunks_exact(self.width * 3).zip(self.image.as_raw().chunks_exact(self.width * 3));
-        for (seen, plate) in pixels.step_by(4) {
-            for (seen, plate) in seen.chunks_exact(3).zip(plate.chunks_exact(3)).step_by(4) {
-                for channel in 0..3 {
-                    let (seen, plate) = (usize::from(seen[channel]), usize::from(plate[channel]));
-                    // Dark pixels say nothing about a ratio, and saturated ones lie.
-                    if (32..=235).contains(&plate) && seen <= 250 {
-                        let ratio = (seen * STEPS + plate / 2) / plate;
-                        if let Some(count) = counts[channel].get_mut(ratio) {
-                            *count += 1;
-                        }
-                    }
-                }
-            }
+        let mut ratios = Ratios::new();
+        let rows = picture.as_raw().chunks_exact(self.width * 3).zip(self.image.as_raw().chunks_exact(self.width * 3));
+        for (seen, plate) in rows.step_by(GRID) {
+            let pixels = seen.as_chunks().0.iter().zip(plate.as_chunks().0);
+            pixels.step_by(GRID).for_each(|(&seen, &plate)| ratios.add(seen, plate));
         }
-        counts.map(|counts| median(&counts).clamp(GAINS.0, GAINS.1))
+        ratios.gains()
     }
 
     /// Flags in one row of a picture what differs from the plate times `gain`.
@@ -128,19 +112,6 @@ impl Plate {
             *faint = u8::from(both_dark | differs & (distance >= least_faint));
         }
     }
-}
-
-/// The median of counted ratios (steps of 1/[`STEPS`]); 1 when none was counted.
-fn median(counts: &[u32]) -> f32 {
-    let half = counts.iter().sum::<u32>() / 2;
-    let mut below = 0;
-    for (step, &count) in counts.iter().enumerate() {
-        if below + count > half {
-            return step as f32 / STEPS as f32;
-        }
-        below += count;
-    }
-    1.0
 }
 
 /// Splits a row of interleaved bytes into one plane a channel.

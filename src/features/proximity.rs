@@ -2,6 +2,8 @@
 
 use serde::Deserialize;
 
+use super::distance::Metric;
+
 /// How a distance d (pixels) becomes a proximity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -49,21 +51,19 @@ impl ProximitySettings {
         }
     }
 
-    /// The packed proximity, 0..=127, of every distance.
-    pub fn table(&self) -> [u8; 256] {
-        let mut table = [0; 256];
-        for (distance, packed) in (0_u8..=255).zip(&mut table) {
-            *packed = (self.proximity(distance) * 127.0).round().clamp(0.0, 127.0) as u8;
-        }
-        table
+    /// The packed proximity, 0..=127, of every code of a map by `metric`, up to the code of the limit.
+    pub fn table(&self, metric: Metric) -> Vec<u8> {
+        let last = metric.code(self.limit());
+        (0..=last).map(|code| (self.proximity(metric.distance(code)) * 127.0).round().clamp(0.0, 127.0) as u8).collect()
     }
 
-    fn proximity(&self, distance: u8) -> f32 {
-        let (d, d_min, d_max) = (f32::from(distance), f32::from(self.d_min), f32::from(self.d_max));
+    /// The proximity at a distance, pixels.
+    fn proximity(&self, d: f32) -> f32 {
+        let (d_min, d_max) = (f32::from(self.d_min), f32::from(self.d_max));
         match self.normalisation {
-            Normalisation::Impulse => f32::from(distance == 0),
-            _ if distance >= self.d_max => 0.0,
-            _ if distance <= self.d_min => 1.0,
+            Normalisation::Impulse => f32::from(d == 0.0),
+            _ if d >= d_max => 0.0,
+            _ if d <= d_min => 1.0,
             Normalisation::Proportional => 1.0 - self.n_range * (d - d_min) / (d_max - d_min),
             Normalisation::Exponential => self.n_range * (-self.decay * d).exp() + 1.0 - self.n_range,
         }
@@ -78,30 +78,35 @@ mod tests {
     #[test]
     fn the_thesis_example() {
         let mut settings = ProximitySettings { d_min: 10, d_max: 100, n_range: 0.25, ..Default::default() };
-        let table = settings.table();
-        assert_eq!((table[0], table[10], table[100], table[255]), (127, 127, 0, 0));
+        let table = settings.table(Metric::Chessboard);
+        assert_eq!((table[0], table[10], table[100], table.len()), (127, 127, 0, 101));
         // 1 - 0.25 * 45 / 90 = 0.875, times 127 is 111.1; 1 - 0.25 * 89 / 90 = 0.7528, times 127 is 95.6.
         assert_eq!((table[55], table[99]), (111, 96));
         settings.normalisation = Normalisation::Exponential;
         // 0.25 exp(-0.1 * 20) + 0.75 = 0.78383, times 127 is 99.5.
-        assert_eq!((settings.table()[10], settings.table()[20], settings.table()[100]), (127, 100, 0));
+        let table = settings.table(Metric::Chessboard);
+        assert_eq!((table[10], table[20], table[100]), (127, 100, 0));
         settings.normalisation = Normalisation::Impulse;
-        assert_eq!((settings.table()[0], settings.table()[1]), (127, 0));
+        assert_eq!(settings.table(Metric::Euclidean), [127, 0]);
         assert_eq!(settings.limit(), 1);
     }
 
     proptest! {
         #[test]
         fn never_rises_and_ends_at_the_limit(
-            kind in 0..3, d_min in 0_u8..100, span in 1_u8..100, n_range in 0.01_f32..1.0, decay in 0.0_f32..2.0,
+            kind in 0..3, metric in 0..4, d_min in 0_u8..100, span in 1_u8..100, n_range in 0.01_f32..1.0, decay in 0.0_f32..2.0,
         ) {
             let normalisation =
                 [Normalisation::Impulse, Normalisation::Proportional, Normalisation::Exponential][kind as usize];
             let settings = ProximitySettings { normalisation, d_min, d_max: d_min + span, n_range, decay };
-            let table = settings.table();
-            prop_assert_eq!(table[0], 127);
-            prop_assert!(table.windows(2).all(|pair| pair[1] <= pair[0]));
-            prop_assert!(table[usize::from(settings.limit())..].iter().all(|&value| value == 0));
+            let metric =
+                [Metric::Chessboard, Metric::CityBlock, Metric::Euclidean, Metric::QuasiEuclidean][metric as usize];
+            let table = settings.table(metric);
+            prop_assert_eq!((table[0], table.last()), (127, Some(&0)));
+            let straight = (0..=settings.limit()).map(|distance| table[metric.code(distance) as usize]);
+            prop_assert!(straight.is_sorted_by(|a, b| a >= b));
+            let euclidean = settings.table(Metric::Euclidean);
+            prop_assert!(euclidean.is_sorted_by(|a, b| a >= b));
         }
     }
 }

@@ -6,11 +6,13 @@ use std::ops::RangeInclusive;
 use anyhow::{Result, bail};
 use serde::Deserialize;
 
-use super::edges::Magnitude;
+use super::distance::Metric;
+use super::edges::{EdgeSettings, Operator};
 use super::mixture::MixtureSettings;
 use super::morphology::{Element, Shape};
 use super::plate::PlateSettings;
 use super::proximity::{Normalisation, ProximitySettings};
+use super::segment::SegmentSettings;
 use super::shadow::ShadowSettings;
 use crate::files::parse_table;
 
@@ -51,26 +53,16 @@ impl Default for SilhouetteSettings {
     }
 }
 
-/// How edges are found.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+/// How distances from edges are measured.
+#[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct EdgeSettings {
-    /// How the two derivatives become one magnitude.
-    pub magnitude: Magnitude,
-    /// The weakest edge; a step of `s` grey levels has magnitude 3 `s`.
-    pub threshold: i16,
-    /// Edges are kept where the silhouette dilated by a disc of this size is, pixels, odd.
-    pub dilate: u32,
-}
-
-impl Default for EdgeSettings {
-    fn default() -> Self {
-        Self { magnitude: Magnitude::Exact, threshold: 70, dilate: 7 }
-    }
+pub struct DistanceSettings {
+    /// Which distance.
+    pub metric: Metric,
 }
 
 /// All parameters of the features. Every length is in pixels of the working pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Default, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FeatureSettings {
     /// The background model of a view that has neither mask nor plate.
@@ -83,8 +75,12 @@ pub struct FeatureSettings {
     pub silhouette: SilhouetteSettings,
     /// The edge detector.
     pub edges: EdgeSettings,
+    /// The distance map.
+    pub distance: DistanceSettings,
     /// From distance to proximity.
     pub proximity: ProximitySettings,
+    /// The body parts that are told apart; none by default.
+    pub segment: Vec<SegmentSettings>,
 }
 
 impl FeatureSettings {
@@ -96,6 +92,14 @@ impl FeatureSettings {
         let settings: Self = parse_table(table, &format!("{name}, table [features]"))?;
         settings.check()?;
         Ok(settings)
+    }
+
+    /// Turns the parts that segments name into their labels; `parts` are the body's, each with its label.
+    ///
+    /// # Errors
+    /// When a segment names a part that is not there; the nearest one is named.
+    pub fn take_labels(&mut self, parts: &[(&str, u8)]) -> Result<()> {
+        self.segment.iter_mut().try_for_each(|segment| segment.take_labels(parts))
     }
 
     /// Checks that every value makes sense.
@@ -124,7 +128,11 @@ impl FeatureSettings {
         odd("silhouette.close", self.silhouette.close)?;
         within("silhouette.min_share", self.silhouette.min_share, 0.0..=1.0)?;
         within("silhouette.blobs", self.silhouette.blobs, 1..=4)?;
-        within("edges.threshold", self.edges.threshold, 1..=2040)?;
+        within("edges.threshold", self.edges.threshold, 1..=4080)?;
+        within("edges.low", self.edges.low, 1..=4080)?;
+        if self.edges.operator == Operator::Canny {
+            ordered("edges.low", self.edges.low, "edges.threshold", self.edges.threshold)?;
+        }
         odd("edges.dilate", self.edges.dilate)?;
         let p = &self.proximity;
         within("proximity.n_range", p.n_range, 0.001..=1.0)?;
@@ -136,7 +144,7 @@ impl FeatureSettings {
                 p.d_max
             );
         }
-        Ok(())
+        self.segment.iter().try_for_each(SegmentSettings::check)
     }
 
     pub(super) fn opening(&self) -> Element {
@@ -174,7 +182,7 @@ fn within<T: PartialOrd + Display>(key: &str, value: T, range: RangeInclusive<T>
     Ok(())
 }
 
-fn ordered(small_key: &str, small: f32, large_key: &str, large: f32) -> Result<()> {
+fn ordered<T: PartialOrd + Display>(small_key: &str, small: T, large_key: &str, large: T) -> Result<()> {
     if small > large {
         bail!("[features] {small_key} is {small} and {large_key} {large}, expected the first to be no larger");
     }
@@ -183,6 +191,7 @@ fn ordered(small_key: &str, small: f32, large_key: &str, large: f32) -> Result<(
 
 #[cfg(test)]
 mod tests {
+    use super::super::Magnitude;
     use super::*;
 
     fn read(text: &str) -> Result<FeatureSettings> {
@@ -222,6 +231,12 @@ mod tests {
             ("[proximity]\nn_range = 2.0", &["proximity.n_range is 2"]),
             ("[proximity]\nd_max = 300", &["300"]),
             ("[shadow]\ndarkest = -0.5", &["shadow.darkest is -0.5"]),
+            ("[edges]\noperator = \"soble\"", &["soble", "sobel", "laplace-product"]),
+            ("[edges]\noperator = \"canny\"\nlow = 90", &["edges.low is 90", "edges.threshold 70"]),
+            ("[distance]\nmetric = \"manhattan\"", &["manhattan", "city-block"]),
+            ("[distance]\nmetrik = 1", &["`metrik`", "`metric`"]),
+            ("[[segment]]\nname = \"a\"\nweight = 1\ncue = \"skin\"\ncolors = []", &["`colors`", "`colours`"]),
+            ("[[segment]]\nname = \"a\"\nweight = 1", &["`cue`"]),
         ] {
             let error = format!("{:#}", read(text).unwrap_err());
             for part in parts {

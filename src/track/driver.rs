@@ -290,7 +290,7 @@ impl Run<'_> {
             Some(realtime) => Box::new(realtime.feed(sequence, &self.plan, next)?),
             None => {
                 let Plan { features, range, .. } = &self.plan;
-                Box::new(Feed::start(sequence, *features, range.clone(), next, self.settings.stall_timeout)?)
+                Box::new(Feed::start(sequence, features.clone(), range.clone(), next, self.settings.stall_timeout)?)
             }
         })
     }

@@ -181,7 +181,7 @@ impl<T> Drop for Closes<T> {
 fn extractors(sequence: &Sequence, settings: FeatureSettings, range: &Range<usize>) -> Result<Vec<Extractor>> {
     let mut extractors = view_sources(sequence)?
         .into_iter()
-        .map(|source| Extractor::new(settings, vec![source]))
+        .map(|source| Extractor::new(settings.clone(), vec![source]))
         .collect::<Result<Vec<_>>>()
         .with_context(|| sequence.path.display().to_string())?;
     if learns_background(sequence, range)? {

@@ -1,0 +1,15 @@
+// The picture that a pass works on.
+
+#ifndef FEATURES_PICTURE
+#define FEATURES_PICTURE
+
+layout(push_constant) uniform Picture {
+    uint width;  // pixels
+    uint height; // pixels
+    uint stride; // 32-bit words of a row of a bit picture
+    uint limit;  // the distance from which on all pixels are alike
+    int amount;  // of the edges: the threshold; of a dilation: the radius
+    uint square; // of a dilation: whether the element is a square, else a disc
+} picture;
+
+#endif

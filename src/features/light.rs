@@ -1,0 +1,56 @@
+//! A change of the light over the whole picture: how much brighter a picture is than the background known, channel by channel.
+
+/// Gains outside this range are no mild change of the lighting but another scene, and are not believed.
+const GAINS: (f32, f32) = (0.5, 2.0);
+
+/// The steps a ratio is counted in.
+const STEPS: usize = 128;
+
+/// Every how many rows and columns a pixel is asked.
+pub(super) const GRID: usize = 4;
+
+/// Ratios of a picture to its background over a grid of pixels, counted.
+pub(super) struct Ratios {
+    counts: [[u32; 2 * STEPS + STEPS / 2]; 3],
+}
+
+impl Ratios {
+    /// None yet.
+    pub(super) fn new() -> Self {
+        Self { counts: [[0; 2 * STEPS + STEPS / 2]; 3] }
+    }
+
+    /// Counts a pixel.
+    #[inline]
+    pub(super) fn add(&mut self, seen: [u8; 3], background: [u8; 3]) {
+        for channel in 0..3 {
+            let (seen, background) = (usize::from(seen[channel]), usize::from(background[channel]));
+            // Dark pixels say nothing about a ratio, and saturated ones lie.
+            if (32..=235).contains(&background) && seen <= 250 {
+                let ratio = (seen * STEPS + background / 2) / background;
+                if let Some(count) = self.counts[channel].get_mut(ratio) {
+                    *count += 1;
+                }
+            }
+        }
+    }
+
+    /// What to multiply the background with so that it is as bright as the picture: the median ratio, which no person
+    /// covering less than half the picture can move far.
+    pub(super) fn gains(&self) -> [f32; 3] {
+        self.counts.map(|counts| median(&counts).clamp(GAINS.0, GAINS.1))
+    }
+}
+
+/// The median of counted ratios (steps of 1/[`STEPS`]); 1 when none was counted.
+fn median(counts: &[u32]) -> f32 {
+    let half = counts.iter().sum::<u32>() / 2;
+    let mut below = 0;
+    for (step, &count) in counts.iter().enumerate() {
+        if below + count > half {
+            return step as f32 / STEPS as f32;
+        }
+        below += count;
+    }
+    1.0
+}
