@@ -45,7 +45,8 @@ impl Silhouettes {
         let table = sequence.features.as_ref().map(|table| FeatureSettings::from_table(table, &name));
         let sources = sequence.backgrounds()?.into_iter().zip(&sequence.sizes);
         let sources = sources.map(|(plate, &[width, height])| ViewSource { width, height, plate }).collect();
-        let mut extractor = Extractor::new(table.transpose()?.unwrap_or_default(), sources).context(name)?;
+        let settings = table.transpose()?.unwrap_or_default().without_segments();
+        let mut extractor = Extractor::new(settings, sources).context(name)?;
         let samples = spread(&frames, count);
         let mut reader = sequence.read_frames(if learns.is_some() { 0 } else { frames.start }..frames.end)?;
         let mut features = Vec::new();

@@ -94,6 +94,12 @@ impl FeatureSettings {
         Ok(settings)
     }
 
+    /// The settings without segments, for what asks for silhouettes and edges alone.
+    #[must_use]
+    pub fn without_segments(self) -> Self {
+        Self { segment: Vec::new(), ..self }
+    }
+
     /// Turns the parts that segments name into their labels; `parts` are the body's, each with its label.
     ///
     /// # Errors

@@ -15,7 +15,7 @@ use super::{FrameRange, ObjectiveChoice};
 use crate::body::{Body, PoseTable, Proportions};
 use crate::evaluate::cpu::{Cpu, InstructionSet};
 use crate::evaluate::{Components, Evaluator, Objective};
-use crate::features::{Extractor, FeatureSettings, Observation, ViewSource};
+use crate::features::{Extractor, Observation, ViewSource};
 use crate::geometry::Camera;
 use crate::search::{SearchSettings, SearchSpace};
 use crate::sequence::Sequence;
@@ -200,9 +200,7 @@ fn observe(sequence: &Sequence, frames: &[usize]) -> Result<Vec<Vec<Observation>
     }
     let sources = plates.into_iter().zip(&sequence.sizes);
     let sources = sources.map(|(plate, &[width, height])| ViewSource { width, height, plate }).collect();
-    // Silhouettes are all that is compared here.
-    let settings = FeatureSettings { segment: Vec::new(), ..feature_settings(sequence)? };
-    let mut extractor = Extractor::new(settings, sources)?;
+    let mut extractor = Extractor::new(feature_settings(sequence)?.without_segments(), sources)?;
     let (Some(first), Some(last)) = (frames.first(), frames.last()) else { return Ok(Vec::new()) };
     let mut reader = sequence.read_frames(*first..last + 1)?;
     let mut observations = Vec::new();

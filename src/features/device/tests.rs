@@ -1,6 +1,6 @@
 //! The chain on the device beside the processor's, bit by bit, on whatever Vulkan device there is, under the validation layer.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::unwrap_used)]
 
 use image::{GrayImage, Luma, Rgb};
 
@@ -8,7 +8,8 @@ use super::super::{
     DistanceSettings, EdgeSettings, Extractor, Magnitude, Normalisation, Operator, ProximitySettings, ViewSource,
 };
 use super::*;
-use crate::gpu::{DeviceSettings, Instance, Validation};
+use crate::gpu::DeviceSettings;
+use crate::gpu::test_device::device;
 
 /// Sizes round whole words, and one smaller than most elements.
 const SIZES: [[u32; 2]; 3] = [[131, 97], [64, 40], [3, 2]];
@@ -34,15 +35,9 @@ fn mask([width, height]: [u32; 2], seed: u32) -> GrayImage {
 
 #[test]
 fn the_device_s_features_are_the_processor_s() {
-    let instance = match Instance::open(Validation::Synchronisation) {
-        Ok(instance) => instance,
-        Err(error) => {
-            assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
-            println!("SKIPPED the_device_s_features_are_the_processor_s: {error:#}");
-            return;
-        }
+    let Some((device, log)) = device("the_device_s_features_are_the_processor_s", DeviceSettings::default()) else {
+        return;
     };
-    let device = Device::open(&instance, DeviceSettings::default()).unwrap();
     let operators = [
         Operator::Sobel,
         Operator::Prewitt,
@@ -97,5 +92,5 @@ fn the_device_s_features_are_the_processor_s() {
     let refused = Extractor::on_device(canny, vec![source], &device).err().unwrap().to_string();
     assert!(refused.contains("canny"), "{refused}");
     drop(device);
-    assert_eq!(instance.validation_log().messages(), Vec::<String>::new());
+    assert_eq!(log.messages(), Vec::<String>::new());
 }
