@@ -6,6 +6,7 @@
 use std::path::Path;
 
 use pantin::body::{Body, PoseTable, RetargetSettings, parse_body};
+use pantin::calibrate::{parse_pairs, parse_tracks};
 use pantin::motion::{
     DeepMimicSkeleton, parse_amc, parse_asf, parse_bvh, parse_c3d, parse_deepmimic, parse_deepmimic_skeleton,
     parse_points_csv, parse_trc,
@@ -134,7 +135,7 @@ fn leg() -> Body {
 }
 
 /// The folder of seeds, and the parser.
-const PARSERS: [(&str, Parser); 16] = [
+const PARSERS: [(&str, Parser); 18] = [
     ("c3d", |bytes| parse_c3d(bytes, NAME)?.check()),
     ("trc", |bytes| parse_trc(&text(bytes), NAME)?.check()),
     ("csv", |bytes| parse_points_csv(&text(bytes), NAME)?.check()),
@@ -181,6 +182,8 @@ const PARSERS: [(&str, Parser); 16] = [
         if is_xml { parse_opencv_xml(&text, NAME) } else { parse_opencv_yaml(&text, NAME) }.map(|_| ())
     }),
     ("study", |bytes| Study::parse(&text(bytes), NAME)?.runs().map(|_| ())),
+    ("pairs", |bytes| parse_pairs(&text(bytes), NAME, 1.0).map(|_| ())),
+    ("tracks", |bytes| parse_tracks(&text(bytes), NAME).map(|_| ())),
     ("sequence", |bytes| check_manifest(&text(bytes), NAME)),
 ];
 

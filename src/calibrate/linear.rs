@@ -43,8 +43,12 @@ pub(super) fn radial_alignment(
 ) -> Result<Start, Failure> {
     // Lengths near 1 on both sides keep the squared equations well conditioned.
     let size = (points.iter().map(|p| p.length_squared()).sum::<f64>() / points.len() as f64).sqrt();
-    let points: Vec<DVec3> = points.iter().map(|p| p / size).collect();
     let reach = (offsets.iter().map(|o| o.length_squared()).sum::<f64>() / offsets.len() as f64).sqrt();
+    // All in one place: nothing to align, and what follows would not be numbers.
+    if size.is_nan() || size <= 0.0 || reach.is_nan() || reach <= 0.0 {
+        return Err(Failure::Undetermined);
+    }
+    let points: Vec<DVec3> = points.iter().map(|p| p / size).collect();
     let seen: Vec<DVec2> = offsets.iter().map(|o| o / reach).collect();
     let alignment = alignment(layout, &points, &seen)?;
     let Alignment { rows: [first, second], across, aspect } = alignment;

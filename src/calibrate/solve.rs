@@ -286,6 +286,7 @@ impl<'a> Problem<'a> {
 /// When a combination of parameters leaves all pixels where they are.
 pub(super) fn unit_deviations(mut derivative: DMatrix<f64>, names: &[&str]) -> Result<Vec<f64>> {
     let lengths: Vec<f64> = derivative.column_iter().map(|column| column.norm()).collect();
+    ensure!(lengths.iter().all(|length| length.is_finite()), "the pairs do not fit a camera");
     for (mut column, length) in derivative.column_iter_mut().zip(&lengths) {
         column /= length.max(f64::MIN_POSITIVE);
     }

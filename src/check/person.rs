@@ -4,7 +4,6 @@ use std::path::Path;
 
 use anyhow::Result;
 use glam::DVec3;
-use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 use super::EXPLAINED;
 use super::agreement::Ray;
@@ -14,33 +13,25 @@ use crate::body::Body;
 /// Part of the points cut off below and above: specks, and where few cameras look.
 const OUTLIERS: f64 = 0.005;
 
-/// Feet, height and long axis; and the height of the body file against it, where there is one.
+/// Feet, height and breadth; and the height of the body file against it, where there is one.
 ///
 /// # Errors
 /// When the body file cannot be read.
 pub(super) fn person(rays: &[Ray], body: Option<&Path>) -> Result<Vec<Finding>> {
     let agreed: Vec<&Ray> = rays.iter().filter(|ray| ray.excess() <= EXPLAINED).collect();
     let last = rays.iter().map(|ray| ray.moment).max().unwrap_or(0);
-    let (mut feet, mut heights) = (Vec::new(), Vec::new());
-    let mut spread = Matrix3::zeros();
+    let (mut feet, mut heights, mut breadths) = (Vec::new(), Vec::new(), Vec::new());
     for moment in 0..=last {
         let points: Vec<DVec3> = agreed.iter().filter(|ray| ray.moment == moment).map(|ray| ray.point).collect();
         if points.len() < 20 {
             continue;
         }
-        let mut levels: Vec<f64> = points.iter().map(|point| point.z).collect();
-        levels.sort_by(f64::total_cmp);
-        let cut = (OUTLIERS * levels.len() as f64) as usize;
-        let (low, high) = (levels[cut], levels[levels.len() - 1 - cut]);
-        feet.push(low);
-        heights.push(high - low);
-        let middle = points.iter().sum::<DVec3>() / points.len() as f64;
-        for point in &points {
-            let d = Vector3::from((*point - middle).to_array());
-            spread += d * d.transpose();
-        }
+        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| extent(&points, axis));
+        feet.push(z[0]);
+        heights.push(z[1] - z[0]);
+        breadths.push((x[1] - x[0]).max(y[1] - y[0]));
     }
-    let (Some(feet), Some(height)) = (median(feet), median(heights)) else {
+    let (Some(feet), Some(height), Some(breadth)) = (median(feet), median(heights), median(breadths)) else {
         return Ok(vec![Finding::not_measured("feet", "the views agree on too little of the person")]);
     };
     let mut checks = vec![
@@ -54,7 +45,9 @@ pub(super) fn person(rays: &[Ray], body: Option<&Path>) -> Result<Vec<Finding>> 
         Finding::number("height", "mm", height, [1000.0, 2300.0])
             .found("median from the lowest to the highest point")
             .or(unit_advice(height)),
-        upright(spread),
+        Finding::number("upright", "of the breadth", height / breadth, [0.6, f64::INFINITY])
+            .found(format!("height over the larger horizontal extent, {breadth:.0} mm"))
+            .or("the person lies on the side: is z the axis upwards?"),
     ];
     if let Some(path) = body {
         let body = Body::load(path)?;
@@ -68,16 +61,6 @@ pub(super) fn person(rays: &[Ray], body: Option<&Path>) -> Result<Vec<Finding>> 
         );
     }
     Ok(checks)
-}
-
-/// The angle between z and the axis along which the person is longest.
-fn upright(spread: Matrix3<f64>) -> Finding {
-    let eigen = SymmetricEigen::new(spread);
-    let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax());
-    let degrees = axis[2].abs().min(1.0).acos().to_degrees();
-    Finding::number("upright", "degrees", degrees, [0.0, 50.0])
-        .found("between z and the axis along which the person is longest")
-        .or("the person lies on the side: is z the axis upwards?")
 }
 
 fn unit_advice(height: f64) -> String {
@@ -94,6 +77,14 @@ fn unit_advice(height: f64) -> String {
             "check the unit of the calibration's lengths, and whether the silhouettes show a whole person".to_string()
         }
     }
+}
+
+/// Where points begin and end along an axis, without the farthest few.
+fn extent(points: &[DVec3], axis: DVec3) -> [f64; 2] {
+    let mut places: Vec<f64> = points.iter().map(|point| point.dot(axis)).collect();
+    places.sort_by(f64::total_cmp);
+    let cut = (OUTLIERS * places.len() as f64) as usize;
+    [places[cut], places[places.len() - 1 - cut]]
 }
 
 fn median(mut values: Vec<f64>) -> Option<f64> {

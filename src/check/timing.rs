@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::agreement::{Moment, disagreement, rays};
-use super::finding::Finding;
+use super::finding::{Finding, Status};
 use super::silhouettes::{SHIFTS, Silhouettes};
 use super::{CAP, FEWER_RAYS};
 use crate::geometry::Camera;
@@ -14,24 +14,36 @@ const LATE: f64 = 0.6;
 /// Where a shift changes the disagreement by less than this part, nobody moves enough to tell.
 const TELLING: f64 = 0.05;
 
-/// The delay of every camera, frames.
+/// The disagreement for shifts of one view.
+type Curve = Vec<(isize, f64)>;
+
+/// The delay of every camera, frames. One late camera makes others look early that share much of its view: the one whose
+/// shift helps most is put right before the others are measured again.
 pub(super) fn timing(cameras: &[Camera], silhouettes: &Silhouettes) -> Vec<Finding> {
-    let measured: Vec<Vec<(isize, f64)>> =
-        (0..cameras.len()).into_par_iter().map(|view| curve(cameras, silhouettes, view)).collect();
-    measured.iter().zip(cameras).map(|(curve, camera)| finding(curve, camera)).collect()
+    let mut delays = vec![0; cameras.len()];
+    let mut settled: Vec<Option<Finding>> = vec![None; cameras.len()];
+    loop {
+        let curves: Vec<Curve> =
+            (0..cameras.len()).into_par_iter().map(|view| curve(cameras, silhouettes, &delays, view)).collect();
+        let found: Vec<Finding> = curves.iter().zip(cameras).map(|(curve, camera)| finding(curve, camera)).collect();
+        let open = (0..cameras.len()).filter(|&view| settled[view].is_none() && found[view].status == Status::Failed);
+        let gain = |view: &usize| lowest(&curves[*view]).map_or(f64::INFINITY, |(_, _, least)| least);
+        let Some(worst) = open.min_by(|a, b| gain(a).total_cmp(&gain(b))) else {
+            return settled.into_iter().zip(found).map(|(settled, found)| settled.unwrap_or(found)).collect();
+        };
+        delays[worst] = lowest(&curves[worst]).map_or(0, |(_, shift, _)| shift);
+        settled[worst] = Some(found[worst].clone());
+    }
 }
 
-/// The disagreement for every shift of one view that has its frames.
-fn curve(cameras: &[Camera], silhouettes: &Silhouettes, view: usize) -> Vec<(isize, f64)> {
+/// The disagreement for every shift of one view, the others as late as `delays` says.
+fn curve(cameras: &[Camera], silhouettes: &Silhouettes, delays: &[isize], view: usize) -> Curve {
     // The same samples for every shift: those that have all their neighbours.
-    let shifted =
-        |sample: usize, shift: isize| silhouettes.moment(sample, |other| if other == view { shift } else { 0 });
-    let samples = silhouettes
-        .samples
-        .iter()
-        .copied()
-        .filter(|&sample| SHIFTS.into_iter().all(|shift| shifted(sample, shift).is_some()));
-    let samples: Vec<usize> = samples.collect();
+    let shifted = |sample: usize, shift: isize| {
+        silhouettes.moment(sample, |other| if other == view { shift } else { delays[other] })
+    };
+    let has_all = |sample: &usize| SHIFTS.into_iter().all(|shift| shifted(*sample, shift).is_some());
+    let samples: Vec<usize> = silhouettes.samples.iter().copied().filter(has_all).collect();
     if samples.is_empty() {
         return Vec::new();
     }
@@ -43,9 +55,14 @@ fn curve(cameras: &[Camera], silhouettes: &Silhouettes, view: usize) -> Vec<(isi
         .collect()
 }
 
-fn finding(curve: &[(isize, f64)], camera: &Camera) -> Finding {
+/// The place in the curve, the shift and the value where a curve is lowest.
+fn lowest(curve: &[(isize, f64)]) -> Option<(usize, isize, f64)> {
     let best = curve.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1));
-    let Some((at, &(shift, least))) = best else {
+    best.map(|(at, &(shift, value))| (at, shift, value))
+}
+
+fn finding(curve: &[(isize, f64)], camera: &Camera) -> Finding {
+    let Some((at, shift, least)) = lowest(curve) else {
         return Finding::not_measured("timing", "the frames looked at have no three neighbours to either side")
             .of(&camera.name);
     };

@@ -19,33 +19,41 @@ const ROUNDS: usize = 8;
 /// Step of the differences, radians.
 const STEP: f64 = 1e-3;
 
-/// Cameras farther off than this, degrees, spoil a track.
-const LIMIT: f64 = 0.3;
+/// Cameras that look farther beside than this, degrees, spoil a track: a person 4 m away is then off by 17 mm.
+const BESIDE: f64 = 0.25;
+/// Turns about the view's own axis move a person in the middle of the picture hardly at all, and show as little.
+const ROLLED: f64 = 0.6;
 /// Rays a silhouette.
 const RAYS: usize = 80;
 
-/// By which angle each camera looks beside its calibration.
+/// By which angles each camera looks beside its calibration, and is rolled against it.
 pub(super) fn turns(cameras: &[Camera], moments: &[Moment]) -> Vec<Finding> {
-    let all: Vec<usize> = (0..cameras.len()).collect();
-    let found = best_turns(cameras, moments, RAYS, &all);
+    let found = best_turns(cameras, moments);
     let after: Vec<Camera> = cameras.iter().zip(&found).map(|(camera, turn)| turned(camera, *turn)).collect();
     let [before, after] = [cameras, &after].map(|cameras| disagreement(&rays(cameras, moments, RAYS), CAP));
     let finding = |(camera, turn): (&Camera, &DVec3)| {
-        let [x, y, z] = turn.to_array().map(f64::to_degrees);
-        Finding::number("direction", "degrees", turn.length().to_degrees(), [0.0, LIMIT])
-            .of(&camera.name)
-            .found(format!(
-                "turned by ({x:.2}, {y:.2}, {z:.2}) about its x, y, z the views agree best: {before:.3} px become {after:.3} \
-                 with all cameras turned"
-            ))
-            .or("the camera was moved since its calibration, or that is not exact: calibrate it anew, or refine it on points \
-                 that several cameras see")
+        let [right, down, ahead] = turn.to_array().map(f64::to_degrees);
+        let advice = "the camera was moved since its calibration, or that is not exact: calibrate it anew, or refine it on \
+                      points that several cameras see";
+        [
+            Finding::number("direction", "degrees", right.hypot(down), [0.0, BESIDE])
+                .of(&camera.name)
+                .found(format!(
+                    "turned by {right:.2} about its x (to the right) and {down:.2} about its y (down) the views agree best: \
+                     {before:.3} px become {after:.3} with all cameras turned"
+                ))
+                .or(advice),
+            Finding::number("roll", "degrees", ahead, [-ROLLED, ROLLED])
+                .of(&camera.name)
+                .found("about the view, clockwise")
+                .or(advice),
+        ]
     };
-    cameras.iter().zip(&found).map(finding).collect()
+    cameras.iter().zip(&found).flat_map(finding).collect()
 }
 
 /// The camera turned about its centre by a Rodrigues vector in its own axes, radians.
-pub(super) fn turned(camera: &Camera, turn: DVec3) -> Camera {
+fn turned(camera: &Camera, turn: DVec3) -> Camera {
     let mut turned = camera.clone();
     let turn = rodrigues_matrix(turn);
     turned.camera_from_world.matrix3 = turn * camera.camera_from_world.matrix3;
@@ -54,13 +62,13 @@ pub(super) fn turned(camera: &Camera, turn: DVec3) -> Camera {
 }
 
 /// The turn of each camera, camera axes (x right, y down, z ahead), radians.
-pub(super) fn best_turns(cameras: &[Camera], moments: &[Moment], count: usize, which: &[usize]) -> Vec<DVec3> {
+fn best_turns(cameras: &[Camera], moments: &[Moment]) -> Vec<DVec3> {
     let mut turns = vec![DVec3::ZERO; cameras.len()];
     let mut best = (f64::INFINITY, turns.clone());
     let mut damping = 1.0;
     for _ in 0..ROUNDS {
         let current: Vec<Camera> = cameras.iter().zip(&turns).map(|(camera, turn)| turned(camera, *turn)).collect();
-        let rays = rays(&current, moments, count);
+        let rays = rays(&current, moments, RAYS);
         let cost = cost(&rays, &turns);
         if cost < best.0 {
             best = (cost, turns.clone());
@@ -71,7 +79,7 @@ pub(super) fn best_turns(cameras: &[Camera], moments: &[Moment], count: usize, w
             damping *= 4.0;
             continue;
         }
-        let step = step(&current, moments, &rays, &turns, which, damping);
+        let step = step(&current, moments, &rays, &turns, damping);
         let Some(step) = step else { break };
         let longest = step.iter().map(|turn| turn.length()).fold(0.0, f64::max);
         turns = turns.iter().zip(&step).map(|(turn, step)| *turn + *step * (0.02 / longest).min(1.0)).collect();
@@ -97,22 +105,15 @@ fn cost(rays: &[Ray], turns: &[DVec3]) -> f64 {
 }
 
 /// One damped Gauss-Newton step.
-fn step(
-    cameras: &[Camera],
-    moments: &[Moment],
-    rays: &[Ray],
-    turns: &[DVec3],
-    which: &[usize],
-    damping: f64,
-) -> Option<Vec<DVec3>> {
-    let unknowns = 3 * which.len();
+fn step(cameras: &[Camera], moments: &[Moment], rays: &[Ray], turns: &[DVec3], damping: f64) -> Option<Vec<DVec3>> {
+    let unknowns = 3 * cameras.len();
     let moved: Vec<[Vec<Camera>; 2]> = (0..unknowns)
         .map(|unknown| {
             [STEP, -STEP].map(|step| {
                 let mut moved = cameras.to_vec();
                 let mut turn = DVec3::ZERO;
                 turn[unknown % 3] = step;
-                moved[which[unknown / 3]] = turned(&cameras[which[unknown / 3]], turn);
+                moved[unknown / 3] = turned(&cameras[unknown / 3], turn);
                 moved
             })
         })
@@ -138,13 +139,13 @@ fn step(
     let prior = prior(rays.len());
     for unknown in 0..unknowns {
         matrix[(unknown, unknown)] += prior;
-        vector[unknown] += prior * turns[which[unknown / 3]][unknown % 3];
+        vector[unknown] += prior * turns[unknown / 3][unknown % 3];
         matrix[(unknown, unknown)] *= 1.0 + 0.1 * damping;
     }
     let solution = matrix.cholesky()?.solve(&vector);
     let mut step = vec![DVec3::ZERO; cameras.len()];
     for unknown in 0..unknowns {
-        step[which[unknown / 3]][unknown % 3] = -solution[unknown];
+        step[unknown / 3][unknown % 3] = -solution[unknown];
     }
     Some(step)
 }

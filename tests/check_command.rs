@@ -1,0 +1,341 @@
+//! `pantin check` as a user runs it: on drawn silhouettes of a walking body, whose truth is exact, and on the beam.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "helpers of tests fail as tests do")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+
+use glam::{DAffine3, DMat3, DVec3};
+use image::{GrayImage, Luma};
+use pantin::body::Body;
+use pantin::evaluate::Reference;
+use pantin::files::Overwrite;
+use pantin::geometry::{Camera, rodrigues_matrix};
+use pantin::sequence::write_cameras_toml;
+
+#[allow(dead_code, reason = "a module of several tests")]
+mod scene;
+
+const SIZE: [u32; 2] = [320, 400];
+const FRAMES: usize = 24;
+
+/// Five cameras round a walk, no two of them opposite each other.
+fn cameras() -> Vec<Camera> {
+    let camera = |(index, degrees): (usize, f64)| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let eye = DVec3::new(4200.0 * cos, 4200.0 * sin, 1500.0 + 150.0 * index as f64);
+        let lens = scene::brown(520.0, SIZE, [-0.05, 0.02, 0.0], [0.0; 2]);
+        scene::camera(&format!("c{index}"), SIZE, eye, DVec3::new(0.0, 0.0, 850.0), lens)
+    };
+    [15.0, 80.0, 155.0, 235.0, 300.0].into_iter().enumerate().map(camera).collect()
+}
+
+/// A walk: 50 mm a frame, arms and legs swinging, arms a little off the trunk.
+fn pose(body: &Body, frame: usize) -> Vec<f32> {
+    let mut pose = body.standing_pose();
+    let names = body.dof_names();
+    let mut set = |name: &str, value: f64| pose[names.iter().position(|dof| dof == name).unwrap()] = value;
+    let phase = frame as f64 * 0.45;
+    set("pelvis.tx", 50.0 * frame as f64 - 600.0);
+    set("pelvis.ty", 60.0 * phase.cos());
+    for (side, sign) in [("left", 1.0), ("right", -1.0)] {
+        set(&format!("{side}_hip.ry"), sign * -0.45 * phase.sin());
+        set(&format!("{side}_knee.ry"), 0.35 + 0.3 * (sign * phase.cos()).max(0.0));
+        set(&format!("{side}_shoulder.ry"), sign * 0.6 * phase.sin());
+        set(&format!("{side}_shoulder.rx"), sign * 0.45);
+        set(&format!("{side}_elbow.ry"), -0.5);
+    }
+    pose.into_iter().map(|value| value as f32).collect()
+}
+
+/// The drawn masks, made once: folder/cN_FFF.png.
+fn masks() -> &'static Path {
+    static FOLDER: OnceLock<tempfile::TempDir> = OnceLock::new();
+    FOLDER
+        .get_or_init(|| {
+            let folder = tempfile::tempdir().unwrap();
+            let body = Body::adult(1750.0).unwrap();
+            let cameras = cameras();
+            let reference = Reference::new(&body, &cameras);
+            for frame in 0..FRAMES {
+                let pose = pose(&body, frame);
+                for (view, camera) in cameras.iter().enumerate() {
+                    let drawn = reference.draw(&pose, view);
+                    let mask = GrayImage::from_fn(drawn.width, drawn.height, |x, y| {
+                        Luma([if drawn.bytes[(y * drawn.width + x) as usize] != 0 { 255 } else { 0 }])
+                    });
+                    mask.save(folder.path().join(format!("{}_{frame:03}.png", camera.name))).unwrap();
+                }
+            }
+            folder
+        })
+        .path()
+}
+
+/// A sequence of those masks with other cameras; `late` is a camera whose pictures come a frame late.
+fn sequence(cameras: &[Camera], late: Option<&str>) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    write_cameras_toml(&at.join("cameras.toml"), cameras, Overwrite::Refuse).unwrap();
+    fs::write(at.join("body.toml"), Body::adult(1750.0).unwrap().to_toml()).unwrap();
+    let mut manifest = "name = \"walk\"\nfps = 25.0\ncameras = \"cameras.toml\"\nbody = \"body.toml\"\n".to_string();
+    for camera in cameras {
+        let name = &camera.name;
+        let source = if late == Some(name) {
+            for frame in 0..FRAMES {
+                let from = masks().join(format!("{name}_{:03}.png", frame.saturating_sub(1)));
+                fs::copy(from, at.join(format!("{name}_{frame:03}.png"))).unwrap();
+            }
+            at.join(format!("{name}_%03d.png"))
+        } else {
+            masks().join(format!("{name}_%03d.png"))
+        };
+        let source = source.display();
+        manifest += &format!("[[view]]\ncamera = \"{name}\"\nsource = \"{source}\"\nmask = \"{source}\"\n");
+    }
+    fs::write(at.join("sequence.toml"), manifest).unwrap();
+    folder
+}
+
+/// Exit status, the report, and what stood on standard error.
+fn check(sequence: &Path) -> (i32, serde_json::Value, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_pantin")).args(["check", "--json"]).arg(sequence).output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    let report = serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{error}"));
+    (output.status.code().unwrap(), report, error)
+}
+
+/// The failed checks, as `check` or `check camera`.
+fn failed(report: &serde_json::Value) -> Vec<String> {
+    let checks = report["checks"].as_array().unwrap();
+    let name = |finding: &&serde_json::Value| match finding["camera"].as_str() {
+        Some(camera) => format!("{} {camera}", finding["check"].as_str().unwrap()),
+        None => finding["check"].as_str().unwrap().to_string(),
+    };
+    checks.iter().filter(|finding| finding["status"] == "failed").map(|finding| name(&finding)).collect()
+}
+
+fn finding<'a>(report: &'a serde_json::Value, check: &str, camera: &str) -> &'a serde_json::Value {
+    let checks = report["checks"].as_array().unwrap();
+    checks
+        .iter()
+        .find(|finding| finding["check"] == check && finding["camera"].as_str().unwrap_or("") == camera)
+        .unwrap()
+}
+
+/// The failed checks of the drawn walk with other cameras.
+fn fails(cameras: &[Camera], late: Option<&str>) -> (Vec<String>, serde_json::Value) {
+    let folder = sequence(cameras, late);
+    let (status, report, error) = check(folder.path());
+    let failed = failed(&report);
+    assert_eq!(status, i32::from(!failed.is_empty()), "{error}");
+    assert_eq!(report["sane"], failed.is_empty());
+    for finding in report["checks"].as_array().unwrap() {
+        assert_eq!(finding["status"] == "failed", finding["advice"] != "", "{finding}");
+    }
+    (failed, report)
+}
+
+/// The camera turned about its own centre by a Rodrigues vector in its own axes.
+fn turned(camera: &Camera, degrees: DVec3) -> Camera {
+    let turn = DAffine3::from_mat3(rodrigues_matrix(degrees * 1.0_f64.to_radians()));
+    Camera { camera_from_world: turn * camera.camera_from_world, ..camera.clone() }
+}
+
+/// The same cameras in a world that a map leads to.
+fn moved(world_from_world: DAffine3) -> Vec<Camera> {
+    let back = world_from_world.inverse();
+    cameras()
+        .into_iter()
+        .map(|camera| Camera { camera_from_world: camera.camera_from_world * back, ..camera })
+        .collect()
+}
+
+#[test]
+fn a_clean_sequence_is_sane() {
+    let (failed, report) = fails(&cameras(), None);
+    assert!(failed.is_empty(), "{failed:?}\n{report:#}");
+    for camera in cameras() {
+        let value = |check: &str| finding(&report, check, &camera.name)["value"].as_f64().unwrap();
+        println!("{}: {} {} {}", camera.name, value("direction"), value("roll"), value("timing"));
+        assert!(
+            value("direction") < 0.12 && value("timing").abs() < 0.3 && value("hull coverage") > 97.0,
+            "{report:#}"
+        );
+    }
+    let height = finding(&report, "height", "")["value"].as_f64().unwrap();
+    assert!((1600.0..1800.0).contains(&height), "{height}");
+}
+
+#[test]
+fn half_a_degree_is_caught_and_the_camera_named() {
+    for (view, axis) in [(0, DVec3::X), (1, DVec3::Y), (2, DVec3::X), (3, -DVec3::Y), (4, DVec3::Y)] {
+        let mut cameras = cameras();
+        cameras[view] = turned(&cameras[view], axis * 0.5);
+        let (failed, report) = fails(&cameras, None);
+        let name = format!("direction c{view}");
+        let value = finding(&report, "direction", &format!("c{view}"))["value"].as_f64().unwrap();
+        println!("c{view} by half a degree about {axis}: measured {value:.3}; failed {failed:?}");
+        assert!(failed.contains(&name), "{failed:?}");
+        assert!((0.3..0.65).contains(&value), "{value}");
+        // The others are not accused.
+        assert!(failed.iter().all(|check| !check.starts_with("direction") || *check == name), "{failed:?}");
+    }
+}
+
+#[test]
+fn a_camera_a_frame_late_is_caught_and_named() {
+    let (failed, report) = fails(&cameras(), Some("c2"));
+    let late = finding(&report, "timing", "c2")["value"].as_f64().unwrap();
+    println!("c2 a frame late: measured {late:.2}; failed {failed:?}");
+    assert!(failed.contains(&"timing c2".to_string()) && (0.6..1.4).contains(&late), "{failed:?} {late}");
+    assert!(failed.iter().all(|check| !check.starts_with("timing") || check == "timing c2"), "{failed:?}");
+}
+
+#[test]
+fn exchanged_cameras_are_caught_and_named() {
+    let mut cameras = cameras();
+    let names = [cameras[1].name.clone(), cameras[3].name.clone()];
+    cameras.swap(1, 3);
+    [cameras[1].name, cameras[3].name] = names;
+    let (failed, report) = fails(&cameras, None);
+    assert!(failed.contains(&"order of the cameras".to_string()), "{failed:?}");
+    let advice = finding(&report, "order of the cameras", "")["advice"].as_str().unwrap().to_string();
+    assert!(advice.contains("c1 and c3"), "{advice}");
+}
+
+#[test]
+fn worlds_upside_down_or_on_their_side_are_caught() {
+    let (failed, report) = fails(&moved(DAffine3::from_mat3(DMat3::from_rotation_x(std::f64::consts::PI))), None);
+    assert!(failed.contains(&"up axis".to_string()) && failed.contains(&"feet".to_string()), "{failed:?}");
+    let advice = finding(&report, "feet", "")["advice"].as_str().unwrap();
+    assert!(advice.contains("turn the calibration's world over"), "{advice}");
+    // The world of programs with y upwards.
+    let (failed, report) =
+        fails(&moved(DAffine3::from_mat3(DMat3::from_rotation_x(-0.5 * std::f64::consts::PI))), None);
+    assert!(failed.contains(&"up axis".to_string()), "{failed:?}");
+    let advice = finding(&report, "up axis", "")["advice"].as_str().unwrap();
+    assert!(advice.contains("world has y upwards"), "{advice}");
+    // The floor a metre too low.
+    let (failed, _) = fails(&moved(DAffine3::from_translation(DVec3::new(0.0, 0.0, 1000.0))), None);
+    assert_eq!(failed, ["feet"]);
+}
+
+#[test]
+fn wrong_units_are_caught() {
+    // Centimetres taken for millimetres pass the reader of calibrations: no camera is absurdly near.
+    let cameras: Vec<Camera> = cameras()
+        .into_iter()
+        .map(|mut camera| {
+            camera.camera_from_world.translation /= 10.0;
+            camera
+        })
+        .collect();
+    let (failed, report) = fails(&cameras, None);
+    assert!(failed.contains(&"height".to_string()), "{failed:?}");
+    let advice = finding(&report, "height", "")["advice"].as_str().unwrap();
+    assert!(advice.contains("look like centimetres"), "{advice}");
+}
+
+#[test]
+fn metres_for_millimetres_are_caught() {
+    for (wrong, expected) in [("units = \"m\"", "wrong units"), ("", "the file states no units and metres are assumed")]
+    {
+        let folder = sequence(&cameras(), None);
+        let path = folder.path().join("cameras.toml");
+        let text = fs::read_to_string(&path).unwrap().replace("units = \"mm\"", wrong);
+        fs::write(path, text).unwrap();
+        let (status, report, error) = check(folder.path());
+        assert_eq!((status, failed(&report)), (1, vec!["files".to_string()]), "{error}");
+        let found = report["checks"][0]["found"].as_str().unwrap().to_string();
+        assert!(found.contains(expected), "{found}");
+    }
+}
+
+#[test]
+fn mirrored_pictures_are_caught() {
+    let folder = sequence(&cameras(), None);
+    let manifest = folder.path().join("sequence.toml");
+    for camera in cameras() {
+        for frame in 0..FRAMES {
+            let name = format!("{}_{frame:03}.png", camera.name);
+            let mask = image::open(masks().join(&name)).unwrap().to_luma8();
+            image::imageops::flip_horizontal(&mask).save(folder.path().join(name)).unwrap();
+        }
+    }
+    let text = fs::read_to_string(&manifest).unwrap();
+    fs::write(&manifest, text.replace(masks().to_str().unwrap(), folder.path().to_str().unwrap())).unwrap();
+    let (status, report, _) = check(folder.path());
+    assert!(status == 1 && failed(&report).contains(&"handedness".to_string()), "{:?}", failed(&report));
+}
+
+#[test]
+fn a_wrong_lens_and_too_few_frames_are_said() {
+    let mut cameras = cameras();
+    cameras[0].lens = scene::brown(520.0, SIZE, [-3.0, 0.0, 0.0], [0.0; 2]);
+    let (failed, report) = fails(&cameras, None);
+    assert!(failed.contains(&"distortion c0".to_string()), "{failed:?}");
+    assert!(finding(&report, "distortion", "c0")["found"].as_str().unwrap().contains("past the end"), "{report:#}");
+    let folder = sequence(&self::cameras(), None);
+    let run = |arguments: &[&str]| {
+        let output =
+            Command::new(env!("CARGO_BIN_EXE_pantin")).arg("check").arg(folder.path()).args(arguments).output();
+        let output = output.unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    };
+    let (status, out, error) = run(&["--frames", "3..5"]);
+    assert!(status == 0 && out.contains("-      timing c1") && out.contains("no three neighbours"), "{out}{error}");
+    let (status, _, error) = run(&["--frames", "3..50"]);
+    assert!(status == 1 && error.contains("frames 3..50 are no frames of"), "{error}");
+}
+
+/// The beam's two calibrations: what came with the recording differs by 0.3 to 0.7 degrees from what was refined on
+/// static points.
+#[test]
+fn the_calibrations_of_the_beam_are_told_apart() {
+    let data = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/beam"));
+    if !data.is_dir() || Command::new("ffmpeg").arg("-version").output().is_err() {
+        println!("SKIPPED the_calibrations_of_the_beam_are_told_apart: ../shared/data or ffmpeg is absent");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let fixture = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/beam"));
+    let copy = |from: PathBuf, name: &str| fs::write(at.join(name), fs::read(from).unwrap()).unwrap();
+    copy(fixture.join("body.toml"), "body.toml");
+    for camera in ["cam01", "cam02", "cam03", "cam04"] {
+        copy(data.join(format!("videos/{camera}.mp4")), &format!("{camera}.mp4"));
+        copy(data.join(format!("background/bg_{camera}.png")), &format!("bg_{camera}.png"));
+    }
+    copy(fixture.join("start.csv"), "start.csv");
+    copy(fixture.join("sequence.toml"), "sequence.toml");
+    let refined = fs::read_to_string(data.join("cameras.toml")).unwrap() + "\n[metadata]\nunits = \"mm\"\n";
+    fs::write(at.join("cameras.toml"), refined).unwrap();
+    let refined = pantin::sequence::read_cameras(&at.join("cameras.toml")).unwrap();
+    let (status, report, error) = check(at);
+    assert_eq!((status, failed(&report)), (0, vec![]), "{error}");
+    // The original's extrinsics; two of its videos were cut since, so that its intrinsics are not theirs.
+    let original = pantin::sequence::read_cameras(&data.join("Calib_original.qca.txt")).unwrap();
+    let both: Vec<Camera> = refined
+        .iter()
+        .map(|refined| {
+            let original = original.iter().find(|camera| camera.name == refined.name).unwrap();
+            Camera { camera_from_world: original.camera_from_world, ..refined.clone() }
+        })
+        .collect();
+    write_cameras_toml(&at.join("cameras.toml"), &both, Overwrite::Replace).unwrap();
+    let (status, report, _) = check(at);
+    assert_eq!(status, 1);
+    let failed = failed(&report);
+    for (original, refined) in both.iter().zip(&refined) {
+        let between = refined.camera_from_world.matrix3 * original.camera_from_world.matrix3.transpose();
+        let turn = pantin::geometry::rodrigues_vector(between).truncate().length().to_degrees();
+        let measured = finding(&report, "direction", &refined.name)["value"].as_f64().unwrap();
+        println!("{}: {turn:.3} degrees apart, measured {measured:.3}", refined.name);
+        assert!(failed.contains(&format!("direction {}", refined.name)), "{failed:?}");
+        assert!((turn - measured).abs() < 0.1, "{turn} {measured}");
+    }
+}
