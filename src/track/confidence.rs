@@ -27,7 +27,7 @@ pub struct LossRule {
 
 impl Default for LossRule {
     fn default() -> Self {
-        Self { lost_below: 0.75, found_from: 0.8 }
+        Self { lost_below: 0.8, found_from: 0.9 }
     }
 }
 
@@ -136,10 +136,9 @@ impl Confidence {
         }
     }
 
-    /// The agreement of a frame as it would be judged next, without taking note of it; and whether that is a loss.
-    pub(super) fn foresee(&self, result: &FrameResult) -> (f64, bool) {
-        let agreement = self.agreement(result);
-        (agreement, self.is_loss(agreement))
+    /// Whether the next frame would be a loss with this result, without taking note of it.
+    pub(super) fn is_loss_at(&self, result: &FrameResult) -> bool {
+        self.is_loss(self.agreement(result))
     }
 
     fn is_loss(&self, agreement: f64) -> bool {

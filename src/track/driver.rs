@@ -384,11 +384,13 @@ impl Run<'_> {
             joints: seen_joints(body, cameras, observations, &searched.estimate.pose),
         };
         let mut found = result(&searched);
-        if let Some(recovery) = self.recovery.as_ref().filter(|_| self.confidence.foresee(&found).1) {
+        if let Some(recovery) =
+            self.recovery.as_ref().filter(|recovery| recovery.is_lost() || self.confidence.is_loss_at(&found))
+        {
             let begin = Instant::now();
             let is_sure = |components: &[Components]| {
                 let views = components.iter().map(|view| objective.view_terms(view)).collect();
-                !self.confidence.foresee(&FrameResult { views, ..found.clone() }).1
+                !self.confidence.is_loss_at(&FrameResult { views, ..found.clone() })
             };
             let lost = LostFrame { evaluator, objective, observations, number: counter, spread: &spread };
             recovery.search(lost, &mut searched, &is_sure).with_context(in_frame)?;
