@@ -11,6 +11,8 @@
 
 mod interrupted;
 mod live;
+#[path = "../track/outcome.rs"]
+mod outcome;
 mod realtime;
 #[path = "../track/walk.rs"]
 #[allow(dead_code, reason = "its other user takes more of it")]
@@ -19,21 +21,8 @@ mod walk;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
-use std::sync::OnceLock;
 
-use tempfile::TempDir;
-
-/// The sequence, made once: six frames of pictures and masks, four cameras, 160x120.
-fn sequence() -> &'static Path {
-    static SEQUENCE: OnceLock<TempDir> = OnceLock::new();
-    SEQUENCE
-        .get_or_init(|| {
-            let folder = tempfile::tempdir().unwrap();
-            walk::write(folder.path());
-            folder
-        })
-        .path()
-}
+use outcome::{refused, sequence, stderr};
 
 fn command(sequence: &Path, output: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_pantin"));
@@ -45,25 +34,9 @@ fn track(sequence: &Path, output: &Path, more: &[&str]) -> Output {
     command(sequence, output, more).output().unwrap()
 }
 
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
 #[track_caller]
 fn succeeded(output: &Output) {
     assert!(output.status.success(), "{}", stderr(output));
-}
-
-/// A run that must fail with status 1 and one sentence that holds `parts`.
-#[track_caller]
-fn refused(output: &Output, parts: &[&str]) {
-    let text = stderr(output);
-    assert_eq!(output.status.code(), Some(1), "{text}");
-    let sentence = text.lines().last().unwrap_or_default();
-    assert!(sentence.starts_with("pantin: ") && !text.contains("panicked"), "{text}");
-    for part in parts {
-        assert!(sentence.contains(part), "`{sentence}` lacks `{part}`");
-    }
 }
 
 /// Lines of the journal that are whole.

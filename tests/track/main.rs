@@ -10,6 +10,7 @@
 )]
 
 mod evaluate;
+mod outcome;
 mod walk;
 
 use std::collections::BTreeMap;
@@ -19,24 +20,13 @@ use std::process::{Command, Output, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
+use outcome::{refused, sequence, stderr};
 use pantin::body::{Body, PoseTable};
 use pantin::motion::{read_bvh, read_points};
 use tempfile::TempDir;
 
 /// Enough to follow the walk, little enough for the reference.
 const SEARCH: [&str; 6] = ["--particles", "40", "--iterations", "6", "--overlay-every", "2"];
-
-/// The sequence, made once.
-fn sequence() -> &'static Path {
-    static SEQUENCE: OnceLock<TempDir> = OnceLock::new();
-    SEQUENCE
-        .get_or_init(|| {
-            let folder = tempfile::tempdir().unwrap();
-            walk::write(folder.path());
-            folder
-        })
-        .path()
-}
 
 fn pantin(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_pantin")).args(arguments).output().unwrap()
@@ -52,22 +42,6 @@ fn track_with(sequence: &Path, output: &Path, more: &[&str]) -> Output {
 fn tracked(output: &Path, more: &[&str]) {
     let done = track_with(sequence(), output, more);
     assert!(done.status.success(), "{}", stderr(&done));
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
-
-/// Runs that must fail with status 1 and one sentence that holds `parts`.
-#[track_caller]
-fn refused(output: &Output, parts: &[&str]) {
-    let text = stderr(output);
-    assert_eq!(output.status.code(), Some(1), "{text}");
-    let sentence = text.lines().last().unwrap_or_default();
-    assert!(sentence.starts_with("pantin: ") && !text.contains("panicked"), "{text}");
-    for part in parts {
-        assert!(sentence.contains(part), "`{sentence}` lacks `{part}`");
-    }
 }
 
 /// Every file of a track that must not depend on time, machine or interruption.
