@@ -6,6 +6,7 @@ use anyhow::{Result, ensure};
 use crate::body::Body;
 use crate::evaluate::batch::{check_batch, check_scene};
 use crate::evaluate::rig::Rig;
+use crate::evaluate::segments::refuse_segments;
 use crate::evaluate::stages::{ObjectiveStage, PoseStage, ProjectStage, RasterStage, Share};
 use crate::evaluate::{Components, Evaluator, Footprint, Objective, Projector};
 use crate::features::Observation;
@@ -171,6 +172,7 @@ impl Evaluator for Compute {
     }
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
+        refuse_segments(self.name(), observations)?;
         self.model.observe(observations)?;
         self.runs.outdate_upload();
         Ok(())
