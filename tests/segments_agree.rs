@@ -11,11 +11,11 @@ use std::sync::Arc;
 use device::device;
 use pantin::body::Body;
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
-use pantin::evaluate::vulkan::{Graphics, GraphicsSettings};
+use pantin::evaluate::vulkan::{Compute, Graphics, GraphicsSettings};
 use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind, Reference, SegmentSums};
 use pantin::features::{Observation, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;
-use pantin::gpu::DeviceSettings;
+use pantin::gpu::{Capabilities, DeviceSettings};
 use scene::{Random, cameras, poses};
 
 /// The adult's parts but for one, dealt out to three segments of different weights.
@@ -94,6 +94,44 @@ fn every_instruction_set_gives_the_reference_s_segments() {
             assert!(expected.components == found.components, "{what}: components");
             assert!(expected.fitness == found.fitness, "{what}: fitness");
         }
+    }
+}
+
+/// In one batch and in many, before and after whole silhouettes.
+#[test]
+fn compute_gives_the_reference_s_segments() {
+    let (body, cameras, segments) = (Body::adult(1750.0).unwrap(), cameras(), three_segments());
+    let mut random = Random(35);
+    let seen = seen(&body, &cameras, &segments, &mut random);
+    let poses = poses(&body, 300, &mut random);
+    let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
+    let lowered = |lower| DeviceSettings { lower: Some(lower), ..DeviceSettings::default() };
+    let few: fn(&mut Capabilities) = |capabilities| capabilities.max_groups = 100;
+    for settings in [DeviceSettings::default(), lowered(few)] {
+        let Some((device, log)) = device("compute_gives_the_reference_s_segments", settings) else { return };
+        let mut compute = Compute::on(&device, &body, &cameras).unwrap();
+        for round in 0..2 {
+            let whole: Vec<Observation> = seen.iter().map(|o| Observation { segmentation: None, ..o.clone() }).collect();
+            assert!(scene::evaluate(&mut compute, &whole, &poses) == expected.components, "{round}: whole");
+            assert!(compute.segments().is_none());
+            let found = found(&mut compute, &seen, &poses);
+            let differs = expected.sums.iter().zip(&found.sums).position(|(expected, found)| expected != found);
+            assert_eq!(differs, None, "round {round}");
+            assert!(expected.components == found.components, "round {round}: components");
+            for (expected, found) in expected.fitness.iter().flatten().zip(found.fitness.iter().flatten()) {
+                // Powers are rounded as the device rounds them.
+                assert!((expected - found).abs() <= 1e-5, "{found} is not {expected}");
+            }
+        }
+        let mut sabotaged = seen.clone();
+        let mut numbers = seen[1].segmentation.as_ref().unwrap().numbers().to_vec();
+        let at = numbers.iter().position(|&number| number == 1).unwrap();
+        numbers[at] = 3;
+        let [width, height] = cameras[1].size;
+        sabotaged[1].segmentation = Some(Segmentation::new(Arc::clone(&segments), width, height, numbers).unwrap());
+        assert!(found(&mut compute, &sabotaged, &poses).sums != expected.sums, "a changed segment passed");
+        drop((compute, device));
+        assert_eq!(log.messages(), Vec::<String>::new());
     }
 }
 

@@ -50,7 +50,7 @@ pub(crate) fn refuse_segments(backend: &str, observations: &[Observation]) -> Re
     match segments_of(observations)? {
         Some(_) => bail!(
             "the backend {backend} compares whole silhouettes alone, and the observations tell body parts apart: expected one of \
-             cpu, reference"
+             compute, cpu, reference"
         ),
         None => Ok(()),
     }
