@@ -18,6 +18,11 @@ const uint RASTER_GROUP = 32u;
 // Words of a row that it draws at once: fewer compute the spans of wide parts more often, more make masks of nothing.
 const uint RASTER_WORDS = 3u;
 
+// Most segments that observations tell apart.
+const uint MOST_SEGMENTS = 8u;
+// Labels of parts, 0 for nothing.
+const uint LABELS = 128u;
+
 // Invocations of a workgroup of the objective.
 const uint OBJECTIVE_GROUP = 64u;
 // Kinds of objective.

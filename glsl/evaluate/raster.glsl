@@ -23,6 +23,28 @@ layout(std430, set = 0, binding = 3) readonly buffer Planes { uvec4 planes[]; };
 layout(std430, set = 0, binding = 4) readonly buffer List { uint list[]; };
 layout(std430, set = 0, binding = 5) writeonly buffer AllSums { Sums sums[]; };
 
+#ifdef SEGMENTED
+#include "evaluate/segments.glsl"
+
+layout(std430, set = 0, binding = 6) readonly buffer SegmentTable {
+    float weights[MOST_SEGMENTS];
+    uint numbers[LABELS]; // of each label, 0 for none
+    uint areas[];         // observed pixels, [view][segment]
+} table;
+// A word a segment for 32 pixels of a row.
+layout(std430, set = 0, binding = 7) readonly buffer SegmentPlanes { uint segment_planes[]; };
+// [candidate][view][segment]
+layout(std430, set = 0, binding = 8) writeonly buffer AllSegmentSums { SegmentSum segment_sums[]; };
+
+shared uint segment_areas[MOST_SEGMENTS];
+shared uint segment_overlaps[MOST_SEGMENTS];
+
+// The four bits of a segment number, each in every bit of a word.
+uvec4 number_bits(uint number) {
+    return mix(uvec4(0u), uvec4(0xffffffffu), notEqual(uvec4(number) & uvec4(1u, 2u, 4u, 8u), uvec4(0u)));
+}
+#endif
+
 // Parts that are kept at once.
 const uint TILE = 32u;
 // Chunks of the widest picture, 16384 pixels.
@@ -35,6 +57,9 @@ shared ivec4 part_y[TILE];
 // reaches into it.
 shared uvec4 part_rows[TILE / 4u];
 shared uint part_columns[TILE];
+#ifdef SEGMENTED
+shared uint part_numbers[TILE];
+#endif
 shared uint chunk_parts[MOST_CHUNKS];
 
 uint pack_range(int first, int end) {
@@ -122,6 +147,9 @@ void load_tile(uint image, uint tile, ivec2 size, uint chunks) {
             ivec4 x = quads[image * batch.parts + part].x;
             ivec4 y = quads[image * batch.parts + part].y;
             part_x[slot] = x;
+#ifdef SEGMENTED
+            part_numbers[slot] = table.numbers[quads[image * batch.parts + part].label & (LABELS - 1u)];
+#endif
             part_y[slot] = y;
             if (quads[image * batch.parts + part].drawn != 0u) {
                 x = (x + 128) >> 8;
@@ -176,6 +204,11 @@ uvec4 rasterise(uint image) {
                 filled[word] = 0u;
                 edges[word] = 0u;
             }
+#ifdef SEGMENTED
+            // The segment number of every pixel, a bit plane a component.
+            uvec4 shown[RASTER_WORDS];
+            for (uint word = 0u; word < RASTER_WORDS; word++) shown[word] = uvec4(0u);
+#endif
             for (uint tile = 0u; tile < tiles; tile++) {
                 if (!loaded || tiles > 1u) {
                     load_tile(image, tile, size, chunks);
@@ -209,8 +242,13 @@ uvec4 rasterise(uint image) {
                         int start = origin + int(32u * word);
                         uint lines = span_bits(from.x - start, to.x - start) | span_bits(from.y - start, to.y - start) |
                             span_bits(from.z - start, to.z - start) | span_bits(from.w - start, to.w - start);
+                        uint inner = span_bits(fill.x - start, fill.y - start);
+#ifdef SEGMENTED
+                        uint nearest = (lines | inner) & ~(filled[word] | edges[word]);
+                        shown[word] |= number_bits(part_numbers[part]) & nearest;
+#endif
                         edges[word] |= lines & ~filled[word];
-                        filled[word] |= span_bits(fill.x - start, fill.y - start);
+                        filled[word] |= inner;
                     }
                 }
             }
@@ -225,6 +263,16 @@ uvec4 rasterise(uint image) {
                     uvec4 far = planes[2u * group + 1u];
                     uvec4 ones = uvec4(1u, 2u, 4u, 8u) * uvec4(bitCount(near & edges[word]));
                     uvec3 sixteens = uvec3(16u, 32u, 64u) * uvec3(bitCount(far.xyz & edges[word]));
+#ifdef SEGMENTED
+                    for (uint segment = 0u; segment < MOST_SEGMENTS; segment++) {
+                        uvec4 same = ~(shown[word] ^ number_bits(segment + 1u));
+                        uint own = same.x & same.y & same.z & same.w & drawn;
+                        if (own == 0u) continue;
+                        atomicAdd(segment_areas[segment], uint(bitCount(own)));
+                        uint both = own & segment_planes[MOST_SEGMENTS * group + segment];
+                        atomicAdd(segment_overlaps[segment], uint(bitCount(both)));
+                    }
+#endif
                     sum.x += uint(bitCount(drawn));
                     sum.y += uint(bitCount(drawn & far.w));
                     sum.z += uint(bitCount(edges[word]));

@@ -11,7 +11,7 @@ use crate::sequence::{Sequence, read_cameras};
 use crate::track::{Backend, Model, ScoredFrame, score_poses, write_fitness};
 
 /// Scores given poses against one frame: components.csv (counts of pixels a pose and view) and fitness.csv, and with --images
-/// every candidate as it was drawn. Without -o the fitness goes to the standard output. The frame is one of a sequence, or
+/// every candidate as it was drawn, and segments.csv where body parts are told apart. Without -o the fitness goes to the standard output. The frame is one of a sequence, or
 /// packed observations (`<camera>.png`: bit 7 the silhouette, bits 0-6 the edge proximity) with their cameras and body.
 #[derive(clap::Args, Debug)]
 pub struct EvaluateArgs {
@@ -33,7 +33,7 @@ pub struct EvaluateArgs {
     /// The poses.
     #[arg(long, value_name = "poses.csv")]
     poses: PathBuf,
-    /// Who scores them: auto, reference or cpu.
+    /// Who scores them: auto, reference, cpu, graphics or compute.
     #[arg(long, value_name = "NAME", default_value = "auto", value_parser = Backend::from_name)]
     backend: Backend,
     /// What the body is drawn as: flat (cones as quadrilaterals) or mesh (the body's [mesh], else frusta).
@@ -44,7 +44,8 @@ pub struct EvaluateArgs {
     /// The folder for the results.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Also write every candidate image, images/pose_%06d_<camera>.png: bits 0-6 the label, bit 7 an edge.
+    /// Also write every candidate image, images/pose_%06d_<camera>.png: bits 0-6 the label, bit 7 an edge. The backends
+    /// reference and graphics write what they drew; cpu and compute keep no picture, so the reference draws for them.
     #[arg(long, requires = "output")]
     images: bool,
     /// Replace what the folder holds.
@@ -79,6 +80,9 @@ pub fn run(args: &EvaluateArgs) -> Result<()> {
     let output = args.output.as_deref().map(|path| OutputFolder::create(path, overwrite)).transpose()?;
     let scores = score_poses(&frame, &poses, args.backend, args.model, &objective, output.as_ref(), args.images)?;
     eprintln!("{}", scores.backend);
+    if scores.drawn_by_reference {
+        eprintln!("the images are drawn by the reference: this backend keeps no picture of a candidate");
+    }
     match &args.output {
         Some(path) => {
             println!(

@@ -12,8 +12,11 @@ mod projection;
 mod reference;
 mod rig;
 mod score;
+mod segments;
 mod stages;
 pub mod vulkan;
+
+use std::sync::Arc;
 
 use anyhow::Result;
 
@@ -24,9 +27,10 @@ pub use objective::{Objective, ObjectiveKind};
 pub use projection::{PartQuad, Projector};
 pub use reference::{CandidateImage, Reference, compare, draw_quads};
 pub use score::score;
+pub use segments::SegmentSums;
 use vulkan::DeviceEvaluator;
 
-use crate::features::Observation;
+use crate::features::{Observation, Segments};
 use crate::gpu::DevicePass;
 
 /// Scores candidate poses against the observations of one frame.
@@ -49,7 +53,8 @@ pub trait Evaluator: Send {
     /// Takes the observations of a frame, one a view, in the order of the cameras.
     ///
     /// # Errors
-    /// When there are not as many as views, or one's size is not its camera's.
+    /// When there are not as many as views, or one's size is not its camera's; when some tell body parts apart and others do not, or
+    /// any does and this evaluator compares whole silhouettes alone.
     fn observe(&mut self, observations: &[Observation]) -> Result<()>;
 
     /// The components of every candidate in every view: `components[candidate * views + view]`.
@@ -57,6 +62,27 @@ pub trait Evaluator: Send {
     /// # Errors
     /// When the slices' lengths do not fit each other, or the device fails.
     fn components(&mut self, poses: &[f32], components: &mut [Components]) -> Result<()>;
+
+    /// The segments that silhouettes are compared by, those of the newest observations; none where silhouettes are whole.
+    fn segments(&self) -> Option<&Arc<Segments>> {
+        None
+    }
+
+    /// The sums of every candidate in every view and segment: `sums[(candidate * views + view) * segments + segment]`.
+    ///
+    /// # Errors
+    /// As [`Self::components`]; also when there are no segments.
+    fn segment_sums(&mut self, _poses: &[f32], _sums: &mut [SegmentSums]) -> Result<()> {
+        Err(segments::no_segments())
+    }
+
+    /// One pose in one view as this evaluator itself draws it; none where it keeps no picture.
+    ///
+    /// # Errors
+    /// When the pose has another length, there is no such view, or the device fails.
+    fn drawn(&mut self, _pose: &[f32], _view: usize) -> Result<Option<CandidateImage>> {
+        Ok(None)
+    }
 
     /// The fitness of every candidate, in [0, 1].
     ///

@@ -1,6 +1,9 @@
 //! The five objective functions (SPEC A7): from a candidate's components to one number in [0, 1], to be maximised.
 
-use super::Components;
+use std::ops::Range;
+
+use super::{Components, SegmentSums};
+use crate::features::{Segment, Segments};
 
 /// How the silhouette and the edge terms of the cameras are combined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -56,37 +59,50 @@ impl Default for Objective {
 impl Objective {
     /// The fitness of one candidate from its components, one a view. Nothing drawn or nothing observed scores 0; 0/0 is 0.
     pub fn fitness(&self, views: &[Components]) -> f32 {
-        let count = views.len().max(1) as f32;
-        match self.kind {
-            ObjectiveKind::Ws | ObjectiveKind::Sp => {
-                let all = views.iter().fold(Sums::default(), |sums, view| sums.plus(view));
-                if self.kind == ObjectiveKind::Ws { self.weighted_sum(&all) } else { self.product(&all) }
-            }
-            ObjectiveKind::Aows => views.iter().map(|view| self.weighted_sum(&Sums::of(view))).sum::<f32>() / count,
-            ObjectiveKind::Aosp => views.iter().map(|view| self.product(&Sums::of(view))).sum::<f32>() / count,
-            ObjectiveKind::Posp if views.is_empty() => 0.0,
-            ObjectiveKind::Posp => views.iter().map(|view| self.product(&Sums::of(view))).product(),
-        }
+        self.combined(views, |_, sums| sums.silhouette(self.beta))
+    }
+
+    /// The segmented form: the silhouette term is the weighted mean of the segments' own, `segment_sums[view * segments + segment]`.
+    pub fn segmented_fitness(&self, views: &[Components], segments: &Segments, segment_sums: &[SegmentSums]) -> f32 {
+        let segments = segments.as_slice();
+        self.combined(views, |views, _| {
+            let rows = &segment_sums[views.start * segments.len()..views.end * segments.len()];
+            let term = |(at, segment): (usize, &Segment)| {
+                let of_segment = rows.iter().skip(at).step_by(segments.len());
+                segment.weight * of_segment.fold(Sums::default(), Sums::plus_segment).silhouette(self.beta)
+            };
+            segments.iter().enumerate().map(term).sum()
+        })
     }
 
     /// f1 and f2 (SPEC A7) of one camera by itself.
     pub fn view_terms(&self, view: &Components) -> [f32; 2] {
-        let sums = Sums::of(view);
+        let sums = Sums::default().plus(view);
         [sums.silhouette(self.beta), sums.edge()]
     }
 
-    fn weighted_sum(&self, sums: &Sums) -> f32 {
-        if sums.is_nothing() {
-            return 0.0;
+    /// The terms of all views together or of each by itself, put together; `silhouette` is f1 of some of the views and their sums.
+    fn combined(&self, views: &[Components], silhouette: impl Fn(Range<usize>, &Sums) -> f32) -> f32 {
+        let score = |range: Range<usize>| {
+            let sums = views[range.clone()].iter().fold(Sums::default(), Sums::plus);
+            if sums.is_nothing() {
+                return 0.0;
+            }
+            let (f1, f2) = (silhouette(range, &sums), sums.edge());
+            match self.kind {
+                ObjectiveKind::Ws | ObjectiveKind::Aows => self.w1 * f1 + self.w2 * f2,
+                ObjectiveKind::Sp | ObjectiveKind::Aosp | ObjectiveKind::Posp => {
+                    power(f1, self.w1) * power(f2, self.w2)
+                }
+            }
+        };
+        let each = (0..views.len()).map(|view| score(view..view + 1));
+        match self.kind {
+            ObjectiveKind::Ws | ObjectiveKind::Sp => score(0..views.len()),
+            ObjectiveKind::Aows | ObjectiveKind::Aosp => each.sum::<f32>() / views.len().max(1) as f32,
+            ObjectiveKind::Posp if views.is_empty() => 0.0,
+            ObjectiveKind::Posp => each.product(),
         }
-        self.w1 * sums.silhouette(self.beta) + self.w2 * sums.edge()
-    }
-
-    fn product(&self, sums: &Sums) -> f32 {
-        if sums.is_nothing() {
-            return 0.0;
-        }
-        power(sums.silhouette(self.beta), self.w1) * power(sums.edge(), self.w2)
     }
 }
 
@@ -106,10 +122,6 @@ struct Sums {
 }
 
 impl Sums {
-    fn of(view: &Components) -> Self {
-        Self::default().plus(view)
-    }
-
     fn plus(self, view: &Components) -> Self {
         Self {
             area_obs: self.area_obs + u64::from(view.area_obs),
@@ -117,6 +129,15 @@ impl Sums {
             overlap: self.overlap + u64::from(view.overlap),
             edges: self.edges + u64::from(view.edges),
             proximity: self.proximity + u64::from(view.proximity),
+        }
+    }
+
+    fn plus_segment(self, segment: &SegmentSums) -> Self {
+        Self {
+            area_obs: self.area_obs + u64::from(segment.area_obs),
+            area_model: self.area_model + u64::from(segment.area_model),
+            overlap: self.overlap + u64::from(segment.overlap),
+            ..self
         }
     }
 
@@ -152,26 +173,57 @@ mod tests {
         ]
     }
 
+    const W1: f64 = 0.6;
+    const W2: f64 = 0.4;
+
+    /// The five formulas from the terms of two cameras and of both together.
+    fn five(f1: [f64; 2], f2: [f64; 2], f1_all: f64, f2_all: f64) -> [f64; 5] {
+        let sum = |f1: f64, f2: f64| W1 * f1 + W2 * f2;
+        let product = |f1: f64, f2: f64| f1.powf(W1) * f2.powf(W2);
+        let products = [product(f1[0], f2[0]), product(f1[1], f2[1])];
+        [
+            sum(f1_all, f2_all),
+            product(f1_all, f2_all),
+            (sum(f1[0], f2[0]) + sum(f1[1], f2[1])) / 2.0,
+            (products[0] + products[1]) / 2.0,
+            products[0] * products[1],
+        ]
+    }
+
     /// SPEC A7 written out by hand for the two views above.
     #[test]
     fn the_five_formulas() {
-        let (beta, w1, w2) = (0.3_f64, 0.6_f64, 0.4_f64);
+        let beta = 0.3_f64;
         let f1 = [beta * 0.6 + 0.7 * 0.75, beta * 0.25 + 0.7 * 0.5];
         let f2 = [0.5, 0.1];
         let f1_all = beta * 110.0 / 300.0 + 0.7 * 110.0 / 180.0;
         let f2_all = 1016.0 / (127.0 * 40.0);
-        let expected = [
-            w1 * f1_all + w2 * f2_all,
-            f1_all.powf(w1) * f2_all.powf(w2),
-            (w1 * f1[0] + w2 * f2[0] + w1 * f1[1] + w2 * f2[1]) / 2.0,
-            (f1[0].powf(w1) * f2[0].powf(w2) + f1[1].powf(w1) * f2[1].powf(w2)) / 2.0,
-            f1[0].powf(w1) * f2[0].powf(w2) * f1[1].powf(w1) * f2[1].powf(w2),
-        ];
-        for (kind, expected) in ObjectiveKind::ALL.into_iter().zip(expected) {
-            let objective = Objective { kind, beta: 0.3, w1: 0.6, w2: 0.4 };
+        for (kind, expected) in ObjectiveKind::ALL.into_iter().zip(five(f1, f2, f1_all, f2_all)) {
+            let objective = Objective { kind, beta: 0.3, w1: W1 as f32, w2: W2 as f32 };
             let [term1, term2] = objective.view_terms(&views()[1]).map(f64::from);
             assert!((term1 - f1[1]).abs() < 1e-6 && (term2 - f2[1]).abs() < 1e-6, "{term1} {term2}");
             let found = f64::from(objective.fitness(&views()));
+            assert!((found - expected).abs() < 1e-6, "{}: {found} is not {expected}", kind.name());
+        }
+    }
+
+    /// The same with the silhouette term of two segments, 3/4 and 1/4 of it.
+    #[test]
+    fn the_five_segmented_formulas() {
+        let segment = |name: &str, label, weight| Segment { name: name.into(), labels: vec![label], weight };
+        let segments = Segments::new(vec![segment("a", 1, 0.75), segment("b", 2, 0.25)]).unwrap();
+        let sums = [[40, 50, 30], [60, 20, 10], [150, 60, 30], [0, 40, 0]]
+            .map(|[area_obs, area_model, overlap]| SegmentSums { area_obs, area_model, overlap });
+        let beta = 0.3_f64;
+        let f = |overlap: f64, obs: f64, model: f64| {
+            if overlap == 0.0 { 0.0 } else { beta * overlap / obs + 0.7 * overlap / model }
+        };
+        let f1 = [0.75 * f(30.0, 40.0, 50.0) + 0.25 * f(10.0, 60.0, 20.0), 0.75 * f(30.0, 150.0, 60.0)];
+        let f1_all = 0.75 * f(60.0, 190.0, 110.0) + 0.25 * f(10.0, 60.0, 60.0);
+        let (f2, f2_all) = ([0.5, 0.1], 1016.0 / (127.0 * 40.0));
+        for (kind, expected) in ObjectiveKind::ALL.into_iter().zip(five(f1, f2, f1_all, f2_all)) {
+            let objective = Objective { kind, beta: 0.3, w1: W1 as f32, w2: W2 as f32 };
+            let found = f64::from(objective.segmented_fitness(&views(), &segments, &sums));
             assert!((found - expected).abs() < 1e-6, "{}: {found} is not {expected}", kind.name());
         }
     }

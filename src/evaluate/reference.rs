@@ -1,14 +1,17 @@
 //! The reference: the simplest code that is obviously right. It draws each candidate pixel by pixel from the definitions
 //! in `docs/RASTER.md`, in exact integers, and counts. Every other backend is held to its numbers.
 
-use anyhow::Result;
+use std::sync::Arc;
+
+use anyhow::{Result, ensure};
 
 use crate::body::{Body, Mesh};
-use crate::features::Observation;
+use crate::features::{Observation, Segmentation, Segments};
 use crate::geometry::Camera;
 
 use super::batch::{check_batch, check_observations};
-use super::{Components, Evaluator, MeshProjector, Objective, PartQuad, Projector, draw_mesh};
+use super::segments::{check_segment_batch, segments_of};
+use super::{Components, Evaluator, MeshProjector, Objective, PartQuad, Projector, SegmentSums, draw_mesh};
 
 /// The simplest evaluator, of the flat or of the mesh model.
 #[derive(Clone, Debug)]
@@ -188,6 +191,7 @@ impl Evaluator for Reference {
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
         check_observations(observations, self.projector().cameras.iter().map(|camera| camera.size))?;
+        segments_of(observations)?;
         self.observations = observations.to_vec();
         Ok(())
     }
@@ -203,20 +207,66 @@ impl Evaluator for Reference {
         Ok(())
     }
 
+    fn segments(&self) -> Option<&Arc<Segments>> {
+        Some(self.observations.first()?.segmentation.as_ref()?.segments())
+    }
+
+    fn segment_sums(&mut self, poses: &[f32], sums: &mut [SegmentSums]) -> Result<()> {
+        let a_pose = check_segment_batch(self, poses, sums.len())?;
+        let views = self.view_count();
+        for (pose, row) in poses.chunks_exact(self.dof_count()).zip(sums.chunks_exact_mut(a_pose)) {
+            for (view, sums) in row.chunks_exact_mut(a_pose / views).enumerate() {
+                if let Some(segmentation) = &self.observations[view].segmentation {
+                    compare_segments(&self.draw(pose, view), segmentation, sums);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn drawn(&mut self, pose: &[f32], view: usize) -> Result<Option<CandidateImage>> {
+        check_batch(pose, self.dof_count(), 1, 1)?;
+        ensure!(view < self.view_count(), "there are {} views, and view {view} was asked for", self.view_count());
+        Ok(Some(self.draw(pose, view)))
+    }
+
     fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
         let views = self.view_count();
         let mut components = vec![Components::default(); fitness.len() * views];
         self.components(poses, &mut components)?;
-        for (value, row) in fitness.iter_mut().zip(components.chunks_exact(views)) {
-            *value = objective.fitness(row);
+        let rows = components.chunks_exact(views);
+        match self.segments().cloned() {
+            None => fitness.iter_mut().zip(rows).for_each(|(value, row)| *value = objective.fitness(row)),
+            Some(segments) => {
+                let a_pose = views * segments.as_slice().len();
+                let mut sums = vec![SegmentSums::default(); fitness.len() * a_pose];
+                self.segment_sums(poses, &mut sums)?;
+                for ((value, row), sums) in fitness.iter_mut().zip(rows).zip(sums.chunks_exact(a_pose)) {
+                    *value = objective.segmented_fitness(row, &segments, sums);
+                }
+            }
         }
         Ok(())
+    }
+}
+
+/// Counts a drawn candidate segment by segment: a pixel is of the segment that its label belongs to.
+fn compare_segments(image: &CandidateImage, seen: &Segmentation, sums: &mut [SegmentSums]) {
+    sums.fill(SegmentSums::default());
+    for (byte, &observed) in image.bytes.iter().zip(seen.numbers()) {
+        let drawn = seen.segments().number(byte & 0x7f);
+        for (number, sums) in (1..).zip(&mut *sums) {
+            sums.area_obs += u32::from(observed == number);
+            sums.area_model += u32::from(drawn == number);
+            sums.overlap += u32::from(observed == number && drawn == number);
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::features::Segment;
 
     /// A part with the given corners in pixels, at a depth.
     fn part(corners: [[f64; 2]; 4], depth_squared: f32) -> PartQuad {
@@ -254,6 +304,22 @@ mod tests {
         // At equal depth the later one is nearer.
         let level = PartQuad { depth_squared: 1.0, ..far };
         assert_eq!(rows(&draw_quads(&[near, level], &[2, 1], 8, 6))[3], "#oooooo#");
+    }
+
+    #[test]
+    fn a_pixel_is_of_the_segment_of_the_part_that_shows_there() {
+        let segment = |name: &str, label, weight| Segment { name: name.into(), labels: vec![label], weight };
+        let segments = Arc::new(Segments::new(vec![segment("near", 2, 0.5), segment("far", 1, 0.5)]).unwrap());
+        // A bar behind another one, as above: the near one's border is the near one's, over the far one's fill too.
+        let far = part([[0.0, 2.0], [7.0, 2.0], [7.0, 4.0], [0.0, 4.0]], 9.0);
+        let near = part([[2.0, 0.0], [5.0, 0.0], [5.0, 5.0], [2.0, 5.0]], 1.0);
+        let image = draw_quads(&[far, near], &[1, 2], 8, 6);
+        let numbers = [[0, 0, 1, 1, 1, 1, 0, 0], [2, 2, 1, 1, 1, 2, 2, 2]];
+        let numbers = (0..6).flat_map(|y| numbers[usize::from((2..5).contains(&y))]).collect();
+        let mut sums = [SegmentSums::default(); 2];
+        compare_segments(&image, &Segmentation::new(segments, 8, 6, numbers).unwrap(), &mut sums);
+        assert_eq!(sums[0], SegmentSums { area_obs: 21, area_model: 24, overlap: 21 });
+        assert_eq!(sums[1], SegmentSums { area_obs: 15, area_model: 12, overlap: 12 });
     }
 
     #[test]

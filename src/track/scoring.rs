@@ -12,7 +12,7 @@ use super::overlay::file_stem;
 use super::plan::feature_settings;
 use super::{Backend, Model};
 use crate::body::{Body, PoseTable};
-use crate::evaluate::{Components, Evaluator, Objective, Reference};
+use crate::evaluate::{Components, Evaluator, Objective, Reference, SegmentSums};
 use crate::features::Observation;
 use crate::files::OutputFolder;
 use crate::geometry::Camera;
@@ -86,10 +86,13 @@ pub struct Scores {
     pub fitness: Vec<f32>,
     /// Which evaluator, and why.
     pub backend: String,
+    /// Whether the reference drew the images, because the evaluator keeps no pictures.
+    pub drawn_by_reference: bool,
 }
 
-/// Scores poses against a frame; one fitness a pose. With `output` it writes components.csv and fitness.csv there, and with
-/// `images` besides every candidate as `images/pose_%06d_<camera>.png` (8-bit grey: bits 0-6 the label, bit 7 the edge).
+/// Scores poses against a frame; one fitness a pose. With `output` it writes components.csv and fitness.csv there, segments.csv where
+/// the observations tell body parts apart, and with `images` besides every candidate as `images/pose_%06d_<camera>.png` (8-bit grey:
+/// bits 0-6 the label, bit 7 the edge), as the evaluator drew it, or the reference for one that keeps no picture.
 /// Poses are counted from 0 in the order of the table, whatever their frames.
 ///
 /// # Errors
@@ -105,7 +108,7 @@ pub fn score_poses(
 ) -> Result<Scores> {
     let mesh = model.mesh(&frame.body)?;
     let rows = single_precision(&frame.body, poses);
-    let (views, dofs) = (frame.cameras.len(), frame.body.dof_count());
+    let dofs = frame.body.dof_count();
     let standing: Vec<f32> = frame.body.standing_pose().iter().map(|value| *value as f32).collect();
     let around = rows.get(..dofs).unwrap_or(&standing);
     let mut built = backend.build(mesh.as_ref(), &frame.body, &frame.cameras, around)?;
@@ -117,26 +120,45 @@ pub fn score_poses(
         all.resize(first + batch.len() / dofs, 0.0);
         evaluator.fitness(batch, objective, &mut all[first..])?;
     }
-    let scores = Scores { fitness: all, backend: built.reason };
+    let mut scores = Scores { fitness: all, backend: built.reason, drawn_by_reference: false };
     let Some(output) = output else { return Ok(scores) };
     output.write("components.csv", |writer| write_components(writer, frame, evaluator, &rows))?;
     output.write("fitness.csv", |writer| write_fitness(writer, &scores.fitness))?;
+    if evaluator.segments().is_some() {
+        output.write("segments.csv", |writer| write_segments(writer, frame, evaluator, &rows))?;
+    }
     if images {
-        let drawing = match mesh {
+        let reference = match mesh {
             None => Reference::new(&frame.body, &frame.cameras),
             Some(mesh) => Reference::of_mesh(&frame.body, mesh, &frame.cameras)?,
         };
-        for (index, pose) in rows.chunks_exact(dofs).enumerate() {
-            for (view, camera) in frame.cameras.iter().enumerate().take(views) {
-                let image = drawing.draw(pose, view);
-                output.write(&format!("images/pose_{index:06}_{}.png", file_stem(&camera.name)), |writer| {
-                    let size = (image.width, image.height);
-                    Ok(PngEncoder::new(writer).write_image(&image.bytes, size.0, size.1, ExtendedColorType::L8)?)
-                })?;
-            }
-        }
+        scores.drawn_by_reference = write_images(output, frame, evaluator, &reference, &rows)?;
     }
     Ok(scores)
+}
+
+/// Every pose in every view as the evaluator drew it, else as the reference does; whether that was necessary.
+fn write_images(
+    output: &OutputFolder,
+    frame: &ScoredFrame,
+    evaluator: &mut dyn Evaluator,
+    reference: &Reference,
+    rows: &[f32],
+) -> Result<bool> {
+    let mut drawn_by_reference = false;
+    for (index, pose) in rows.chunks_exact(frame.body.dof_count()).enumerate() {
+        for (view, camera) in frame.cameras.iter().enumerate() {
+            let image = evaluator.drawn(pose, view)?.unwrap_or_else(|| {
+                drawn_by_reference = true;
+                reference.draw(pose, view)
+            });
+            output.write(&format!("images/pose_{index:06}_{}.png", file_stem(&camera.name)), |writer| {
+                let size = (image.width, image.height);
+                Ok(PngEncoder::new(writer).write_image(&image.bytes, size.0, size.1, ExtendedColorType::L8)?)
+            })?;
+        }
+    }
+    Ok(drawn_by_reference)
 }
 
 /// `pose,fitness`.
@@ -176,6 +198,29 @@ fn write_components(
     Ok(writer.flush()?)
 }
 
+fn write_segments(out: &mut dyn Write, frame: &ScoredFrame, evaluator: &mut dyn Evaluator, rows: &[f32]) -> Result<()> {
+    let (views, dofs) = (frame.cameras.len(), frame.body.dof_count());
+    let Some(segments) = evaluator.segments().cloned() else { return Ok(()) };
+    let segments = segments.as_slice();
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(["pose", "view", "segment", "area_obs", "area_model", "overlap"])?;
+    let mut sums = Vec::new();
+    for (index, batch) in rows.chunks(BATCH * dofs).enumerate() {
+        sums.clear();
+        sums.resize(batch.len() / dofs * views * segments.len(), SegmentSums::default());
+        evaluator.segment_sums(batch, &mut sums)?;
+        for (at, found) in sums.iter().enumerate() {
+            let (image, segment) = (at / segments.len(), &segments[at % segments.len()].name);
+            let pose = (index * BATCH + image / views).to_string();
+            let SegmentSums { area_obs, area_model, overlap } = *found;
+            let numbers = [area_obs, area_model, overlap].map(|number| number.to_string());
+            let cells = [pose.as_str(), &frame.cameras[image % views].name, segment];
+            writer.write_record(cells.into_iter().chain(numbers.iter().map(String::as_str)))?;
+        }
+    }
+    Ok(writer.flush()?)
+}
+
 /// Poses as evaluators take them. An angle is brought to [-pi, pi] while it is double precision: a large one would lose
 /// its digits.
 fn single_precision(body: &Body, poses: &PoseTable) -> Vec<f32> {
@@ -193,6 +238,71 @@ fn reduced(angle: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evaluate::CandidateImage;
+
+    /// An evaluator that keeps pictures of one view alone.
+    struct Painter;
+
+    impl Evaluator for Painter {
+        fn name(&self) -> &'static str {
+            "painter"
+        }
+
+        fn variant(&self) -> &'static str {
+            "oil"
+        }
+
+        fn view_count(&self) -> usize {
+            4
+        }
+
+        fn dof_count(&self) -> usize {
+            31
+        }
+
+        fn observe(&mut self, _: &[Observation]) -> Result<()> {
+            Ok(())
+        }
+
+        fn components(&mut self, _: &[f32], _: &mut [Components]) -> Result<()> {
+            Ok(())
+        }
+
+        fn fitness(&mut self, _: &[f32], _: &Objective, _: &mut [f32]) -> Result<()> {
+            Ok(())
+        }
+
+        fn drawn(&mut self, pose: &[f32], view: usize) -> Result<Option<CandidateImage>> {
+            Ok((view == 1).then(|| CandidateImage { width: 2, height: 1, bytes: vec![pose[0] as u8, 7] }))
+        }
+    }
+
+    #[test]
+    fn images_are_the_evaluator_s_own_where_it_has_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out");
+        let output = OutputFolder::create(&path, crate::files::Overwrite::Refuse).unwrap();
+        let body = Body::adult(1750.0).unwrap();
+        let cameras = crate::synth::rig::four_cameras(glam::DVec2::splat(2000.0), [64, 48]);
+        let reference = Reference::new(&body, &cameras);
+        let names: Vec<String> = cameras.iter().map(|camera| camera.name.clone()).collect();
+        let frame = ScoredFrame { body, cameras, observations: Vec::new() };
+        let mut rows = vec![0.0; 62];
+        rows[31] = 9.0;
+        assert!(
+            write_images(&output, &frame, &mut Painter, &reference, &rows).unwrap(),
+            "three views are the reference's"
+        );
+        let read = |view: usize| {
+            let path = path.join(format!("images/pose_000001_{}.png", names[view]));
+            image::open(path).unwrap().into_luma8().into_raw()
+        };
+        assert_eq!(read(1), [9, 7]);
+        assert_eq!(read(2), reference.draw(&rows[31..], 2).bytes);
+        let mut own = Reference::new(&frame.body, &frame.cameras);
+        let again = OutputFolder::create(&folder.path().join("own"), crate::files::Overwrite::Refuse).unwrap();
+        assert!(!write_images(&again, &frame, &mut own, &reference, &rows).unwrap());
+    }
 
     #[test]
     fn angles_are_reduced_before_they_lose_digits() {

@@ -26,6 +26,8 @@ fn both_backends_write_the_same_and_the_truth_scores_best() {
         let output = folder.path().join(backend);
         let done = evaluate(&output, &[&of_frame[..], &["--backend", backend, "--images"]].concat());
         assert!(done.status.success(), "{}", super::stderr(&done));
+        let says = super::stderr(&done).contains("the images are drawn by the reference");
+        assert_eq!(says, backend == "cpu", "{}", super::stderr(&done));
     }
     let read = |backend: &str, name: &str| fs::read_to_string(folder.path().join(backend).join(name)).unwrap();
     for name in ["components.csv", "fitness.csv"] {
@@ -49,6 +51,36 @@ fn both_backends_write_the_same_and_the_truth_scores_best() {
     let image = image::open(folder.path().join("cpu/images/pose_000003_cam1.png")).unwrap().into_luma8();
     assert_eq!((image.width(), image.height()), (160, 120));
     assert!(image.into_raw() == drawn.bytes, "the picture is the candidate image");
+}
+
+/// Graphics writes what the device drew, compute says that it has nothing to write.
+#[test]
+fn devices_write_the_pictures_they_have() {
+    if !super::has_vulkan("devices_write_the_pictures_they_have") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let body = Body::adult(1750.0).unwrap();
+    let reference = Reference::new(&body, &walk::cameras());
+    let of_frame = ["--sequence", sequence().to_str().unwrap(), "--frame", "2", "--images"];
+    for backend in ["graphics", "compute"] {
+        let output = folder.path().join(backend);
+        let done = evaluate(&output, &[&of_frame[..], &["--backend", backend]].concat());
+        assert!(done.status.success(), "{}", super::stderr(&done));
+        let says = super::stderr(&done).contains("the images are drawn by the reference");
+        assert_eq!(says, backend == "compute", "{}", super::stderr(&done));
+        for (frame, pose) in walk::poses(&body).poses.iter().enumerate() {
+            let pose: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
+            let image = image::open(output.join(format!("images/pose_{frame:06}_cam1.png"))).unwrap().into_luma8();
+            let expected = reference.draw(&pose, 1).bytes;
+            let wrong = image.as_raw().iter().zip(&expected).filter(|(found, expected)| found != expected).count();
+            // A device may round a corner to the next 1/256 pixel.
+            assert!(
+                wrong * 100 <= expected.iter().filter(|byte| **byte != 0).count(),
+                "{backend}, {frame}: {wrong} pixels"
+            );
+        }
+    }
 }
 
 #[test]

@@ -5,7 +5,8 @@
 
 use std::ops::Range;
 
-use crate::evaluate::Components;
+use crate::evaluate::{Components, SegmentSums};
+use crate::features::Segments;
 
 use super::front::{LANES, QuadChunk};
 use super::outline::OutlineChunk;
@@ -14,34 +15,65 @@ use super::simd::{Lanes, Simd};
 
 /// Fills and visible borders of the part of the picture that one cell covers.
 #[derive(Clone, Copy, Debug, Default)]
-struct Cell {
+pub(super) struct Cell {
     fill: Lanes,
     edge: Lanes,
 }
 
+/// A [`Cell`] with, for every segment, the pixels at which a part of it is the nearest.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct SegmentedCell {
+    cell: Cell,
+    segments: [Lanes; Segments::MOST],
+}
+
+/// What is kept of the pixels that one cell covers.
+pub(super) trait Pixels: Clone + Default {
+    fn cell(&mut self) -> &mut Cell;
+
+    /// Adds a part's border where no fill is yet, then its fill; the part is of the segment of this number, 0 none.
+    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words, number: u8);
+
+    /// Removes the pixels outside of `inside`.
+    fn keep<S: Simd>(&mut self, simd: S, inside: S::Words);
+}
+
 /// Working memory for one picture size; nothing in it outlives an image.
 #[derive(Clone, Debug)]
-pub(super) struct Canvas {
+pub(super) struct Canvas<P> {
     /// All zero between images. A row of cells has one more than the planes, for what a narrow part's second cell spills.
-    cells: Vec<Cell>,
+    cells: Vec<P>,
     outlines: Vec<OutlineChunk>,
     /// Lanes of all chunks in the order of the last image, from near to far. The next image's order is much the same.
     order: Vec<usize>,
+    /// Segment numbers of the lanes of all chunks; those behind the last are 0.
+    numbers: Vec<u8>,
 }
 
-impl Canvas {
-    /// For parts in `chunks` chunks, and pictures of at most `cells` cells.
-    pub(super) fn new(chunks: usize, cells: usize) -> Self {
+impl<P: Pixels> Canvas<P> {
+    /// For parts in `chunks` chunks, of segments of these numbers, and pictures of at most `cells` cells.
+    pub(super) fn new(chunks: usize, cells: usize, numbers: Vec<u8>) -> Self {
         Self {
-            cells: vec![Cell::default(); cells],
+            cells: vec![P::default(); cells],
             outlines: vec![OutlineChunk::default(); chunks],
             order: (0..chunks * LANES).collect(),
+            numbers,
         }
     }
 
     /// Draws `quads` and compares them with an observation.
     #[inline(always)]
     pub(super) fn compare<S: Simd>(&mut self, simd: S, quads: &[QuadChunk], planes: &Planes) -> Components {
+        let mut sums = Components { area_obs: planes.area, ..Components::default() };
+        if let Some((words, blocks)) = self.draw(simd, quads, planes) {
+            self.count(simd, planes, words, blocks, &mut sums);
+        }
+        sums
+    }
+
+    /// Draws `quads`: the columns and the rows of cells that they lie in.
+    #[inline(always)]
+    fn draw<S: Simd>(&mut self, simd: S, quads: &[QuadChunk], planes: &Planes) -> Option<(Range<usize>, Range<usize>)> {
         self.sort(quads);
         let (width, height) = (planes.width as i32, planes.height as i32);
         let (mut left, mut right, mut top, mut bottom) = (width, 0, height, 0);
@@ -52,24 +84,23 @@ impl Canvas {
             top = top.min(simd.least(&outline.top));
             bottom = bottom.max(simd.most(&outline.bottom));
         }
-        let mut sums = Components { area_obs: planes.area, ..Components::default() };
         if left >= right || top >= bottom {
-            return sums;
+            return None;
         }
         let words = (left as u32 / CELL_COLUMNS) as usize..(right as u32).div_ceil(CELL_COLUMNS) as usize;
         let blocks = (top as u32 / CELL_ROWS) as usize..(bottom as u32).div_ceil(CELL_ROWS) as usize;
         let columns = planes.columns + 1;
         for &lane in &self.order {
             let (outline, part) = (&self.outlines[lane / LANES], lane % LANES);
+            let number = self.numbers.get(lane).copied().unwrap_or(0);
             if outline.is_near {
-                draw_part::<S, true>(simd, outline, part, columns, &mut self.cells);
+                draw_part::<S, P, true>(simd, outline, part, number, columns, &mut self.cells);
             } else {
-                draw_part::<S, false>(simd, outline, part, columns, &mut self.cells);
+                draw_part::<S, P, false>(simd, outline, part, number, columns, &mut self.cells);
             }
         }
         self.trim(simd, planes, &words, &blocks);
-        self.count(simd, planes, words, blocks, &mut sums);
-        sums
+        Some((words, blocks))
     }
 
     /// Brings the parts into order, nearest first; of two at equal depth the later one in the body is nearer.
@@ -135,6 +166,7 @@ impl Canvas {
             let cells = &mut self.cells[block * (planes.columns + 1)..][words.clone()];
             let observed = &planes.cells[block * planes.columns..][words.clone()];
             for (cell, seen) in cells.iter_mut().zip(observed) {
+                let cell = cell.cell();
                 let edge = simd.load(&cell.edge);
                 let silhouette = simd.or(simd.load(&cell.fill), edge);
                 area = simd.count(area, silhouette);
@@ -182,12 +214,13 @@ fn key(quads: &[QuadChunk], lane: usize) -> (u32, std::cmp::Reverse<usize>) {
 /// Draws one part behind what is there: its border where no fill is yet, then its fill. Pixels outside of the picture in its
 /// last cells are left for [`Canvas::trim`].
 #[inline(always)]
-fn draw_part<S: Simd, const NEAR: bool>(
+fn draw_part<S: Simd, P: Pixels, const NEAR: bool>(
     simd: S,
     outline: &OutlineChunk,
     part: usize,
+    number: u8,
     columns: usize,
-    cells: &mut [Cell],
+    cells: &mut [P],
 ) {
     if outline.left[part] >= outline.right[part] {
         return;
@@ -226,9 +259,9 @@ fn draw_part<S: Simd, const NEAR: bool>(
                 border = simd.add_where(simd.mask(line_rows[edge]), border, simd.ones_from(from), simd.ones_from(to));
             }
             let cells = &mut cells[first_word as usize..][..2];
-            cells[0].add(simd, simd.shift_left(border, shift), simd.shift_left(fill, shift));
+            cells[0].add(simd, simd.shift_left(border, shift), simd.shift_left(fill, shift), number);
             let back = CELL_COLUMNS - shift;
-            cells[1].add(simd, simd.shift_right(border, back), simd.shift_right(fill, back));
+            cells[1].add(simd, simd.shift_right(border, back), simd.shift_right(fill, back), number);
         } else {
             let zero = simd.splat(0);
             let from = simd.max(from, zero);
@@ -248,7 +281,7 @@ fn draw_part<S: Simd, const NEAR: bool>(
                     let (from, to) = (ones_right_of(simd, from, origin), ones_right_of(simd, to, origin));
                     border = simd.add_where(simd.mask(line_rows[edge]), border, from, to);
                 }
-                cell.add(simd, border, fill);
+                cell.add(simd, border, fill, number);
                 column += CELL_COLUMNS;
             }
         }
@@ -323,19 +356,97 @@ fn ones_right_of<S: Simd>(simd: S, column: S::Words, origin: S::Words) -> S::Wor
 /// A column right of every part's last, that [`Simd::sub_to_zero`] still takes.
 const NOWHERE: u32 = 0xffff;
 
-impl Cell {
-    /// Removes the pixels outside of `inside`.
+impl Pixels for Cell {
+    #[inline(always)]
+    fn cell(&mut self) -> &mut Cell {
+        self
+    }
+
+    #[inline(always)]
+    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words, _number: u8) {
+        let hidden = simd.load(&self.fill);
+        simd.store(simd.or(simd.load(&self.edge), simd.and_not(border, hidden)), &mut self.edge);
+        simd.store(simd.or(hidden, fill), &mut self.fill);
+    }
+
     #[inline(always)]
     fn keep<S: Simd>(&mut self, simd: S, inside: S::Words) {
         simd.store(simd.and(simd.load(&self.fill), inside), &mut self.fill);
         simd.store(simd.and(simd.load(&self.edge), inside), &mut self.edge);
     }
+}
 
-    /// Adds a part's border where no fill is yet, then its fill.
+impl Pixels for SegmentedCell {
     #[inline(always)]
-    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words) {
-        let hidden = simd.load(&self.fill);
-        simd.store(simd.or(simd.load(&self.edge), simd.and_not(border, hidden)), &mut self.edge);
-        simd.store(simd.or(hidden, fill), &mut self.fill);
+    fn cell(&mut self) -> &mut Cell {
+        &mut self.cell
+    }
+
+    #[inline(always)]
+    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words, number: u8) {
+        // The nearest part whose fill or border lies on a pixel is the one that is drawn there.
+        let taken = simd.or(simd.load(&self.cell.fill), simd.load(&self.cell.edge));
+        if let Some(segment) = usize::from(number).checked_sub(1).and_then(|at| self.segments.get_mut(at)) {
+            let shown = simd.and_not(simd.or(border, fill), taken);
+            simd.store(simd.or(simd.load(segment), shown), segment);
+        }
+        self.cell.add(simd, border, fill, number);
+    }
+
+    #[inline(always)]
+    fn keep<S: Simd>(&mut self, simd: S, inside: S::Words) {
+        self.cell.keep(simd, inside);
+        for segment in &mut self.segments {
+            simd.store(simd.and(simd.load(segment), inside), segment);
+        }
+    }
+}
+
+impl Canvas<SegmentedCell> {
+    /// [`Self::compare`], and the sums of every segment.
+    #[inline(always)]
+    pub(super) fn compare_segments<S: Simd>(
+        &mut self,
+        simd: S,
+        quads: &[QuadChunk],
+        planes: &Planes,
+        segment_sums: &mut [SegmentSums],
+    ) -> Components {
+        for (sums, &area_obs) in segment_sums.iter_mut().zip(&planes.segment_areas) {
+            *sums = SegmentSums { area_obs, ..SegmentSums::default() };
+        }
+        let mut sums = Components { area_obs: planes.area, ..Components::default() };
+        if let Some((words, blocks)) = self.draw(simd, quads, planes) {
+            self.count_segments(simd, planes, &words, &blocks, segment_sums);
+            self.count(simd, planes, words, blocks, &mut sums);
+        }
+        sums
+    }
+
+    /// Counts the segments of what was drawn in the given cells and clears them for the next image.
+    #[inline(always)]
+    fn count_segments<S: Simd>(
+        &mut self,
+        simd: S,
+        planes: &Planes,
+        words: &Range<usize>,
+        blocks: &Range<usize>,
+        segment_sums: &mut [SegmentSums],
+    ) {
+        for (segment, sums) in segment_sums.iter_mut().enumerate() {
+            let (mut area, mut overlap) = (simd.no_bits(), simd.no_bits());
+            for block in blocks.clone() {
+                let cells = &mut self.cells[block * (planes.columns + 1)..][words.clone()];
+                let observed = &planes.segment_cells[block * planes.columns..][words.clone()];
+                for (cell, seen) in cells.iter_mut().zip(observed) {
+                    let drawn = simd.load(&cell.segments[segment]);
+                    area = simd.count(area, drawn);
+                    overlap = simd.count(overlap, simd.and(drawn, simd.load(&seen[segment])));
+                    simd.store(simd.splat(0), &mut cell.segments[segment]);
+                }
+            }
+            sums.area_model = simd.total(area);
+            sums.overlap = simd.total(overlap);
+        }
     }
 }

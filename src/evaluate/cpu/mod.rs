@@ -16,20 +16,21 @@ mod portable;
 mod simd;
 mod workers;
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Result, bail, ensure};
 
 use crate::body::Body;
-use crate::features::Observation;
+use crate::features::{Observation, Segments};
 use crate::geometry::Camera;
 
 use super::batch::{check_batch, check_observations, check_pictures};
 use super::rig::Rig;
-use super::{Components, Evaluator, Footprint, Objective, Projector};
+use super::segments::{check_segment_batch, segments_of};
+use super::{Components, Evaluator, Footprint, Objective, Projector, SegmentSums};
 
 use front::{Front, LANES, QuadChunk};
-use kernel::Canvas;
+use kernel::{Canvas, Cell, SegmentedCell};
 use planes::Planes;
 use portable::Portable;
 use simd::Simd;
@@ -104,6 +105,10 @@ pub struct Cpu {
     workers: Workers,
     /// One a worker; the locks are never contended.
     scratch: Vec<Mutex<Scratch>>,
+    /// Labels of the parts in the body's order.
+    labels: Vec<u8>,
+    /// Those of the newest observations.
+    segments: Option<Arc<Segments>>,
 }
 
 /// Working memory of one worker.
@@ -111,8 +116,12 @@ pub struct Cpu {
 struct Scratch {
     front: Front,
     quads: Vec<QuadChunk>,
-    canvas: Canvas,
+    canvas: Canvas<Cell>,
     components: Vec<Components>,
+    /// In place of `canvas` where there are segments.
+    segmented: Option<Canvas<SegmentedCell>>,
+    /// `[candidate][view][segment]`.
+    segment_sums: Vec<SegmentSums>,
 }
 
 impl Cpu {
@@ -145,13 +154,17 @@ impl Cpu {
                 Mutex::new(Scratch {
                     front,
                     quads: vec![QuadChunk::default(); chunks],
-                    canvas: Canvas::new(chunks, most_cells),
+                    canvas: Canvas::new(chunks, most_cells, Vec::new()),
                     components: vec![Components::default(); LANES * cameras.len()],
+                    segmented: None,
+                    segment_sums: Vec::new(),
                 })
             })
             .collect();
         let pin = workers > 1 && std::thread::available_parallelism().is_ok_and(|count| count.get() >= workers);
-        Ok(Self { projector, planes, set, code, workers: Workers::new(workers, pin)?, scratch })
+        let labels = body.parts.iter().map(|part| part.label).collect();
+        let workers = Workers::new(workers, pin)?;
+        Ok(Self { projector, planes, set, code, workers, scratch, labels, segments: None })
     }
 
     /// Exchanges the body for another one of as many degrees of freedom and parts; what was observed stays.
@@ -173,18 +186,42 @@ impl Cpu {
             scratch.get_mut().unwrap_or_else(PoisonError::into_inner).front = Front::new(&rig);
         }
         self.projector.rig = rig;
+        self.labels = body.parts.iter().map(|part| part.label).collect();
+        let segments = self.segments.take();
+        self.set_segments(segments);
         Ok(())
     }
 
-    /// Evaluates `poses` sixteen at a time and hands the components of each group to `finish` with its share of `results`.
+    /// Compares by these segments from now on; none for whole silhouettes.
+    fn set_segments(&mut self, segments: Option<Arc<Segments>>) {
+        if segments == self.segments {
+            return;
+        }
+        let numbers: Option<Vec<u8>> =
+            segments.as_ref().map(|segments| self.labels.iter().map(|&label| segments.number(label)).collect());
+        let count = segments.as_ref().map_or(0, |segments| segments.as_slice().len());
+        let cells = self.planes.iter().map(Planes::canvas_cells).max().unwrap_or(0);
+        let views = self.planes.len();
+        for scratch in &mut self.scratch {
+            let scratch = scratch.get_mut().unwrap_or_else(PoisonError::into_inner);
+            let chunks = scratch.quads.len();
+            scratch.segmented = numbers.clone().map(|numbers| Canvas::new(chunks, cells, numbers));
+            scratch.segment_sums = vec![SegmentSums::default(); LANES * views * count];
+        }
+        self.segments = segments;
+    }
+
+    /// Evaluates `poses` sixteen at a time and hands the components and the segments' sums of each group to `finish` with its
+    /// share of `results`.
     fn run<T: Send>(
         &mut self,
         poses: &[f32],
         results: &mut [T],
         per_pose: usize,
-        finish: impl Fn(&[Components], &mut [T]) + Sync,
+        finish: impl Fn(&[Components], &[SegmentSums], &mut [T]) + Sync,
     ) -> Result<()> {
         let (dof_count, views) = (self.projector.dof_count(), self.planes.len());
+        let segments = self.segments.as_ref().map_or(0, |segments| segments.as_slice().len());
         let groups = Mutex::new(poses.chunks(LANES * dof_count).zip(results.chunks_mut(LANES * per_pose)));
         let (projector, planes, code, scratch) = (&self.projector, &self.planes, self.code, &self.scratch);
         let completed = self.workers.run(&|worker| {
@@ -194,7 +231,8 @@ impl Cpu {
                     break;
                 };
                 evaluate_group(code, projector, planes, poses, &mut scratch);
-                finish(&scratch.components[..poses.len() / dof_count * views], results);
+                let images = poses.len() / dof_count * views;
+                finish(&scratch.components[..images], &scratch.segment_sums[..images * segments], results);
             }
         });
         ensure!(completed, "a worker thread of the cpu evaluator failed; its message stands above");
@@ -260,7 +298,15 @@ fn evaluate_group_in<S: Simd>(simd: S, projector: &Projector, planes: &[Planes],
     for (view, (camera, planes)) in projector.cameras.iter().zip(planes).enumerate() {
         for candidate in 0..count {
             scratch.front.project(camera, candidate, &mut scratch.quads);
-            scratch.components[candidate * views + view] = scratch.canvas.compare(simd, &scratch.quads, planes);
+            let image = candidate * views + view;
+            scratch.components[image] = match &mut scratch.segmented {
+                None => scratch.canvas.compare(simd, &scratch.quads, planes),
+                Some(canvas) => {
+                    let segments = planes.segment_areas.len();
+                    let sums = &mut scratch.segment_sums[image * segments..][..segments];
+                    canvas.compare_segments(simd, &scratch.quads, planes, sums)
+                }
+            };
         }
     }
 }
@@ -284,6 +330,7 @@ impl Evaluator for Cpu {
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
         check_observations(observations, self.planes.iter().map(|planes| [planes.width, planes.height]))?;
+        self.set_segments(segments_of(observations)?);
         for (planes, observation) in self.planes.iter_mut().zip(observations) {
             planes.fill(observation);
         }
@@ -293,18 +340,35 @@ impl Evaluator for Cpu {
     fn components(&mut self, poses: &[f32], components: &mut [Components]) -> Result<()> {
         let views = self.view_count();
         check_batch(poses, self.dof_count(), components.len(), views)?;
-        self.run(poses, components, views, |found, results| results.copy_from_slice(found))
+        self.run(poses, components, views, |found, _, results| results.copy_from_slice(found))
     }
 
     fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
         let views = self.view_count();
         check_batch(poses, self.dof_count(), fitness.len(), 1)?;
         ensure!(views > 0, "there are no views, expected at least one camera");
-        self.run(poses, fitness, 1, |found, results| {
-            for (value, row) in results.iter_mut().zip(found.chunks_exact(views)) {
-                *value = objective.fitness(row);
+        let segments = self.segments.clone();
+        self.run(poses, fitness, 1, |found, segment_sums, results| {
+            let rows = results.iter_mut().zip(found.chunks_exact(views));
+            match &segments {
+                None => rows.for_each(|(value, row)| *value = objective.fitness(row)),
+                Some(segments) => {
+                    let sums = segment_sums.chunks_exact(views * segments.as_slice().len());
+                    for ((value, row), sums) in rows.zip(sums) {
+                        *value = objective.segmented_fitness(row, segments, sums);
+                    }
+                }
             }
         })
+    }
+
+    fn segments(&self) -> Option<&Arc<Segments>> {
+        self.segments.as_ref()
+    }
+
+    fn segment_sums(&mut self, poses: &[f32], sums: &mut [SegmentSums]) -> Result<()> {
+        let a_pose = check_segment_batch(self, poses, sums.len())?;
+        self.run(poses, sums, a_pose, |_, found, results| results.copy_from_slice(found))
     }
 
     fn footprint(&self) -> Option<Footprint> {

@@ -2,7 +2,7 @@
 //! one bit a column. So a comparison is a bit operation and a bit count, with no look-up a pixel.
 
 use crate::evaluate::bit_planes::bit_planes;
-use crate::features::Observation;
+use crate::features::{Observation, Segmentation, Segments};
 
 use super::simd::Lanes;
 
@@ -23,13 +23,25 @@ pub(super) struct Planes {
     pub(super) cells: Vec<[Lanes; 8]>,
     /// Pixels of the observed silhouette.
     pub(super) area: u32,
+    /// `segment_cells[block * columns + word]`: a plane a segment; nothing without segments.
+    pub(super) segment_cells: Vec<[Lanes; Segments::MOST]>,
+    /// Pixels of every observed segment.
+    pub(super) segment_areas: Vec<u32>,
 }
 
 impl Planes {
     pub(super) fn new(width: u32, height: u32) -> Self {
         let columns = width.div_ceil(CELL_COLUMNS) as usize;
         let blocks = height.div_ceil(CELL_ROWS) as usize;
-        Self { width, height, columns, cells: vec![[Lanes::default(); 8]; columns * blocks], area: 0 }
+        Self {
+            width,
+            height,
+            columns,
+            cells: vec![[Lanes::default(); 8]; columns * blocks],
+            area: 0,
+            segment_cells: Vec::new(),
+            segment_areas: Vec::new(),
+        }
     }
 
     /// Cells of a canvas for pictures of this size: a row has one more than here.
@@ -40,6 +52,7 @@ impl Planes {
     /// Takes an observation of the planes' own size.
     pub(super) fn fill(&mut self, observation: &Observation) {
         self.area = observation.area();
+        self.fill_segments(observation.segmentation.as_ref());
         let width = self.width as usize;
         for (y, row) in observation.bytes.chunks_exact(width).enumerate() {
             let (block, lane) = (y / CELL_ROWS as usize, y % CELL_ROWS as usize);
@@ -48,6 +61,21 @@ impl Planes {
                 for (plane, bits) in cell.iter_mut().zip(bit_planes(pixels)) {
                     plane.0[lane] = bits;
                 }
+            }
+        }
+    }
+
+    fn fill_segments(&mut self, segmentation: Option<&Segmentation>) {
+        self.segment_cells.clear();
+        self.segment_areas.clear();
+        let Some(segmentation) = segmentation else { return };
+        self.segment_areas = segmentation.areas();
+        self.segment_cells.resize(self.cells.len(), [Lanes::default(); Segments::MOST]);
+        for (y, row) in segmentation.numbers().chunks_exact(self.width as usize).enumerate() {
+            let (block, lane) = (y / CELL_ROWS as usize, y % CELL_ROWS as usize);
+            for (x, &number) in row.iter().enumerate().filter(|(_, number)| **number > 0) {
+                let (word, bit) = (x / CELL_COLUMNS as usize, x % CELL_COLUMNS as usize);
+                self.segment_cells[block * self.columns + word][usize::from(number) - 1].0[lane] |= 1 << bit;
             }
         }
     }

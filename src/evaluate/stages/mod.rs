@@ -5,11 +5,13 @@ mod compare;
 mod draw;
 mod draw_mesh;
 mod objective;
+mod objective_segments;
 mod place;
 mod pose;
 mod project;
 mod project_feedback;
 mod raster;
+mod raster_segments;
 mod skin;
 
 #[allow(
@@ -31,11 +33,13 @@ pub(crate) use draw_mesh::DrawMeshStage;
 pub(crate) use generated::{MESH_EDGE_BIAS, MESH_NEAR, MESH_NEAREST};
 pub(crate) use generated::{OUTLINE_VERTICES, layout};
 pub(crate) use objective::ObjectiveStage;
+pub(crate) use objective_segments::ObjectiveSegmentsStage;
 pub(crate) use place::PlaceStage;
 pub(crate) use pose::PoseStage;
 pub(crate) use project::{MOST_PARTS, ProjectStage};
 pub(crate) use project_feedback::ProjectFeedbackStage;
 pub(crate) use raster::RasterStage;
+pub(crate) use raster_segments::RasterSegmentsStage;
 pub(crate) use skin::SkinStage;
 
 /// Which candidates of a run a recorded pass works on.

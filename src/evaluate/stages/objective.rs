@@ -7,7 +7,7 @@ use crate::evaluate::{Objective, ObjectiveKind};
 use crate::gpu::{Buffer, ComputeStage, Device, Groups, Recorder, Stage};
 
 use super::generated::{
-    OBJECTIVE_AOSP, OBJECTIVE_AOWS, OBJECTIVE_GROUP, OBJECTIVE_POSP, OBJECTIVE_SP, OBJECTIVE_WS, objective_comp,
+    OBJECTIVE_AOSP, OBJECTIVE_AOWS, OBJECTIVE_GROUP, OBJECTIVE_POSP, OBJECTIVE_SP, OBJECTIVE_WS, layout, objective_comp,
 };
 
 /// The stage.
@@ -38,7 +38,20 @@ impl ObjectiveStage {
         candidates: u32,
         fitness: &Buffer,
     ) -> Result<()> {
-        let push = objective_comp::Push {
+        let push = scoring(model, objective, candidates);
+        let bindings = objective_comp::Bindings { cameras: &model.cameras, all_sums: &workspace.sums, fitness };
+        self.stage.record(
+            recorder,
+            &bindings.bound(),
+            &push,
+            Groups::Count([candidates.div_ceil(OBJECTIVE_GROUP), 1, 1]),
+        )
+    }
+}
+
+/// The push constants of both forms of the objective.
+pub(super) fn scoring(model: &DeviceModel, objective: &Objective, candidates: u32) -> layout::Scoring {
+    layout::Scoring {
             candidates,
             views: model.counts.views,
             kind: match objective.kind {
@@ -51,13 +64,5 @@ impl ObjectiveStage {
             beta: objective.beta,
             w1: objective.w1,
             w2: objective.w2,
-        };
-        let bindings = objective_comp::Bindings { cameras: &model.cameras, all_sums: &workspace.sums, fitness };
-        self.stage.record(
-            recorder,
-            &bindings.bound(),
-            &push,
-            Groups::Count([candidates.div_ceil(OBJECTIVE_GROUP), 1, 1]),
-        )
     }
 }

@@ -1,19 +1,23 @@
 //! The backend that draws in compute: every candidate compared row by row in registers, in the reference's integers, with no
 //! framebuffer.
 
+use std::sync::Arc;
+
 use anyhow::{Result, ensure};
 
 use crate::body::Body;
 use crate::evaluate::batch::{check_batch, check_scene};
 use crate::evaluate::rig::Rig;
+use crate::evaluate::segments::{check_segment_batch, segments_of};
 use crate::evaluate::stages::{ObjectiveStage, PoseStage, ProjectStage, RasterStage, Share};
-use crate::evaluate::{Components, Evaluator, Footprint, Objective, Projector};
-use crate::features::Observation;
+use crate::evaluate::{Components, Evaluator, Footprint, Objective, Projector, SegmentSums};
+use crate::features::{Observation, Segments};
 use crate::geometry::Camera;
 use crate::gpu::{Buffer, Device, DeviceFacts, DevicePass, PassTiming, Recorder, Recording, Timing};
 
 use super::host_ends::HostEnds;
 use super::runs::Runs;
+use super::segments::DeviceSegments;
 use super::{DeviceEvaluator, DeviceModel, Workspace, open_device};
 
 /// The evaluator that draws in compute, on a Vulkan device.
@@ -24,8 +28,13 @@ pub struct Compute {
     project: ProjectStage,
     raster: RasterStage,
     objective: ObjectiveStage,
+    /// Where the newest observations have them.
+    segments: Option<DeviceSegments>,
     room: Room,
     runs: Runs,
+    /// Whether a search has recorded itself with these segments, and whether they are others since.
+    is_recorded: bool,
+    is_outgrown: bool,
 }
 
 /// Buffers for a number of candidates.
@@ -68,7 +77,10 @@ impl Compute {
             raster: RasterStage::new(device)?,
             objective: ObjectiveStage::new(device)?,
             room: Room::new(&model, 1)?,
+            segments: None,
             runs: Runs::new(recorder.finish()?),
+            is_recorded: false,
+            is_outgrown: false,
             model,
         })
     }
@@ -113,7 +125,10 @@ impl Compute {
             let share = Share { first, candidates: workspace.batch.min(candidates - first) };
             self.pose.record(recorder, &self.model, workspace, share)?;
             self.project.record(recorder, &self.model, workspace, share)?;
-            self.raster.record(recorder, &self.model, workspace, share)?;
+            match &self.segments {
+                None => self.raster.record(recorder, &self.model, workspace, share)?,
+                Some(segments) => segments.record_sums(recorder, (&self.model, workspace), share)?,
+            }
         }
         Ok(())
     }
@@ -131,15 +146,45 @@ impl Compute {
             None => {
                 self.record_sums(&mut recorder, candidates)?;
                 ends.record_sums(&mut recorder, (&self.model, workspace), candidates)?;
+                if let Some(segments) = &self.segments {
+                    segments.record_readback(&mut recorder)?;
+                }
             }
         }
         Ok(vec![recorder.finish()?])
     }
 
+    fn make_room(&mut self, candidates: u32) -> Result<()> {
+        if candidates > self.room.workspace.candidates {
+            // Recordings hold the old room; without them it is free before the new one is taken.
+            self.runs.forget();
+            self.room = Room::new(&self.model, candidates)?;
+            if let Some(segments) = &mut self.segments {
+                segments.reserve(&self.model, candidates)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Compares by these segments from now on; by whole silhouettes without.
+    fn set_segments(&mut self, segments: Option<&Arc<Segments>>) -> Result<()> {
+        if self.segments.as_ref().map(DeviceSegments::segments) == segments {
+            return Ok(());
+        }
+        self.runs.forget();
+        let candidates = self.room.workspace.candidates;
+        self.segments = segments.map(|segments| DeviceSegments::new(&self.model, segments, candidates)).transpose()?;
+        let mut recorder = self.model.device.recorder(Timing::Off)?;
+        self.record_upload(&mut recorder)?;
+        self.runs.set_upload(recorder.finish()?);
+        self.is_outgrown = self.is_recorded;
+        Ok(())
+    }
+
     /// Runs poses through the device; the results then lie in the readback buffers.
     fn run(&mut self, poses: &[f32], objective: Option<&Objective>) -> Result<()> {
         let candidates = u32::try_from(poses.len() / self.dof_count())?;
-        self.reserve(candidates)?;
+        self.make_room(candidates)?;
         self.room.ends.poses_in.write(0, poses)?;
         let key = (candidates, objective.copied());
         if !self.runs.select(key) {
@@ -171,7 +216,12 @@ impl Evaluator for Compute {
     }
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
+        let segments = segments_of(observations)?;
         self.model.observe(observations)?;
+        self.set_segments(segments.as_ref())?;
+        if let Some(segments) = &mut self.segments {
+            segments.observe(&self.model, observations)?;
+        }
         self.runs.outdate_upload();
         Ok(())
     }
@@ -183,6 +233,22 @@ impl Evaluator for Compute {
         }
         self.run(poses, None)?;
         self.room.ends.read_components(&self.model, &[], components)
+    }
+
+    fn segments(&self) -> Option<&Arc<Segments>> {
+        self.segments.as_ref().map(DeviceSegments::segments)
+    }
+
+    fn segment_sums(&mut self, poses: &[f32], sums: &mut [SegmentSums]) -> Result<()> {
+        check_segment_batch(self, poses, sums.len())?;
+        if sums.is_empty() {
+            return Ok(());
+        }
+        self.run(poses, None)?;
+        match &self.segments {
+            Some(segments) => segments.read(sums),
+            None => Ok(()),
+        }
     }
 
     fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
@@ -234,22 +300,29 @@ impl DeviceEvaluator for Compute {
         &self.room.workspace.sums
     }
 
+    fn has_outgrown_its_recording(&self) -> bool {
+        self.is_outgrown
+    }
+
     fn reserve(&mut self, candidates: u32) -> Result<()> {
-        if candidates > self.room.workspace.candidates {
-            // Recordings hold the old room; without them it is free before the new one is taken.
-            self.runs.forget();
-            self.room = Room::new(&self.model, candidates)?;
-        }
-        Ok(())
+        (self.is_recorded, self.is_outgrown) = (true, false);
+        self.make_room(candidates)
     }
 
     fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
-        self.model.record_upload(recorder)
+        self.model.record_upload(recorder)?;
+        self.segments.as_ref().map_or(Ok(()), |segments| segments.record_upload(recorder))
     }
 
     fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
         self.record_sums(recorder, candidates)?;
         let Room { workspace, ends } = &self.room;
-        self.objective.record(recorder, &self.model, workspace, objective, candidates, &ends.fitness)
+        let fitness = &ends.fitness;
+        match &self.segments {
+            None => self.objective.record(recorder, &self.model, workspace, objective, candidates, fitness),
+            Some(segments) => {
+                segments.record_objective(recorder, (&self.model, workspace), (objective, candidates), fitness)
+            }
+        }
     }
 }

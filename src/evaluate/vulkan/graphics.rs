@@ -6,6 +6,7 @@ use anyhow::{Result, ensure};
 use crate::body::{Body, Mesh};
 use crate::evaluate::batch::{check_batch, check_scene};
 use crate::evaluate::rig::Rig;
+use crate::evaluate::segments::refuse_segments;
 use crate::evaluate::stages::{
     CompareStage, Coverage, Gathering, ObjectiveStage, Packing, PlaceStage, PoseStage, ProjectFeedbackStage, Share,
     layout,
@@ -513,6 +514,7 @@ impl Evaluator for Graphics {
     }
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
+        refuse_segments(self.name(), observations)?;
         self.model.observe(observations)?;
         self.runs.outdate_upload();
         if matches!(self.settings.comparison, Comparison::Host(_)) {
@@ -563,6 +565,10 @@ impl Evaluator for Graphics {
         self.run(poses, Some(objective))?;
         // The tiles may have been fitted since; the room's ends stay.
         self.room.ends.fitness_out.read(0, fitness)
+    }
+
+    fn drawn(&mut self, pose: &[f32], view: usize) -> Result<Option<CandidateImage>> {
+        self.draw(pose, view).map(Some)
     }
 
     fn on_device(&mut self) -> Option<&mut dyn DeviceEvaluator> {

@@ -19,6 +19,7 @@ mod open;
 mod raster_tests;
 mod readback;
 mod runs;
+mod segments;
 #[cfg(test)]
 mod tests;
 mod tiles;

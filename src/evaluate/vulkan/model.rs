@@ -22,7 +22,7 @@ pub(crate) struct Counts {
 /// A buffer of the device and the host's copy of what goes there.
 #[derive(Debug)]
 pub(super) struct Uploaded {
-    staging: Buffer,
+    pub(super) staging: Buffer,
     pub(super) target: Buffer,
 }
 
@@ -160,6 +160,11 @@ impl DeviceModel {
     /// Pixels of the observed silhouettes, one a view.
     pub(crate) fn observed_areas(&self) -> impl Iterator<Item = u32> + '_ {
         self.camera_rows.iter().map(|camera| camera.area_obs)
+    }
+
+    /// Where the views' bit planes begin, in groups of 32 pixels of a row.
+    pub(super) fn first_plane_words(&self) -> impl Iterator<Item = u32> + '_ {
+        self.camera_rows.iter().map(|camera| camera.first_plane_word)
     }
 
     /// Records the copies of everything to the device's own memory.

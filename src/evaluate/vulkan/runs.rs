@@ -72,6 +72,12 @@ impl Runs {
         self.is_uploaded = false;
     }
 
+    /// Exchanges the passes that bring everything to the device.
+    pub(super) fn set_upload(&mut self, upload: Recording) {
+        self.upload = upload;
+        self.is_uploaded = false;
+    }
+
     /// Gives up what was recorded, and with it the memory that it holds.
     pub(super) fn forget(&mut self) {
         self.recorded.clear();

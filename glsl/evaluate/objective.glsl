@@ -1,0 +1,121 @@
+// The components of all views of a candidate to its fitness (SPEC A7): one invocation a candidate.
+
+#include "evaluate/constants.glsl"
+#include "evaluate/model.glsl"
+
+layout(local_size_x = OBJECTIVE_GROUP) in;
+
+layout(std430, set = 0, binding = 0) readonly buffer Cameras { Camera cameras[]; };
+layout(std430, set = 0, binding = 1) readonly buffer AllSums { Sums sums[]; };
+layout(std430, set = 0, binding = 2) writeonly buffer Fitness { float fitness[]; };
+
+layout(push_constant) uniform Scoring {
+    uint candidates;
+    uint views;
+    uint kind; // OBJECTIVE_*
+    float beta;
+    float w1;
+    float w2;
+} push;
+
+#ifdef SEGMENTED
+#include "evaluate/segments.glsl"
+
+layout(std430, set = 0, binding = 3) readonly buffer SegmentTable {
+    float weights[MOST_SEGMENTS]; // 0 for those that are not
+    uint numbers[LABELS];
+    uint areas[];
+} table;
+layout(std430, set = 0, binding = 4) readonly buffer AllSegmentSums { SegmentSum segment_sums[]; };
+#endif
+
+// Sums of one or more views, in floating point: exact to 2^24 pixels, and never past its end.
+struct Terms {
+    float area_obs;
+    float area_model;
+    float overlap;
+    float edges;
+    float proximity;
+};
+
+float ratio(float numerator, float denominator) {
+    return denominator > 0.0 ? numerator / denominator : 0.0;
+}
+
+// The base is 0 or more; what GLSL leaves undefined at 0 is what the processor computes there.
+float power(float base, float exponent) {
+    if (exponent == 0.5) return sqrt(base);
+    if (base <= 0.0) return exponent == 0.0 ? 1.0 : 0.0;
+    return pow(base, exponent);
+}
+
+float silhouette(float overlap, float area_obs, float area_model) {
+    return push.beta * ratio(overlap, area_obs) + (1.0 - push.beta) * ratio(overlap, area_model);
+}
+
+// The silhouette term of some views of a candidate.
+float views_silhouette(Terms t, uint candidate, uint first_view, uint end_view) {
+#ifdef SEGMENTED
+    float term = 0.0;
+    for (uint segment = 0u; segment < MOST_SEGMENTS; segment++) {
+        float area_obs = 0.0;
+        float area_model = 0.0;
+        float overlap = 0.0;
+        for (uint view = first_view; view < end_view; view++) {
+            SegmentSum seen = segment_sums[(candidate * push.views + view) * MOST_SEGMENTS + segment];
+            area_obs += float(table.areas[view * MOST_SEGMENTS + segment]);
+            area_model += float(seen.area_model);
+            overlap += float(seen.overlap);
+        }
+        term += table.weights[segment] * silhouette(overlap, area_obs, area_model);
+    }
+    return term;
+#else
+    return silhouette(t.overlap, t.area_obs, t.area_model);
+#endif
+}
+
+float edge(Terms t) {
+    return ratio(t.proximity, 127.0 * t.edges);
+}
+
+bool is_nothing(Terms t) {
+    return t.area_obs == 0.0 || t.area_model == 0.0;
+}
+
+float weighted_sum(Terms t, float f1) {
+    return is_nothing(t) ? 0.0 : push.w1 * f1 + push.w2 * edge(t);
+}
+
+float product(Terms t, float f1) {
+    return is_nothing(t) ? 0.0 : power(f1, push.w1) * power(edge(t), push.w2);
+}
+
+void main() {
+    uint candidate = gl_GlobalInvocationID.x;
+    if (candidate >= push.candidates) return;
+    Terms all = Terms(0.0, 0.0, 0.0, 0.0, 0.0);
+    float sum = 0.0;
+    float products = 1.0;
+    for (uint view = 0u; view < push.views; view++) {
+        Sums seen = sums[candidate * push.views + view];
+        Terms own = Terms(float(cameras[view].area_obs), float(seen.area_model), float(seen.overlap), float(seen.edges),
+            float(seen.proximity));
+        all.area_obs += own.area_obs;
+        all.area_model += own.area_model;
+        all.overlap += own.overlap;
+        all.edges += own.edges;
+        all.proximity += own.proximity;
+        float f1 = views_silhouette(own, candidate, view, view + 1u);
+        float value = push.kind == OBJECTIVE_AOWS ? weighted_sum(own, f1) : product(own, f1);
+        sum += value;
+        products *= value;
+    }
+    float value;
+    float f1 = views_silhouette(all, candidate, 0u, push.views);
+    if (push.kind == OBJECTIVE_WS) value = weighted_sum(all, f1);
+    else if (push.kind == OBJECTIVE_SP) value = product(all, f1);
+    else if (push.kind == OBJECTIVE_POSP) value = products;
+    else value = sum / float(push.views);
+    fitness[candidate] = value;
+}

@@ -1,0 +1,70 @@
+//! Silhouettes compared segment by segment (SPEC A6, A7): a body in parts that look alike.
+
+use std::sync::Arc;
+
+use anyhow::{Error, Result, anyhow, bail, ensure};
+
+use super::Evaluator;
+use super::batch::check_batch;
+use crate::features::{Observation, Segmentation, Segments};
+
+/// Sums over the pixels of one candidate in one view and one segment. A drawn pixel belongs to the segment of the part that is
+/// visible there; one of a part in no segment belongs to none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct SegmentSums {
+    /// Pixels observed as this segment.
+    pub area_obs: u32,
+    /// Pixels drawn as this segment.
+    pub area_model: u32,
+    /// Pixels observed and drawn as this segment.
+    pub overlap: u32,
+}
+
+/// The segments of a frame's observations, one a view: those of all of them, or none.
+pub(crate) fn segments_of(observations: &[Observation]) -> Result<Option<Arc<Segments>>> {
+    let segments = |view: &Observation| view.segmentation.as_ref().map(|found| Arc::clone(found.segments()));
+    let Some(first) = observations.first() else { return Ok(None) };
+    let expected = segments(first);
+    for (view, observation) in observations.iter().enumerate() {
+        let size = (observation.width, observation.height);
+        if let Some(found) = observation.segmentation.as_ref().map(Segmentation::dimensions) {
+            ensure!(
+                found == size,
+                "the segmentation of view {view} is {}x{}, its observation is {}x{}",
+                found.0,
+                found.1,
+                size.0,
+                size.1
+            );
+        }
+        ensure!(
+            segments(observation) == expected,
+            "the observations of view 0 and view {view} have different segments, expected the same ones in every view, or none"
+        );
+    }
+    Ok(expected)
+}
+
+/// Holds observations to be without segments, for a backend that compares whole silhouettes alone.
+pub(crate) fn refuse_segments(backend: &str, observations: &[Observation]) -> Result<()> {
+    match segments_of(observations)? {
+        Some(_) => bail!(
+            "the backend {backend} compares whole silhouettes alone, and the observations tell body parts apart: expected one of \
+             compute, cpu, reference"
+        ),
+        None => Ok(()),
+    }
+}
+
+/// What is said where sums of segments are asked for and there are none.
+pub(super) fn no_segments() -> Error {
+    anyhow!("the observations do not tell body parts apart: there are no sums of segments")
+}
+
+/// Holds `poses` to `results` sums of segments: how many a pose has.
+pub(crate) fn check_segment_batch(evaluator: &dyn Evaluator, poses: &[f32], results: usize) -> Result<usize> {
+    let segments = evaluator.segments().ok_or_else(no_segments)?;
+    let a_pose = evaluator.view_count() * segments.as_slice().len();
+    check_batch(poses, evaluator.dof_count(), results, a_pose)?;
+    Ok(a_pose)
+}

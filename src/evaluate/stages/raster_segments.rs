@@ -1,0 +1,52 @@
+//! Drawing and comparison segment by segment (docs/RASTER.md, SPEC A6).
+
+use anyhow::Result;
+
+use crate::evaluate::vulkan::{DeviceModel, Workspace};
+use crate::gpu::{Buffer, ComputeStage, Device, Groups, Recorder, Stage};
+
+use super::Share;
+use super::generated::raster_segments_comp;
+
+/// The stage.
+#[derive(Debug)]
+pub(crate) struct RasterSegmentsStage {
+    stage: ComputeStage,
+}
+
+impl RasterSegmentsStage {
+    /// Its name in timings.
+    pub(crate) const NAME: &'static str = "raster segments";
+
+    /// Compiles it.
+    pub(crate) fn new(device: &Device) -> Result<Self> {
+        let shader = &raster_segments_comp::SHADER;
+        Ok(Self { stage: ComputeStage::new(device, Self::NAME, Stage { shader, constants: &[] })? })
+    }
+
+    /// Records it: `workspace.quads` and `bounds` and the observed segments to `workspace.sums` and `segment_sums`.
+    pub(crate) fn record(
+        &self,
+        recorder: &mut Recorder,
+        (model, workspace): (&DeviceModel, &Workspace),
+        (table, planes): (&Buffer, &Buffer),
+        segment_sums: &Buffer,
+        share: Share,
+    ) -> Result<()> {
+        let push: raster_segments_comp::Push = model.batch(share);
+        let bindings = raster_segments_comp::Bindings {
+            cameras: &model.cameras,
+            quads: &workspace.quads,
+            all_bounds: &workspace.bounds,
+            planes: &model.planes,
+            // Not read: all images are drawn.
+            list: &model.cameras,
+            all_sums: &workspace.sums,
+            table,
+            segment_planes: planes,
+            all_segment_sums: segment_sums,
+        };
+        let groups = Groups::Count([share.candidates * model.counts.views, 1, 1]);
+        self.stage.record(recorder, &bindings.bound(), &push, groups)
+    }
+}
