@@ -159,7 +159,8 @@ mod tests {
                 .fold(f64::INFINITY, f64::min);
             let expected = if here { -nearest } else { nearest.min(16.0) };
             let found = field.at(DVec2::new(f64::from(x), f64::from(y))).unwrap();
-            assert!((found - expected).abs() < 1e-5 || found == 16.0 && expected > 14.0, "{x} {y}: {found} {expected}");
+            // Beyond the grid's margin nothing is told apart; its last samples lie half a pixel nearer.
+            assert!((found.min(15.5) - expected.min(15.5)).abs() < 1e-5, "{x} {y}: {found} {expected}");
         }
         assert!(field.at(DVec2::new(-0.6, 3.0)).is_none() && field.at(DVec2::new(3.0, 39.6)).is_none());
         assert!(field.at(DVec2::NAN).is_none());

@@ -117,7 +117,7 @@ mod tests {
         let at = |ms: u64| timeline.zero + Duration::from_millis(ms);
         for frame in 0..5000 {
             timeline.came(Row::Acquisition, frame, at(40 * frame as u64));
-            let span = Span { start: at(40 * frame as u64 + 5), time: Duration::from_millis(20) };
+            let span = Span { start: at(40 * frame as u64 + 5), time: Duration::from_millis(30) };
             timeline.worked(Row::Tracking, frame, span);
         }
         timeline.add(Entry {
@@ -128,7 +128,10 @@ mod tests {
         });
         assert_eq!(timeline.lock().len(), KEPT);
         let svg = timeline.draw(&["cam<1>".to_string()], 25.0, Some(Duration::from_millis(100))).unwrap();
-        assert!(svg.contains("processing cam&lt;1&gt;") && svg.contains("4999") && !svg.contains(">4900<"), "{svg}");
+        assert!(
+            svg.contains("processing cam&lt;1&gt;") && svg.contains("\n4999\n") && !svg.contains("\n4900\n"),
+            "{svg}"
+        );
         Timeline::default().draw(&[], 25.0, None).unwrap();
     }
 }
