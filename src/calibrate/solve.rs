@@ -20,6 +20,8 @@ const FINEST: f64 = 0.01;
 const SUBSETS: usize = 120;
 /// Below this ratio of singular values some combination of parameters changes nothing in the pictures.
 const OBSERVABLE: f64 = 1e-7;
+/// A camera farther off than this part of the picture's diagonal is none of these pairs.
+const ASTRAY: f64 = 0.03;
 
 /// What to calibrate and how.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,6 +119,12 @@ impl<'a> Problem<'a> {
         let lengths = lengths(&parameters, self.pairs);
         let deviation = robust_deviation(&lengths);
         self.refuse_mirrored(deviation)?;
+        let [width, height] = self.size.map(f64::from);
+        ensure!(
+            deviation <= ASTRAY * width.hypot(height),
+            "the pairs contradict each other: the best camera is {deviation:.0} pixels off; check which pixel belongs to which \
+             point, and the units"
+        );
         let behind =
             self.pairs.iter().zip(&lengths).zip(&used).filter(|((_, length), used)| **used && length.is_infinite());
         if let Some(((pair, _), _)) = behind.into_iter().next() {
@@ -231,7 +239,7 @@ impl<'a> Problem<'a> {
                  expected them spread over the picture and the volume"
             ),
             Failure::Parallel => anyhow::anyhow!(
-                "the plane of the points is parallel to the picture within 5 degrees, where focal length and distance \
+                "the plane of the points is parallel to the picture within 10 degrees, where focal length and distance \
                  cannot be told apart, expected it tilted by 20 degrees or more"
             ),
             Failure::Behind => anyhow::anyhow!(

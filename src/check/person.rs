@@ -12,26 +12,33 @@ use crate::body::Body;
 
 /// Part of the points cut off below and above: specks, and where few cameras look.
 const OUTLIERS: f64 = 0.005;
+/// Part of the points left out at either end where the person's shape is asked for: a ray whose other views are nearly
+/// parallel agrees far behind the person too.
+const BEYOND_SHAPE: f64 = 0.1;
 
-/// Feet, height and breadth; and the height of the body file against it, where there is one.
+/// Feet, height and shape; and the height of the body file against it, where there is one.
 ///
 /// # Errors
 /// When the body file cannot be read.
 pub(super) fn person(rays: &[Ray], body: Option<&Path>) -> Result<Vec<Finding>> {
     let agreed: Vec<&Ray> = rays.iter().filter(|ray| ray.excess() <= EXPLAINED).collect();
     let last = rays.iter().map(|ray| ray.moment).max().unwrap_or(0);
-    let (mut feet, mut heights, mut breadths) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut feet, mut heights, mut shapes) = (Vec::new(), Vec::new(), Vec::new());
     for moment in 0..=last {
         let points: Vec<DVec3> = agreed.iter().filter(|ray| ray.moment == moment).map(|ray| ray.point).collect();
         if points.len() < 20 {
             continue;
         }
-        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| extent(&points, axis));
-        feet.push(z[0]);
-        heights.push(z[1] - z[0]);
-        breadths.push((x[1] - x[0]).max(y[1] - y[0]));
+        let [low, high] = extent(&points, DVec3::Z, OUTLIERS);
+        feet.push(low);
+        heights.push(high - low);
+        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
+            let [begin, end] = extent(&points, axis, BEYOND_SHAPE);
+            end - begin
+        });
+        shapes.push(z / x.max(y));
     }
-    let (Some(feet), Some(height), Some(breadth)) = (median(feet), median(heights), median(breadths)) else {
+    let (Some(feet), Some(height), Some(shape)) = (median(feet), median(heights), median(shapes)) else {
         return Ok(vec![Finding::not_measured("feet", "the views agree on too little of the person")]);
     };
     let mut checks = vec![
@@ -45,8 +52,8 @@ pub(super) fn person(rays: &[Ray], body: Option<&Path>) -> Result<Vec<Finding>> 
         Finding::number("height", "mm", height, [1000.0, 2300.0])
             .found("median from the lowest to the highest point")
             .or(unit_advice(height)),
-        Finding::number("upright", "of the breadth", height / breadth, [0.6, f64::INFINITY])
-            .found(format!("height over the larger horizontal extent, {breadth:.0} mm"))
+        Finding::number("upright", "of the breadth", shape, [0.6, f64::INFINITY])
+            .found("height over the larger horizontal extent of the middle four fifths")
             .or("the person lies on the side: is z the axis upwards?"),
     ];
     if let Some(path) = body {
@@ -79,11 +86,11 @@ fn unit_advice(height: f64) -> String {
     }
 }
 
-/// Where points begin and end along an axis, without the farthest few.
-fn extent(points: &[DVec3], axis: DVec3) -> [f64; 2] {
+/// Where points begin and end along an axis, without the farthest part `beyond` at either.
+fn extent(points: &[DVec3], axis: DVec3, beyond: f64) -> [f64; 2] {
     let mut places: Vec<f64> = points.iter().map(|point| point.dot(axis)).collect();
     places.sort_by(f64::total_cmp);
-    let cut = (OUTLIERS * places.len() as f64) as usize;
+    let cut = (beyond * places.len() as f64) as usize;
     [places[cut], places[places.len() - 1 - cut]]
 }
 
