@@ -36,7 +36,11 @@ fn seen(body: &Body, cameras: &[Camera], segments: &Arc<Segments>, random: &mut 
         let mut numbers = Vec::new();
         for (byte, drawn) in observation.bytes.iter_mut().zip(&drawn.bytes) {
             *byte |= u8::from(*drawn != 0) << 7;
-            let any = if random.next() % 3 == 0 { segments.number(drawn & 0x7f) } else { (random.next() % most) as u8 };
+            let any = if random.next().is_multiple_of(3) {
+                segments.number(drawn & 0x7f)
+            } else {
+                (random.next() % most) as u8
+            };
             numbers.push(if *byte & Observation::SILHOUETTE == 0 { 0 } else { any });
         }
         let [width, height] = cameras[view].size;
@@ -111,7 +115,8 @@ fn compute_gives_the_reference_s_segments() {
         let Some((device, log)) = device("compute_gives_the_reference_s_segments", settings) else { return };
         let mut compute = Compute::on(&device, &body, &cameras).unwrap();
         for round in 0..2 {
-            let whole: Vec<Observation> = seen.iter().map(|o| Observation { segmentation: None, ..o.clone() }).collect();
+            let whole: Vec<Observation> =
+                seen.iter().map(|o| Observation { segmentation: None, ..o.clone() }).collect();
             assert!(scene::evaluate(&mut compute, &whole, &poses) == expected.components, "{round}: whole");
             assert!(compute.segments().is_none());
             let found = found(&mut compute, &seen, &poses);

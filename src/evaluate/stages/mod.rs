@@ -31,7 +31,7 @@ pub use draw::{Coverage, Packing};
 pub(crate) use draw_mesh::DrawMeshStage;
 #[cfg(test)]
 pub(crate) use generated::{MESH_EDGE_BIAS, MESH_NEAR, MESH_NEAREST};
-pub(crate) use generated::{OUTLINE_VERTICES, layout};
+pub(crate) use generated::{MOST_SEGMENTS, OUTLINE_VERTICES, layout};
 pub(crate) use objective::ObjectiveStage;
 pub(crate) use objective_segments::ObjectiveSegmentsStage;
 pub(crate) use place::PlaceStage;

@@ -52,17 +52,17 @@ impl ObjectiveStage {
 /// The push constants of both forms of the objective.
 pub(super) fn scoring(model: &DeviceModel, objective: &Objective, candidates: u32) -> layout::Scoring {
     layout::Scoring {
-            candidates,
-            views: model.counts.views,
-            kind: match objective.kind {
-                ObjectiveKind::Ws => OBJECTIVE_WS,
-                ObjectiveKind::Sp => OBJECTIVE_SP,
-                ObjectiveKind::Aows => OBJECTIVE_AOWS,
-                ObjectiveKind::Aosp => OBJECTIVE_AOSP,
-                ObjectiveKind::Posp => OBJECTIVE_POSP,
-            },
-            beta: objective.beta,
-            w1: objective.w1,
-            w2: objective.w2,
+        candidates,
+        views: model.counts.views,
+        kind: match objective.kind {
+            ObjectiveKind::Ws => OBJECTIVE_WS,
+            ObjectiveKind::Sp => OBJECTIVE_SP,
+            ObjectiveKind::Aows => OBJECTIVE_AOWS,
+            ObjectiveKind::Aosp => OBJECTIVE_AOSP,
+            ObjectiveKind::Posp => OBJECTIVE_POSP,
+        },
+        beta: objective.beta,
+        w1: objective.w1,
+        w2: objective.w2,
     }
 }

@@ -4,13 +4,15 @@ use std::sync::Arc;
 
 use anyhow::Result;
 
-use crate::evaluate::stages::{ObjectiveSegmentsStage, RasterSegmentsStage, Share, layout};
+use crate::evaluate::stages::{MOST_SEGMENTS, ObjectiveSegmentsStage, RasterSegmentsStage, Share, layout};
 use crate::evaluate::{Objective, SegmentSums};
 use crate::features::{Observation, Segments};
 use crate::gpu::{Buffer, Memory, Recorder};
 
 use super::model::Uploaded;
 use super::{DeviceModel, Workspace};
+
+const _: () = assert!(Segments::MOST == MOST_SEGMENTS as usize, "the stages have as many segments as observations may");
 
 /// The segments of a frame's observations, the stages that compare by them, and the sums of a run.
 #[derive(Debug)]
@@ -134,9 +136,7 @@ impl DeviceSegments {
         let count = self.segments.as_slice().len();
         let mut found: Vec<layout::SegmentSum> = bytemuck::zeroed_vec(sums.len() / count * Segments::MOST);
         self.sums_out.read(0, &mut found)?;
-        for (image, (row, found)) in
-            sums.chunks_exact_mut(count).zip(found.chunks_exact(Segments::MOST)).enumerate()
-        {
+        for (image, (row, found)) in sums.chunks_exact_mut(count).zip(found.chunks_exact(Segments::MOST)).enumerate() {
             for (segment, (sums, found)) in row.iter_mut().zip(found).enumerate() {
                 let place = image * Segments::MOST + segment;
                 let area_obs = self.areas[place % self.areas.len()];
