@@ -365,6 +365,19 @@ mod tests {
     }
 
     #[test]
+    fn a_camera_that_is_off_sees_nobody() {
+        let mut extractor = Extractor::new(settings(), vec![source(true), source(true)]).unwrap();
+        let features = extractor.extract(&[RgbImage::new(90, 60), picture(90, 60)], &[None, None]).unwrap();
+        assert!(features[0].foreground.count() > 5000, "what was found can still be looked at");
+        assert_eq!(features[0].observation, Observation::empty(90, 60));
+        assert_eq!(features[1].silhouette, BitImage::from_fn(90, 60, person));
+        let mut everything = settings();
+        everything.silhouette.max_cover = 1.0;
+        let mut extractor = Extractor::new(everything, vec![source(true)]).unwrap();
+        assert!(extractor.extract(&[RgbImage::new(90, 60)], &[None]).unwrap()[0].observation.area() > 5000);
+    }
+
+    #[test]
     fn a_picture_of_3840_by_2160_is_seen_whole() {
         let (width, height) = (3840, 2160);
         let body = |x: u32, y: u32| (3000..3400).contains(&x) && (400..2100).contains(&y);

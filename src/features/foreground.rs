@@ -89,7 +89,12 @@ impl Foreground {
             }
         }
         self.morphology.close(silhouette, settings.closing());
-        let SilhouetteSettings { blobs, min_area, min_share, max_hole, .. } = settings.silhouette;
+        let SilhouetteSettings { blobs, min_area, min_share, max_hole, max_cover, .. } = settings.silhouette;
+        let pixels = f64::from(picture.width()) * f64::from(picture.height());
+        if f64::from(silhouette.count()) > f64::from(max_cover) * pixels {
+            silhouette.clear();
+            return;
+        }
         self.components.keep_largest(silhouette, blobs, min_area, min_share);
         self.components.fill_holes(silhouette, max_hole);
     }

@@ -34,6 +34,9 @@ pub struct SilhouetteSettings {
     pub min_share: f32,
     /// A hole of at most this size is filled, pixels.
     pub max_hole: u32,
+    /// A view that is foreground over more than this share of its picture shows nobody: its camera is off or covered, or the
+    /// light has changed all over. Not asked of ready masks.
+    pub max_cover: f32,
     /// By how much the region of interest is larger than the silhouette, pixels: the motion expected in one frame.
     pub motion: u32,
 }
@@ -48,6 +51,7 @@ impl Default for SilhouetteSettings {
             min_area: 60,
             min_share: 0.03,
             max_hole: 30,
+            max_cover: 0.75,
             motion: 16,
         }
     }
@@ -133,6 +137,7 @@ impl FeatureSettings {
         odd("silhouette.open", self.silhouette.open)?;
         odd("silhouette.close", self.silhouette.close)?;
         within("silhouette.min_share", self.silhouette.min_share, 0.0..=1.0)?;
+        within("silhouette.max_cover", self.silhouette.max_cover, 0.0..=1.0)?;
         within("silhouette.blobs", self.silhouette.blobs, 1..=4)?;
         within("edges.threshold", self.edges.threshold, 1..=4080)?;
         within("edges.low", self.edges.low, 1..=4080)?;
