@@ -6,10 +6,11 @@ use anyhow::{Context, Result, bail};
 use image::codecs::png::PngEncoder;
 use image::{DynamicImage, RgbImage};
 
+use super::draws::Draws;
 use super::progress::Progress;
 use crate::files::{Overwrite, write_atomically};
 use crate::texture::example::{Settings, patch_count, synthesise};
-use crate::texture::materials::{KINDS, Material};
+use crate::texture::materials::{KINDS, Material, Parameters};
 use crate::texture::picture::{Solid, View, check_size, contact_sheet, flat, heights, lit};
 
 /// Draw a procedural material, or synthesise a texture from an example.
@@ -78,6 +79,9 @@ pub struct TextureArgs {
     /// From an example: also write a picture of the pixels that were synthesised anew
     #[arg(long, value_name = "FILE", requires = "example")]
     resynthesised: Option<PathBuf>,
+    /// From an example: what measures how well patches fit; the texture is the same
+    #[arg(long, value_enum, default_value = "cpu", requires = "example")]
+    backend: Draws,
     /// Replace files that are there
     #[arg(long)]
     force: bool,
@@ -146,16 +150,12 @@ fn of_material(args: &TextureArgs, name: &str, output: &Path) -> Result<()> {
     check_size(args.size)?;
     let scale = args.scale.unwrap_or(if args.preview.is_some() { 1.0 } else { 4.0 });
     let view = View { size: args.size, offset: args.offset, scale }.checked()?;
-    let material = Material::new(name, args.params.as_deref(), args.seed, args.tile.then(|| view.extent()))?;
+    let parameters = args.params.as_deref().map_or(Parameters::Defaults, Parameters::File);
+    let material = Material::new(name, parameters, args.seed, args.tile.then(|| view.extent()))?;
     let picture = match args.preview {
-        Some(preview) => {
-            let solid = match preview {
-                Preview::Sphere => Solid::Sphere,
-                Preview::Cube => Solid::Cube,
-                Preview::Plane => Solid::Plane,
-            };
-            lit(&material, solid, args.size, args.offset, scale).into()
-        }
+        Some(Preview::Sphere) => lit(&material, Solid::Sphere, args.size, args.offset, scale).into(),
+        Some(Preview::Cube) => lit(&material, Solid::Cube, args.size, args.offset, scale).into(),
+        Some(Preview::Plane) => lit(&material, Solid::Plane, args.size, args.offset, scale).into(),
         None if args.height_map => heights(&material, &view).into(),
         None => flat(&material, &view).into(),
     };
@@ -194,8 +194,9 @@ fn from_example(args: &TextureArgs, example: &Path, output: &Path) -> Result<()>
     let picture = read(example)?;
     let mask =
         args.mask.as_deref().map(|path| read(path).map(|mask| DynamicImage::from(mask).into_luma8())).transpose()?;
+    let device = args.backend.device()?;
     let mut progress = Progress::of("texture", "patch", patch_count(&settings));
-    let synthesis = synthesise(&picture, mask.as_ref(), &settings, || progress.advance())
+    let synthesis = synthesise(&picture, mask.as_ref(), &settings, device.as_ref(), || progress.advance())
         .with_context(|| format!("cannot synthesise from {}", example.display()))?;
     drop(progress);
     write(args, synthesis.picture.into(), output)?;

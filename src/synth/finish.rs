@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 
 use super::room::Colour;
-use crate::texture::materials::Material;
+use crate::texture::materials::{Material, Parameters};
 
 /// A finish as scene.toml has it.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -55,7 +55,8 @@ impl FinishSettings {
         }
         let cut = match &self.material {
             Some(name) => {
-                let material = Material::new(name, self.parameters.as_deref(), self.seed.unwrap_or(1), None);
+                let parameters = self.parameters.as_deref().map_or(Parameters::Defaults, Parameters::File);
+                let material = Material::new(name, parameters, self.seed.unwrap_or(1), None);
                 Some((material.with_context(|| what.to_string())?, scale))
             }
             None if self.colour.is_some() => None,
