@@ -18,10 +18,20 @@ pub struct FinishSettings {
     pub material: Option<String>,
     /// Millimetres of the object to a unit of the material.
     pub scale: Option<f64>,
-    /// A file with the material's parameters.
-    pub parameters: Option<PathBuf>,
+    /// The material's parameters: a table, or the name of a file.
+    pub parameters: Option<FinishParameters>,
     /// Seed of the material.
     pub seed: Option<u64>,
+}
+
+/// Parameters of a material.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(untagged)]
+pub enum FinishParameters {
+    /// In a file.
+    File(PathBuf),
+    /// Here.
+    Here(toml::Table),
 }
 
 /// A finish, ready to be looked up.
@@ -55,7 +65,11 @@ impl FinishSettings {
         }
         let cut = match &self.material {
             Some(name) => {
-                let parameters = self.parameters.as_deref().map_or(Parameters::Defaults, Parameters::File);
+                let parameters = match &self.parameters {
+                    None => Parameters::Defaults,
+                    Some(FinishParameters::File(path)) => Parameters::File(path),
+                    Some(FinishParameters::Here(table)) => Parameters::Table(table),
+                };
                 let material = Material::new(name, parameters, self.seed.unwrap_or(1), None);
                 Some((material.with_context(|| what.to_string())?, scale))
             }

@@ -22,7 +22,7 @@ pub mod shadow;
 pub mod solid;
 pub mod triangle;
 
-pub use finish::{Finish, FinishSettings};
+pub use finish::{Finish, FinishParameters, FinishSettings};
 pub use scene::{
     ActorSettings, CameraSettings, LightSettings, MotionSettings, OutputSettings, RigSettings, RoomSettings, Scene,
     SensorSettings,
