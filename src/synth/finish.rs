@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 
 use super::room::Colour;
-use crate::texture::materials::{Material, Parameters};
+use crate::texture::materials::{Material, Parameters, StageMaterial};
 
 /// A finish as scene.toml has it.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -91,6 +91,16 @@ impl Finish {
                 self.tint * Colour::from(texel.linear().map(f64::from)).min(Colour::splat(0.9))
             }
         }
+    }
+
+    /// Tint, mm to a unit, and the material, if there is one.
+    ///
+    /// # Errors
+    /// When the material is none that stages have.
+    pub(super) fn for_stages(&self) -> Result<(Colour, f64, Option<StageMaterial>)> {
+        let Some((material, scale)) = &self.cut else { return Ok((self.tint, 1.0, None)) };
+        let staged = material.for_stages().context("its material is drawn on the processor alone")?;
+        Ok((self.tint, *scale, Some(staged)))
     }
 }
 

@@ -6,11 +6,13 @@
 //! and [sensor](noise::Sensor) record it.
 
 pub mod actor;
+pub mod device;
 pub mod figure;
 mod finish;
 pub mod gait;
 mod hash;
 pub mod noise;
+mod packing;
 pub mod performance;
 mod recording;
 pub mod render;
@@ -20,6 +22,7 @@ mod scene;
 mod sequence;
 pub mod shadow;
 pub mod solid;
+mod stages;
 pub mod triangle;
 
 pub use finish::{Finish, FinishParameters, FinishSettings};
