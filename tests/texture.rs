@@ -34,7 +34,7 @@ fn materials_are_listed_drawn_and_shown_on_objects() {
     let step =
         |a: u32, b: u32| (0..64).map(|y| tile.get_pixel(a, y).0[0].abs_diff(tile.get_pixel(b, y).0[0])).max().unwrap();
     assert!(step(63, 0) <= (0..63).map(|x| step(x, x + 1)).max().unwrap() + 8, "{}", step(63, 0));
-    for object in ["sphere", "cube", "plane"] {
+    for object in ["sphere", "cube", "plane", "person"] {
         run(&["brick", "-o", "o.png", "--size", "48x36", "--preview", object, "--force"]);
         let shown = open("o.png").into_rgb8();
         let background = *shown.get_pixel(0, 0);
@@ -77,6 +77,8 @@ fn bad_requests_are_one_sentence() {
         (&["marble", "-o", "x.png", "--size", "0x9"], "a picture of 0 x 9 pixels"),
         (&["marble", "-o", "x.png", "--params", "p.toml"], "nearest known key is `vein`"),
         (&["marble", "-o", "x.png", "--scale", "nan"], "a picture of NaN units"),
+        (&["marble", "-o", "x.png", "--preview", "sphere", "--person", "a.glb"], "--person is for --preview person"),
+        (&["marble", "-o", "x.png", "--preview", "person", "--person", "a.glb"], "a.glb"),
         (&["--example", "nowhere.png", "-o", "x.png"], "nowhere.png"),
         (&["--example", "text.png", "-o", "x.png"], "text.png"),
         (&["--example", "text.png", "-o", "x.png", "--preview", "cube"], "means nothing with --example"),

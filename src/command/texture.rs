@@ -9,6 +9,7 @@ use image::{DynamicImage, RgbImage};
 use super::draws::Draws;
 use super::progress::Progress;
 use crate::files::{Overwrite, write_atomically};
+use crate::synth::portrait;
 use crate::texture::example::{Settings, patch_count, synthesise};
 use crate::texture::materials::{KINDS, Material, Parameters};
 use crate::texture::picture::{Solid, View, check_size, contact_sheet, flat, heights, lit};
@@ -58,6 +59,9 @@ pub struct TextureArgs {
     /// Show the material on an object under a light
     #[arg(long, value_enum, conflicts_with = "tile")]
     preview: Option<Preview>,
+    /// With --preview person: a skinned glTF person instead of one of ellipsoids and capsules
+    #[arg(long, value_name = "FILE.glb", requires = "preview")]
+    person: Option<PathBuf>,
     /// From an example: side of a patch, pixels
     #[arg(long, value_name = "PIXELS", default_value_t = Settings::default().patch)]
     patch: u32,
@@ -92,6 +96,7 @@ enum Preview {
     Sphere,
     Cube,
     Plane,
+    Person,
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
@@ -152,7 +157,11 @@ fn of_material(args: &TextureArgs, name: &str, output: &Path) -> Result<()> {
     let view = View { size: args.size, offset: args.offset, scale }.checked()?;
     let parameters = args.params.as_deref().map_or(Parameters::Defaults, Parameters::File);
     let material = Material::new(name, parameters, args.seed, args.tile.then(|| view.extent()))?;
+    if args.person.is_some() && !matches!(args.preview, Some(Preview::Person)) {
+        bail!("--person is for --preview person and means nothing with another one");
+    }
     let picture = match args.preview {
+        Some(Preview::Person) => portrait(&material, args.person.as_deref(), args.size, args.offset, scale)?.into(),
         Some(Preview::Sphere) => lit(&material, Solid::Sphere, args.size, args.offset, scale).into(),
         Some(Preview::Cube) => lit(&material, Solid::Cube, args.size, args.offset, scale).into(),
         Some(Preview::Plane) => lit(&material, Solid::Plane, args.size, args.offset, scale).into(),

@@ -14,6 +14,7 @@ mod hash;
 pub mod noise;
 mod packing;
 pub mod performance;
+mod portrait;
 mod recording;
 pub mod render;
 pub mod rig;
@@ -26,6 +27,7 @@ mod stages;
 pub mod triangle;
 
 pub use finish::{Finish, FinishParameters, FinishSettings};
+pub use portrait::portrait;
 pub use scene::{
     ActorSettings, CameraSettings, LightSettings, MotionSettings, OutputSettings, RigSettings, RoomSettings, Scene,
     SensorSettings,
