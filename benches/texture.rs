@@ -6,6 +6,8 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use noise::{MultiFractal, NoiseFn};
+use pantin::texture::example::{Settings, synthesise};
+use pantin::texture::materials::{Material, Parameters};
 use pantin::texture::noise::{HashLattice, Octaves, Perlin, TableLattice, Tables, Value};
 
 const SIZE: [usize; 3] = [128, 128, 64];
@@ -90,5 +92,29 @@ fn of_noise(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(texture, of_noise);
+/// Time over the size of the result and the number of threads; 64 x 64 pixels of brick.
+fn from_example(criterion: &mut Criterion) {
+    let Ok(brick) = Material::new("brick", Parameters::Defaults, 1, None) else { return };
+    let example = image::RgbImage::from_fn(64, 64, |x, y| {
+        image::Rgb(brick.at([x as f32 * 0.03, y as f32 * 0.03, 0.2]).colour.map(|c| (c * 255.0) as u8))
+    });
+    let mut group = criterion.benchmark_group("from an example");
+    group.sample_size(10);
+    for side in [64, 128, 256] {
+        for threads in [1, 2] {
+            let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build() else { return };
+            for delta_max in [0.0, 0.004, 1.0] {
+                let settings = Settings { size: [side, side], delta_max, ..Settings::default() };
+                let name = format!("{side} x {side}, delta_max {delta_max}, {threads} threads");
+                group.throughput(Throughput::Elements(u64::from(side * side)));
+                group.bench_function(name, |b| {
+                    b.iter(|| pool.install(|| synthesise(black_box(&example), None, &settings, None, || ())));
+                });
+            }
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(texture, of_noise, from_example);
 criterion_main!(texture);

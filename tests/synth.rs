@@ -10,6 +10,14 @@ fn synth(arguments: &[&str], folder: &Path) -> Output {
     Command::new(env!("CARGO_BIN_EXE_pantin")).arg("synth").args(arguments).arg("-o").arg(folder).output().unwrap()
 }
 
+/// The same on a machine without a Vulkan driver, by the loader's old and its new name for the variable.
+fn synth_without_vulkan(arguments: &[&str], folder: &Path) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pantin"));
+    let none = "/nonexistent";
+    command.arg("synth").args(arguments).arg("-o").arg(folder).env("VK_ICD_FILENAMES", none);
+    command.env("VK_DRIVER_FILES", none).output().unwrap()
+}
+
 fn message(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
@@ -42,6 +50,58 @@ fn a_preset_is_made_once_and_goes_on_when_asked() {
     let made = synth(&[record.to_str().unwrap()], &again);
     assert!(made.status.success(), "{}", message(&made));
     assert_eq!(fs::read(again.join("frames/cam3_0001.png")).unwrap(), bytes);
+}
+
+#[test]
+fn a_device_draws_nearly_the_same_pictures_and_the_same_truth() {
+    let temporary = tempfile::tempdir().unwrap();
+    let arguments = |backend: &'static str| ["--preset", "p2s", "--frames", "2", "--backend", backend];
+    let [here, there] = ["cpu", "device"].map(|backend| temporary.path().join(backend));
+    assert!(synth(&arguments("cpu"), &here).status.success());
+    let drawn = synth(&arguments("device"), &there);
+    if !drawn.status.success() && std::env::var_os("PANTIN_NEEDS_VULKAN").is_none() {
+        println!("SKIPPED a_device_draws_nearly_the_same_pictures_and_the_same_truth: {}", message(&drawn));
+        return;
+    }
+    assert!(drawn.status.success(), "{}", message(&drawn));
+    for name in ["truth.trc", "truth.c3d", "truth_poses.csv", "plates/cam2.png", "sequence.toml", "scene.toml"] {
+        assert_eq!(fs::read(here.join(name)).unwrap(), fs::read(there.join(name)).unwrap(), "{name}");
+    }
+    for camera in 1..=4 {
+        let read =
+            |folder: &Path| image::open(folder.join(format!("frames/cam{camera}_0001.png"))).unwrap().into_rgb8();
+        let (a, b) = (read(&here), read(&there));
+        let off = |(a, b): (&image::Rgb<u8>, &image::Rgb<u8>)| (0..3).any(|c| a.0[c].abs_diff(b.0[c]) > 2);
+        let differing = a.pixels().zip(b.pixels()).filter(|pair| off(*pair)).count();
+        assert!(differing * 1000 <= a.len() / 3, "{differing} pixels of camera {camera} differ");
+    }
+    // What a device cannot draw is said before anything is written.
+    let scene = temporary.path().join("grass.toml");
+    fs::write(&scene, "frames = 1\n[[actor]]\n[actor.clothes]\nshirt = { material = \"grass\" }\n").unwrap();
+    let folder = temporary.path().join("grass");
+    let failed = synth(&[scene.to_str().unwrap(), "--backend", "device"], &folder);
+    assert!(message(&failed).contains("actor 1: shirt: its material is drawn on the processor alone"));
+    assert!(failed.status.code() == Some(1) && !folder.exists());
+}
+
+#[test]
+fn without_vulkan_the_processor_draws_and_says_so() {
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = temporary.path().join("auto");
+    let made = synth_without_vulkan(&["--preset", "p1s", "--frames", "1", "--backend", "auto"], &folder);
+    assert!(made.status.success(), "{}", message(&made));
+    assert!(
+        message(&made).starts_with("on the processor: ") && message(&made).contains("Vulkan"),
+        "{}",
+        message(&made)
+    );
+    let failed = synth_without_vulkan(&["--preset", "p1s", "--backend", "device", "--force"], &folder);
+    assert_eq!(failed.status.code(), Some(1));
+    let message = message(&failed);
+    assert!(
+        message.starts_with("pantin: ") && message.contains("Vulkan") && message.trim().lines().count() == 1,
+        "{message}"
+    );
 }
 
 #[test]

@@ -1,23 +1,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// A sum of octaves of noise (SPEC B1) at each of a list of points, and the lattice's word at the point's cell in the first
-// octave. Octaves come from the library: frequencies of tiles are rounded there, once.
+// A sum of octaves at each of a list of points, and the lattice's word at the point's cell in the first octave.
 
-#include "texture/constants.glsl"
+#include "texture/octaves.glsl"
 
 layout(local_size_x = 64) in;
 
-struct Octave {
-    vec4 frequency;
-    ivec4 period;
-    float amplitude;
-    uint state;
-};
-
-layout(std430, set = 0, binding = 0) readonly buffer Points { vec4 points[]; };
-layout(std430, set = 0, binding = 1) readonly buffer AllOctaves { Octave octaves[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Tables { uint tables[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Values { float values[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer Words { uint words[]; };
 
@@ -26,39 +15,10 @@ layout(push_constant) uniform Push {
     uint octaves;
 } push;
 
-// 1 to 4.
-layout(constant_id = 0) const uint DIMENSIONS = 3u;
-// 0 gradient noise, 1 value noise.
-layout(constant_id = 1) const uint KIND = 0u;
-// 0 fbm, 1 turbulence, 2 ridged.
-layout(constant_id = 2) const uint SUM = 0u;
-// 0 arithmetic, 1 tables.
-layout(constant_id = 3) const uint SOURCE = 0u;
-
-#define NOISE_TABLE(i) tables[i]
-#include "texture/noise.glsl"
-
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.count) return;
-    uint dimensions = DIMENSIONS;
-    uint kind = KIND;
-    uint sum = SUM;
-    uint source = SOURCE;
-    float farthest = uintBitsToFloat(FARTHEST_BITS);
-    vec4 p = clamp(points[i], vec4(-farthest), vec4(farthest));
-    precise float total = 0.0;
-    uint first_word = 0u;
-    for (uint k = 0u; k < push.octaves; k++) {
-        Octave octave = octaves[k];
-        Lattice lattice = Lattice(source == 1u, octave.state, octave.period);
-        precise vec4 q = p * octave.frequency;
-        uint word = 0u;
-        float n = noise(lattice, kind == 1u, dimensions, q, word);
-        precise float part = octave_part(sum, n) * octave.amplitude;
-        total = total + part;
-        if (k == 0u) first_word = word;
-    }
-    values[i] = total;
-    words[i] = first_word;
+    uint word;
+    values[i] = octave_sum(points[i], push.octaves, word);
+    words[i] = word;
 }

@@ -68,7 +68,7 @@ pub fn run(args: &DemoArgs) -> Result<()> {
     let folder = OutputFolder::open(&args.output.join("sequence"))?;
     let begin = Instant::now();
     let bar = Mutex::new(Progress::new("making the sequence", scene.frames));
-    synthetic.write(&folder, false, &|_| bar.lock().unwrap_or_else(PoisonError::into_inner).advance())?;
+    synthetic.write(&folder, false, None, &|_| bar.lock().unwrap_or_else(PoisonError::into_inner).advance())?;
     drop(bar);
     let views = synthetic.cameras().len();
     let made = begin.elapsed().as_secs_f64();

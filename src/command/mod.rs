@@ -8,6 +8,7 @@ mod check;
 mod convert;
 mod demo;
 mod devices;
+mod draws;
 mod evaluate;
 mod features;
 mod fit;

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use anyhow::Result;
 
+use super::draws::Draws;
 use super::progress::Progress;
 use crate::files::{OutputFolder, Overwrite};
 use crate::synth::{Scene, SyntheticSequence};
@@ -31,6 +32,9 @@ pub struct SynthArgs {
     /// Another seed than the scene's.
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
+    /// What draws the pictures. A device's are nearly the processor's, not the same bytes; plates and truth are the same.
+    #[arg(long, value_enum, default_value = "cpu")]
+    backend: Draws,
     /// Replace what the folder holds.
     #[arg(long, conflicts_with = "resume")]
     force: bool,
@@ -52,11 +56,23 @@ pub fn run(args: &SynthArgs) -> Result<()> {
     scene.frames = args.frames.unwrap_or(scene.frames);
     scene.seed = args.seed.unwrap_or(scene.seed);
     let synthetic = SyntheticSequence::new(&scene)?;
+    let mut device = args.backend.device()?;
+    if device.is_some()
+        && let Err(error) = synthetic.check_for_device()
+    {
+        if args.backend == Draws::Device {
+            return Err(error);
+        }
+        eprintln!("on the processor: {error:#}");
+        device = None;
+    }
     let overwrite = if args.force || args.resume { Overwrite::Replace } else { Overwrite::Refuse };
     let folder = OutputFolder::create(&args.output, overwrite)?;
     let begin = Instant::now();
     let bar = Mutex::new(Progress::new("making the sequence", scene.frames));
-    synthetic.write(&folder, args.resume, &|_| bar.lock().unwrap_or_else(PoisonError::into_inner).advance())?;
+    synthetic.write(&folder, args.resume, device.as_ref(), &|_| {
+        bar.lock().unwrap_or_else(PoisonError::into_inner).advance()
+    })?;
     drop(bar);
     let (seconds, views) = (begin.elapsed().as_secs_f64(), synthetic.cameras().len());
     println!(

@@ -6,10 +6,12 @@ use anyhow::{Context, Result, bail};
 use image::codecs::png::PngEncoder;
 use image::{DynamicImage, RgbImage};
 
+use super::draws::Draws;
 use super::progress::Progress;
 use crate::files::{Overwrite, write_atomically};
+use crate::synth::portrait;
 use crate::texture::example::{Settings, patch_count, synthesise};
-use crate::texture::materials::{KINDS, Material};
+use crate::texture::materials::{KINDS, Material, Parameters};
 use crate::texture::picture::{Solid, View, check_size, contact_sheet, flat, heights, lit};
 
 /// Draw a procedural material, or synthesise a texture from an example.
@@ -57,6 +59,9 @@ pub struct TextureArgs {
     /// Show the material on an object under a light
     #[arg(long, value_enum, conflicts_with = "tile")]
     preview: Option<Preview>,
+    /// With --preview person: a skinned glTF person instead of one of ellipsoids and capsules
+    #[arg(long, value_name = "FILE.glb", requires = "preview")]
+    person: Option<PathBuf>,
     /// From an example: side of a patch, pixels
     #[arg(long, value_name = "PIXELS", default_value_t = Settings::default().patch)]
     patch: u32,
@@ -78,6 +83,9 @@ pub struct TextureArgs {
     /// From an example: also write a picture of the pixels that were synthesised anew
     #[arg(long, value_name = "FILE", requires = "example")]
     resynthesised: Option<PathBuf>,
+    /// From an example: what measures how well patches fit; the texture is the same
+    #[arg(long, value_enum, default_value = "cpu", requires = "example")]
+    backend: Draws,
     /// Replace files that are there
     #[arg(long)]
     force: bool,
@@ -88,6 +96,7 @@ enum Preview {
     Sphere,
     Cube,
     Plane,
+    Person,
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
@@ -146,16 +155,16 @@ fn of_material(args: &TextureArgs, name: &str, output: &Path) -> Result<()> {
     check_size(args.size)?;
     let scale = args.scale.unwrap_or(if args.preview.is_some() { 1.0 } else { 4.0 });
     let view = View { size: args.size, offset: args.offset, scale }.checked()?;
-    let material = Material::new(name, args.params.as_deref(), args.seed, args.tile.then(|| view.extent()))?;
+    let parameters = args.params.as_deref().map_or(Parameters::Defaults, Parameters::File);
+    let material = Material::new(name, parameters, args.seed, args.tile.then(|| view.extent()))?;
+    if args.person.is_some() && !matches!(args.preview, Some(Preview::Person)) {
+        bail!("--person is for --preview person and means nothing with another one");
+    }
     let picture = match args.preview {
-        Some(preview) => {
-            let solid = match preview {
-                Preview::Sphere => Solid::Sphere,
-                Preview::Cube => Solid::Cube,
-                Preview::Plane => Solid::Plane,
-            };
-            lit(&material, solid, args.size, args.offset, scale).into()
-        }
+        Some(Preview::Person) => portrait(&material, args.person.as_deref(), args.size, args.offset, scale)?.into(),
+        Some(Preview::Sphere) => lit(&material, Solid::Sphere, args.size, args.offset, scale).into(),
+        Some(Preview::Cube) => lit(&material, Solid::Cube, args.size, args.offset, scale).into(),
+        Some(Preview::Plane) => lit(&material, Solid::Plane, args.size, args.offset, scale).into(),
         None if args.height_map => heights(&material, &view).into(),
         None => flat(&material, &view).into(),
     };
@@ -194,8 +203,9 @@ fn from_example(args: &TextureArgs, example: &Path, output: &Path) -> Result<()>
     let picture = read(example)?;
     let mask =
         args.mask.as_deref().map(|path| read(path).map(|mask| DynamicImage::from(mask).into_luma8())).transpose()?;
+    let device = args.backend.device()?;
     let mut progress = Progress::of("texture", "patch", patch_count(&settings));
-    let synthesis = synthesise(&picture, mask.as_ref(), &settings, || progress.advance())
+    let synthesis = synthesise(&picture, mask.as_ref(), &settings, device.as_ref(), || progress.advance())
         .with_context(|| format!("cannot synthesise from {}", example.display()))?;
     drop(progress);
     write(args, synthesis.picture.into(), output)?;

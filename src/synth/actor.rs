@@ -41,7 +41,8 @@ impl Material {
     pub fn reflectance(self, at: DVec3) -> Colour {
         let grain = |scale: f64| 0.9 + 0.2 * smooth_noise(at.y / scale + 3.1 * at.x / scale, at.z / scale, 31);
         match self {
-            Self::Skin | Self::Face => Colour::new(0.55, 0.31, 0.21),
+            Self::Skin => Colour::new(0.55, 0.31, 0.21),
+            Self::Face => Colour::new(0.58, 0.33, 0.225),
             Self::Hair => Colour::new(0.055, 0.032, 0.02) * (0.7 + 0.6 * smooth_noise(at.y / 7.0, at.x / 40.0, 33)),
             Self::Shirt => {
                 // Brick red with pale bands.
@@ -267,14 +268,19 @@ impl Shape {
         if self.material == Material::Face { self.face(at) } else { self.material.reflectance(at) }
     }
 
+    /// Of a face's ellipsoids the jaw is the flatter one: it carries the mouth alone.
+    pub(super) fn is_jaw(&self) -> bool {
+        let radii = self.bone_from_local.matrix3;
+        self.material == Material::Face && radii.z_axis.z < radii.x_axis.x
+    }
+
     /// Eyes, brows and mouth on the front of the head, placed relative to the shape's own centre.
     fn face(&self, at: DVec3) -> Colour {
-        let skin = Colour::new(0.58, 0.33, 0.225);
+        let skin = self.material.reflectance(at);
         let radii = self.bone_from_local.matrix3;
         let local =
             (at - self.bone_from_local.translation) / DVec3::new(radii.x_axis.x, radii.y_axis.y, radii.z_axis.z);
-        if local.x < 0.5 || radii.z_axis.z < radii.x_axis.x {
-            // The jaw is the flatter ellipsoid: it carries the mouth alone.
+        if local.x < 0.5 || self.is_jaw() {
             let mouth = local.x > 0.6 && local.y.abs() < 0.42 && (local.z + 0.08).abs() < 0.1;
             return if mouth { Colour::new(0.36, 0.13, 0.11) } else { skin };
         }

@@ -68,6 +68,11 @@ pub struct Look {
 }
 
 impl Figure {
+    /// What replaces the tailor's own, by garment.
+    pub(super) fn finishes(&self) -> &BTreeMap<String, Finish> {
+        &self.wardrobe.0
+    }
+
     /// A person of ellipsoids and capsules.
     ///
     /// # Errors
@@ -186,6 +191,17 @@ impl PlacedFigure<'_> {
         let is_painted = material == Material::Face && own != Material::Face.reflectance(at);
         let worn = if is_painted { None } else { self.figure.wardrobe.colour(material, at) };
         Look { material, reflectance: worn.unwrap_or(own), at }
+    }
+
+    /// Of a solid: the frame that what it is made of lies in, and whether it is a jaw.
+    pub(super) fn object_of(&self, primitive: usize) -> (DAffine3, bool) {
+        match &self.figure.shape {
+            Shape::Solids(actor) => {
+                let shape = &actor.shapes()[primitive];
+                (self.bone_from_world[shape.bone], shape.is_jaw())
+            }
+            Shape::Mesh { .. } => (DAffine3::IDENTITY, false),
+        }
     }
 
     /// What a primitive is made of.

@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 
 use super::room::Colour;
-use crate::texture::materials::Material;
+use crate::texture::materials::{Material, Parameters, StageMaterial};
 
 /// A finish as scene.toml has it.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -18,10 +18,20 @@ pub struct FinishSettings {
     pub material: Option<String>,
     /// Millimetres of the object to a unit of the material.
     pub scale: Option<f64>,
-    /// A file with the material's parameters.
-    pub parameters: Option<PathBuf>,
+    /// The material's parameters: a table, or the name of a file.
+    pub parameters: Option<FinishParameters>,
     /// Seed of the material.
     pub seed: Option<u64>,
+}
+
+/// Parameters of a material.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(untagged)]
+pub enum FinishParameters {
+    /// In a file.
+    File(PathBuf),
+    /// Here.
+    Here(toml::Table),
 }
 
 /// A finish, ready to be looked up.
@@ -55,7 +65,12 @@ impl FinishSettings {
         }
         let cut = match &self.material {
             Some(name) => {
-                let material = Material::new(name, self.parameters.as_deref(), self.seed.unwrap_or(1), None);
+                let parameters = match &self.parameters {
+                    None => Parameters::Defaults,
+                    Some(FinishParameters::File(path)) => Parameters::File(path),
+                    Some(FinishParameters::Here(table)) => Parameters::Table(table),
+                };
+                let material = Material::new(name, parameters, self.seed.unwrap_or(1), None);
                 Some((material.with_context(|| what.to_string())?, scale))
             }
             None if self.colour.is_some() => None,
@@ -76,6 +91,16 @@ impl Finish {
                 self.tint * Colour::from(texel.linear().map(f64::from)).min(Colour::splat(0.9))
             }
         }
+    }
+
+    /// Tint, mm to a unit, and the material, if there is one.
+    ///
+    /// # Errors
+    /// When the material is none that stages have.
+    pub(super) fn for_stages(&self) -> Result<(Colour, f64, Option<StageMaterial>)> {
+        let Some((material, scale)) = &self.cut else { return Ok((self.tint, 1.0, None)) };
+        let staged = material.for_stages().context("its material is drawn on the processor alone")?;
+        Ok((self.tint, *scale, Some(staged)))
     }
 }
 

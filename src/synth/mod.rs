@@ -6,12 +6,15 @@
 //! and [sensor](noise::Sensor) record it.
 
 pub mod actor;
+pub mod device;
 pub mod figure;
 mod finish;
 pub mod gait;
 mod hash;
 pub mod noise;
+mod packing;
 pub mod performance;
+mod portrait;
 mod recording;
 pub mod render;
 pub mod rig;
@@ -20,9 +23,11 @@ mod scene;
 mod sequence;
 pub mod shadow;
 pub mod solid;
+mod stages;
 pub mod triangle;
 
-pub use finish::{Finish, FinishSettings};
+pub use finish::{Finish, FinishParameters, FinishSettings};
+pub use portrait::portrait;
 pub use scene::{
     ActorSettings, CameraSettings, LightSettings, MotionSettings, OutputSettings, RigSettings, RoomSettings, Scene,
     SensorSettings,

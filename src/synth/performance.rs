@@ -131,7 +131,7 @@ fn recorded(body: &Body, settings: &MotionSettings, scene: &Scene) -> Result<Vec
 }
 
 /// Standing at ease: arms a little off the body, elbows and knees a little bent.
-fn standing(body: &Body, at: DVec2, heading: f64) -> Vec<f64> {
+pub(super) fn standing(body: &Body, at: DVec2, heading: f64) -> Vec<f64> {
     let mut pose = body.standing_pose();
     for ((index, dof), value) in body.dofs().zip(&mut pose) {
         let sign = if body.bones[index].name.starts_with("right") { -1.0 } else { 1.0 };

@@ -11,6 +11,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use rayon::prelude::*;
 
+use super::device::DevicePainter;
 use super::figure::Figure;
 use super::hash::hash;
 use super::noise::Sensor;
@@ -116,6 +117,8 @@ pub(super) struct Studio<'a> {
     pub(super) performances: &'a [Performance],
     pub(super) views: &'a [View],
     pub(super) shutters: &'a [Shutter],
+    /// What draws; the processor where there is none.
+    pub(super) painter: Option<DevicePainter>,
 }
 
 /// One camera's picture of one frame, and where the tracked person is in it.
@@ -154,18 +157,23 @@ impl Studio<'_> {
             let figures: Vec<_> = figures.collect::<Result<_>>()?;
             let cast = Cast::new(&figures, lamp)?;
             let bright = brightness(&self.scene.light, instant);
+            let mut is_wanted = vec![false; self.views.len()];
+            for (&view, times) in asked.iter().zip(&times) {
+                is_wanted[view] = times.iter().any(|time| same_time(*time, instant));
+            }
+            let pictures = self.pictures(&cast, &is_wanted)?;
             for ((&view, times), (sum, covered)) in asked.iter().zip(&times).zip(&mut sums) {
-                if !times.iter().any(|time| same_time(*time, instant)) {
+                if !is_wanted[view] {
                     continue;
                 }
                 let share = bright / times.len() as f32;
-                let (light, coverage) = self.views[view].picture(&cast);
-                for (sum, light) in sum.iter_mut().zip(&light) {
+                let (light, coverage) = &pictures[view];
+                for (sum, light) in sum.iter_mut().zip(light) {
                     for (sum, value) in sum.iter_mut().zip(light) {
                         *sum += value * share;
                     }
                 }
-                covered.iter_mut().zip(&coverage).for_each(|(sum, quarters)| *sum += u16::from(*quarters));
+                covered.iter_mut().zip(coverage).for_each(|(sum, quarters)| *sum += u16::from(*quarters));
             }
         }
         let mut shots = Vec::with_capacity(asked.len());
@@ -179,6 +187,16 @@ impl Studio<'_> {
             });
         }
         Ok(shots)
+    }
+
+    /// The pictures of the views that are wanted, empty ones of the others.
+    fn pictures(&self, cast: &Cast<'_>, is_wanted: &[bool]) -> Result<Vec<(Light, Vec<u8>)>> {
+        if let Some(painter) = &self.painter {
+            return painter.pictures(cast, self.views, is_wanted);
+        }
+        let picture =
+            |(view, &is_wanted): (&View, &bool)| if is_wanted { view.picture(cast) } else { Default::default() };
+        Ok(self.views.iter().zip(is_wanted).map(picture).collect())
     }
 
     /// The camera's picture of the empty room, without noise.

@@ -1,5 +1,7 @@
 //! Drawing: one ray through each quarter of a pixel, the room once a camera, the people over it in every frame.
 
+use std::sync::OnceLock;
+
 use anyhow::{Result, anyhow};
 use glam::{DVec2, DVec3};
 
@@ -9,6 +11,7 @@ use super::hash::smooth_noise;
 use super::room::{Colour, Room, Surface};
 use super::shadow::{FloorShadow, LightBins};
 use super::solid::Ray;
+use super::stages::TILE_SIDE;
 use super::triangle::Primitive;
 use crate::geometry::Camera;
 
@@ -22,7 +25,7 @@ const LIFT: f64 = 2.0;
 const KEY_SHARE: f32 = 0.40;
 
 /// Pixels a side of the tiles that solids are sorted into.
-const TILE: usize = 8;
+const TILE: usize = TILE_SIDE as usize;
 /// Rays a side through a pixel: for the actor, for the room.
 const ACTOR_RAYS: usize = 2;
 const ROOM_RAYS: usize = 3;
@@ -36,29 +39,48 @@ pub type Light = Vec<[f32; 3]>;
 /// A camera with its view of the empty room.
 pub struct View {
     camera: Camera,
-    centre: DVec3,
+    pub(super) centre: DVec3,
     /// Directions in the world through the corners of the pixels, (width + 1) x (height + 1).
-    directions: Vec<[f32; 3]>,
+    pub(super) directions: Vec<[f32; 3]>,
     plate: Light,
     /// Where the middle of each pixel meets the floor, NaN where it does not.
-    floor: Vec<[f32; 2]>,
+    pub(super) floor: Vec<[f32; 2]>,
 }
 
 /// The people in one instant, ready to be drawn in any view.
 pub struct Cast<'a> {
-    members: Vec<Member<'a>>,
+    pub(super) members: Vec<Member<'a>>,
 }
 
 /// One of them with the light as it falls there.
-struct Member<'a> {
-    figure: &'a PlacedFigure<'a>,
-    to_light: DVec3,
-    bins: LightBins<'a>,
-    floor_shadow: FloorShadow,
+pub(super) struct Member<'a> {
+    pub(super) figure: &'a PlacedFigure<'a>,
+    pub(super) to_light: DVec3,
+    pub(super) bins: LightBins<'a>,
+    /// The middle of the shadow on the floor.
+    pub(super) shadow_middle: DVec2,
+    /// Made when it is first asked for: a device makes its own.
+    floor_shadow: OnceLock<FloorShadow>,
+}
+
+impl Member<'_> {
+    pub(super) fn floor_shadow(&self) -> &FloorShadow {
+        self.floor_shadow.get_or_init(|| FloorShadow::new(&self.bins, &self.figure.balls, self.shadow_middle))
+    }
+}
+
+/// Where a ray meets somebody.
+pub(super) struct Meeting {
+    of: Candidate,
+    pub(super) point: DVec3,
+    /// The normal of the primitive alone.
+    facet: DVec3,
+    /// The normal as it is shaded.
+    pub(super) normal: DVec3,
 }
 
 /// A primitive of a member: (member, index).
-type Candidate = (u16, u32);
+pub(super) type Candidate = (u16, u32);
 
 impl<'a> Cast<'a> {
     /// Prepares shadows, for a lamp at a place in the room (mm) or light from far away.
@@ -80,9 +102,8 @@ impl<'a> Cast<'a> {
             // The middle of the shadow lies away from the light.
             let low = figure.balls.iter().map(|pair| pair[0].0.truncate());
             let middle = low.fold(DVec2::ZERO, |sum, p| sum + p) / figure.balls.len().max(1) as f64;
-            let middle = middle - towards.truncate() / towards.z * 700.0;
-            let floor_shadow = FloorShadow::new(&bins, &figure.balls, middle);
-            Ok(Member { figure, to_light, bins, floor_shadow })
+            let shadow_middle = middle - towards.truncate() / towards.z * 700.0;
+            Ok(Member { figure, to_light, bins, shadow_middle, floor_shadow: OnceLock::new() })
         };
         Ok(Self { members: figures.iter().map(member).collect::<Result<_>>()? })
     }
@@ -109,25 +130,35 @@ impl<'a> Cast<'a> {
         sum.normalize_or(normal)
     }
 
-    /// The member that is first met along a ray, and the light from there.
-    fn light(&self, ray: &Ray, candidates: &[Candidate]) -> Option<(u16, Colour)> {
-        let ((of, index), distance, normal) = candidates
+    /// Where a ray first meets somebody.
+    pub(super) fn first_meeting(&self, ray: &Ray, candidates: &[Candidate]) -> Option<Meeting> {
+        let (of, distance, facet) = candidates
             .iter()
             .filter_map(|&(member, index)| {
                 let hit = self.members[usize::from(member)].figure.primitives[index as usize].first_hit(ray)?;
                 Some(((member, index), hit.0, hit.1))
             })
             .min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let member = &self.members[usize::from(of)];
         let point = ray.origin + ray.direction * distance;
-        let look = member.figure.look(index as usize, point);
-        let lifted = point + normal * LIFT;
-        let normal = self.blended(normal, point, (of, index), candidates) + folds(look.material, look.at);
-        let normal = normal.normalize_or_zero();
-        let towards_light = normal.dot(member.to_light).max(0.0);
+        Some(Meeting { of, point, facet, normal: self.blended(facet, point, of, candidates) })
+    }
+
+    /// Whether a member stands between a meeting and the light.
+    pub(super) fn in_shadow(&self, meeting: &Meeting) -> bool {
         // Lifted off the surface, so that nothing shades its own skin by rounding.
-        let lit = towards_light > 0.0 && !self.members.iter().any(|other| other.bins.in_shadow(lifted));
-        let key = if lit { towards_light } else { 0.0 };
+        let lifted = meeting.point + meeting.facet * LIFT;
+        self.members.iter().any(|other| other.bins.in_shadow(lifted))
+    }
+
+    /// The member that is first met along a ray, and the light from there.
+    fn light(&self, ray: &Ray, candidates: &[Candidate]) -> Option<(u16, Colour)> {
+        let meeting = self.first_meeting(ray, candidates)?;
+        let (of, index) = meeting.of;
+        let (member, point) = (&self.members[usize::from(of)], meeting.point);
+        let look = member.figure.look(index as usize, point);
+        let normal = (meeting.normal + folds(look.material, look.at)).normalize_or_zero();
+        let towards_light = normal.dot(member.to_light).max(0.0);
+        let key = if towards_light > 0.0 && !self.in_shadow(&meeting) { towards_light } else { 0.0 };
         let up = 0.5 + 0.5 * normal.z;
         // Near the floor less of the room's light arrives.
         let open = 0.72 + 0.28 * (point.z / 500.0).clamp(0.0, 1.0);
@@ -204,6 +235,7 @@ impl View {
     /// The room with people in it, and how much of each pixel the first of them covers, in 0..=4 quarters.
     pub fn picture(&self, cast: &Cast) -> (Light, Vec<u8>) {
         let [width, height] = self.camera.size.map(|side| side as usize);
+        let shadows: Vec<&FloorShadow> = cast.members.iter().map(Member::floor_shadow).collect();
         let mut light: Light = self
             .plate
             .iter()
@@ -213,8 +245,8 @@ impl View {
                     return *rgb;
                 }
                 let (x, y) = (f64::from(x), f64::from(y));
-                let factor = cast.members.iter().map(|member| {
-                    let [key, around] = member.floor_shadow.at(x, y);
+                let factor = shadows.iter().map(|shadow| {
+                    let [key, around] = shadow.at(x, y);
                     KEY_SHARE * key + (1.0 - KEY_SHARE) * around
                 });
                 let factor: f32 = factor.product();
@@ -261,7 +293,7 @@ impl View {
     }
 
     /// What may be seen in each tile of the picture.
-    fn tiles(&self, cast: &Cast) -> Vec<Vec<Candidate>> {
+    pub(super) fn tiles(&self, cast: &Cast) -> Vec<Vec<Candidate>> {
         let [width, height] = self.camera.size.map(|side| side as usize);
         let (columns, rows) = (width.div_ceil(TILE), height.div_ceil(TILE));
         let mut tiles = vec![Vec::new(); columns * rows];

@@ -6,7 +6,9 @@ use anyhow::{Context, Result, bail};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::device::DevicePainter;
 use super::figure::{Figure, Wardrobe};
+use super::packing::PackedFinishes;
 use super::performance::Performance;
 use super::recording::{Shutter, Studio, shutters, source_of, write_picture};
 use super::render::View;
@@ -16,6 +18,7 @@ use super::scene::Scene;
 use crate::body::{Body, MeshSource, PoseTable, Skinning};
 use crate::files::{OutputFolder, Overwrite};
 use crate::geometry::Camera;
+use crate::gpu::Device;
 use crate::motion::{PointTrajectory, write_points};
 use crate::sequence::write_cameras_toml;
 
@@ -110,6 +113,14 @@ impl SyntheticSequence {
         &self.cameras
     }
 
+    /// Whether a device can draw it.
+    ///
+    /// # Errors
+    /// When someone wears a material that is drawn on the processor alone; one sentence that names both.
+    pub fn check_for_device(&self) -> Result<()> {
+        PackedFinishes::new(&self.figures).map(|_| ())
+    }
+
     /// The true pose of every frame, mm and radians.
     pub fn poses(&self) -> &PoseTable {
         &self.poses
@@ -126,11 +137,19 @@ impl SyntheticSequence {
     /// Writes the sequence (INTERFACES, sequence.toml) with its pictures, plates/ and its truth: truth.trc (joints), truth.c3d
     /// (markers), truth_poses.csv; dropped.csv where cameras drop frames; scene.toml, which makes it again. sequence.toml
     /// comes last, so that a folder that has one is complete. With `resume` the pictures that are there are kept.
-    /// `progress` is called with the number of frames done, from any thread.
+    /// `progress` is called with the number of frames done, from any thread. A `device` draws the pictures instead of the
+    /// processor, nearly the same ones; plates and truth are the processor's all the same.
     ///
     /// # Errors
-    /// When a file cannot be written (the message names it), or the folder to resume was made with other settings.
-    pub fn write(&self, folder: &OutputFolder, resume: bool, progress: &(dyn Fn(usize) + Sync)) -> Result<()> {
+    /// When a file cannot be written (the message names it), the folder to resume was made with other settings, or the device
+    /// fails or cannot draw what someone wears ([`Self::check_for_device`]).
+    pub fn write(
+        &self,
+        folder: &OutputFolder,
+        resume: bool,
+        device: Option<&Device>,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<()> {
         let record = toml::to_string(&self.scene).context("cannot write the scene's settings")?;
         if resume {
             let path = folder.path().join(RECORD);
@@ -151,6 +170,7 @@ impl SyntheticSequence {
             performances: &self.performances,
             views: &views,
             shutters: &self.shutters,
+            painter: device.map(|device| DevicePainter::new(device, &views, &self.figures)).transpose()?,
         };
         for (index, camera) in self.cameras.iter().enumerate() {
             let path = folder.file(&format!("plates/{}.png", camera.name))?;
@@ -235,7 +255,7 @@ mod tests {
     fn write(scene: &Scene) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         let output = OutputFolder::create(folder.path(), Overwrite::Refuse).unwrap();
-        SyntheticSequence::new(scene).unwrap().write(&output, false, &|_| {}).unwrap();
+        SyntheticSequence::new(scene).unwrap().write(&output, false, None, &|_| {}).unwrap();
         folder
     }
 
@@ -424,14 +444,14 @@ mod tests {
         let (whole, kept) = (fs::read(&frame).unwrap(), folder.path().join("frames/cam1_0001.png"));
         fs::remove_file(&frame).unwrap();
         fs::write(&kept, b"kept").unwrap();
-        SyntheticSequence::new(&short()).unwrap().write(&output, true, &|_| {}).unwrap();
+        SyntheticSequence::new(&short()).unwrap().write(&output, true, None, &|_| {}).unwrap();
         assert_eq!(fs::read(&frame).unwrap(), whole);
         assert_eq!(fs::read(&kept).unwrap(), b"kept", "what is there is not made again");
         let other = SyntheticSequence::new(&Scene { seed: 7, ..short() }).unwrap();
-        let error = other.write(&output, true, &|_| {}).unwrap_err().to_string();
+        let error = other.write(&output, true, None, &|_| {}).unwrap_err().to_string();
         assert!(error.contains("scene.toml has other settings"), "{error}");
         let empty = tempfile::tempdir().unwrap();
-        let error = other.write(&OutputFolder::open(empty.path()).unwrap(), true, &|_| {}).unwrap_err();
+        let error = other.write(&OutputFolder::open(empty.path()).unwrap(), true, None, &|_| {}).unwrap_err();
         assert!(format!("{error:#}").contains("expected a folder that was begun"), "{error:#}");
     }
 

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::solid::{BoundingBall, Ray};
+use super::stages::{SHADOW_CELL, SHADOW_SIDE};
 use super::triangle::Primitive;
 
 /// Width of a bin in the plane across the light, mm: for solids, and for a mesh of many small triangles.
@@ -14,12 +15,12 @@ pub struct LightBins<'a> {
     primitives: &'a [Primitive],
     /// Towards the light, unit length.
     to_light: DVec3,
-    across: [DVec3; 2],
-    origin: DVec2,
+    pub(super) across: [DVec3; 2],
+    pub(super) origin: DVec2,
     /// mm
-    width: f64,
-    size: [usize; 2],
-    bins: Vec<Vec<u32>>,
+    pub(super) width: f64,
+    pub(super) size: [usize; 2],
+    pub(super) bins: Vec<Vec<u32>>,
 }
 
 impl<'a> LightBins<'a> {
@@ -73,8 +74,8 @@ pub struct FloorShadow {
 }
 
 /// Width of a cell on the floor, mm, and cells a side.
-const CELL: f64 = 22.0;
-const SIDE: usize = 130;
+const CELL: f64 = SHADOW_CELL as f64;
+const SIDE: usize = SHADOW_SIDE as usize;
 
 impl FloorShadow {
     /// The shadow of what is in `bins`, in a square of the floor round `middle`; `balls` are pairs whose hulls stand for it

@@ -117,8 +117,8 @@ fn smaller_root(a: f64, b: f64, c: f64) -> Option<f64> {
 /// A solid somewhere in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct PlacedSolid {
-    solid: Solid,
-    local_from_world: DAffine3,
+    pub(super) solid: Solid,
+    pub(super) local_from_world: DAffine3,
     /// Takes the local outward direction to the world's.
     normal_map: DMat3,
     balls: [BoundingBall; 2],
@@ -160,7 +160,8 @@ impl PlacedSolid {
         self.balls
     }
 
-    fn reach(&self) -> f64 {
+    /// How far it reaches from the middle of its first ball, mm.
+    pub(super) fn reach(&self) -> f64 {
         let [(a, radius_a), (b, radius_b)] = self.balls;
         a.distance(b) + radius_a.max(radius_b)
     }

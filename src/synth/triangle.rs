@@ -7,12 +7,12 @@ use super::solid::{BoundingBall, PlacedSolid, Ray};
 /// A triangle of a person's surface in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    corner: DVec3,
-    edges: [DVec3; 2],
+    pub(super) corner: DVec3,
+    pub(super) edges: [DVec3; 2],
     /// Outward normals of the surface at the corners.
-    normals: [DVec3; 3],
+    pub(super) normals: [DVec3; 3],
     /// The corners on the person at rest, mm.
-    rest: [DVec3; 3],
+    pub(super) rest: [DVec3; 3],
 }
 
 impl Triangle {

@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 use image::{ImageBuffer, Luma, Rgb};
 use rayon::prelude::*;
 
-use super::materials::{KINDS, Material};
+use super::materials::{KINDS, Material, Parameters, Texel};
 
 /// Pictures of 16 bits a channel; to 8 bits they are rounded when written.
 pub type Picture = ImageBuffer<Rgb<u16>, Vec<u16>>;
@@ -177,6 +177,23 @@ fn hit(solid: Solid, u: f32, v: f32) -> Option<([f32; 3], [f32; 3])> {
 /// The material on an object under one diffuse light; `scale` is units of the material a unit of the object.
 pub fn lit(material: &Material, solid: Solid, size: [u32; 2], offset: [f32; 3], scale: f32) -> Picture {
     let light = normalised(LIGHT);
+    shown(size, |u, v| {
+        hit(solid, u, v).map(|(p, normal)| {
+            let texel = material.at(std::array::from_fn(|axis| p[axis] * scale + offset[axis]));
+            shaded(texel, dot(normal, light))
+        })
+    })
+}
+
+/// The linear light from a surface, by the cosine between its normal and the way to the light.
+pub fn shaded(texel: Texel, cosine: f32) -> [f32; 3] {
+    let shade = 0.12 + 0.95 * cosine.max(0.0);
+    texel.linear().map(|c| c * shade)
+}
+
+/// A picture of an object from the linear light along rays, none where they miss it. A ray's u and v are from -1 to 1 over the
+/// shorter side, to the right and up.
+pub fn shown(size: [u32; 2], ray: impl Fn(f32, f32) -> Option<[f32; 3]> + Sync) -> Picture {
     let smaller = size[0].min(size[1]) as f32;
     let encoded = |x: f32| if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
     picture(size, |x, y| {
@@ -185,12 +202,7 @@ pub fn lit(material: &Material, solid: Solid, size: [u32; 2], offset: [f32; 3], 
             let place = |pixel: u32, s: u32| pixel as f32 + (s as f32 + 0.5) / SAMPLES as f32;
             let u = (2.0 * place(x, sample % SAMPLES) - size[0] as f32) / smaller;
             let v = (size[1] as f32 - 2.0 * place(y, sample / SAMPLES)) / smaller;
-            let colour = hit(solid, u, v).map_or([BACKGROUND; 3], |(p, normal)| {
-                let texel = material.at(std::array::from_fn(|axis| p[axis] * scale + offset[axis]));
-                let shade = 0.12 + 0.95 * dot(normal, light).max(0.0);
-                texel.linear().map(|c| c * shade)
-            });
-            for (sum, c) in sum.iter_mut().zip(colour) {
+            for (sum, c) in sum.iter_mut().zip(ray(u, v).unwrap_or([BACKGROUND; 3])) {
                 *sum += c / (SAMPLES * SAMPLES) as f32;
             }
         }
@@ -209,7 +221,7 @@ pub fn contact_sheet(cell: u32, seed: u64) -> Result<Picture> {
     let (width, height) = (gap + columns * (cell + gap), gap + rows * (cell + cell / 2 + gap));
     let mut sheet = Picture::from_pixel(width, height, Rgb([word(0.93); 3]));
     for (i, kind) in KINDS.iter().enumerate() {
-        let material = Material::new(kind.name, None, seed, None)?;
+        let material = Material::new(kind.name, Parameters::Defaults, seed, None)?;
         let (left, top) = (gap + i as u32 % columns * (cell + gap), gap + i as u32 / columns * (cell + cell / 2 + gap));
         let view = View { size: [cell, cell], offset: [0.0; 3], scale: 3.0 };
         image::imageops::replace(&mut sheet, &flat(&material, &view), i64::from(left), i64::from(top));

@@ -12,6 +12,7 @@ use image::{GrayImage, RgbImage};
 
 use self::matching::{COLOUR_WEIGHTS, Known, Matcher, Weighted, squared_error};
 use super::noise::mixed;
+use crate::gpu::Device;
 
 /// Pixels around one that its neighbourhood takes in: 7 x 7.
 const RADIUS: usize = 3;
@@ -59,19 +60,25 @@ pub struct Synthesis {
 }
 
 /// Synthesises a texture; `mask` (as large as the example) is dark where the example may not be used. `advance` is called after
-/// each of [`patch_count`] steps. The same result on every run and for any number of threads.
+/// each of [`patch_count`] steps. The same result on every run, for any number of threads, and whether the processor measures
+/// what fits or a `device` does.
 ///
 /// # Errors
-/// When a size or a setting makes no sense, the mask has another size than the example, or leaves nothing of it.
+/// When a size or a setting makes no sense, the mask has another size than the example or leaves nothing of it, or the device
+/// fails.
 pub fn synthesise(
     example: &RgbImage,
     mask: Option<&GrayImage>,
     settings: &Settings,
+    device: Option<&Device>,
     mut advance: impl FnMut(),
 ) -> Result<Synthesis> {
     check(example, mask, settings)?;
     let usable: Option<Vec<bool>> = mask.map(|mask| mask.pixels().map(|pixel| pixel.0[0] >= 128).collect());
-    let matcher = Matcher::new(example, usable.as_deref());
+    let mut matcher = Matcher::new(example, usable.as_deref());
+    if let Some(device) = device {
+        matcher = matcher.on_device(device)?;
+    }
     let [width, height] = settings.size.map(|side| side as usize);
     let mut canvas = Canvas {
         matcher,
@@ -86,7 +93,7 @@ pub fn synthesise(
     let side = settings.patch as usize;
     for y in (0..height).step_by(side) {
         for x in (0..width).step_by(side) {
-            canvas.place(x, y, side, settings.overlap as usize);
+            canvas.place(x, y, side, settings.overlap as usize)?;
             advance();
         }
     }
@@ -211,16 +218,16 @@ impl Canvas {
     }
 
     /// Fills the square of `side` at (x, y): as one patch if one fits, else by quarters.
-    fn place(&mut self, x: usize, y: usize, side: usize, overlap: usize) {
+    fn place(&mut self, x: usize, y: usize, side: usize, overlap: usize) -> Result<()> {
         if x >= self.size[0] || y >= self.size[1] {
-            return;
+            return Ok(());
         }
         if side == 1 {
-            self.pixel(x, y);
+            self.pixel(x, y)?;
             let i = y * self.size[0] + x;
             self.patches += 1;
             self.owners[i] = Owner { patch: self.patches, side: 1 };
-            return;
+            return Ok(());
         }
         let region = self.region(x, y, side, overlap);
         // A region wider than a texture that wraps around would meet itself.
@@ -230,13 +237,12 @@ impl Canvas {
             let found = if known.is_empty() {
                 self.matcher.any(region.size, self.die(x, y)).map(|place| (place, 0.0))
             } else {
-                self.matcher.best(region.size, &known)
+                self.matcher.best(region.size, &known)?
             };
             if let Some((place, error)) = found
                 && error <= self.settings.delta_max * known.len() as f32
             {
-                self.paste(region, [x, y], side, place, overlap);
-                return;
+                return self.paste(region, [x, y], side, place, overlap);
             }
         }
         let half = side.div_ceil(2);
@@ -244,20 +250,28 @@ impl Canvas {
             // The second half of an odd side is one pixel shorter.
             let (width, height) = (if dx == 0 { half } else { side - half }, if dy == 0 { half } else { side - half });
             if width == height {
-                self.place(x + dx, y + dy, width, (overlap / 2).max(RADIUS));
+                self.place(x + dx, y + dy, width, (overlap / 2).max(RADIUS))?;
             } else {
                 for v in 0..height {
                     for u in 0..width {
-                        self.place(x + dx + u, y + dy + v, 1, RADIUS);
+                        self.place(x + dx + u, y + dy + v, 1, RADIUS)?;
                     }
                 }
             }
         }
+        Ok(())
     }
 
     /// Copies the example at `place` into `region`: its square as it is, feathered into what was there around it. Pixels there
     /// that differ too much are taken out and synthesised anew.
-    fn paste(&mut self, region: Region, [x, y]: [usize; 2], side: usize, place: [usize; 2], overlap: usize) {
+    fn paste(
+        &mut self,
+        region: Region,
+        [x, y]: [usize; 2],
+        side: usize,
+        place: [usize; 2],
+        overlap: usize,
+    ) -> Result<()> {
         self.patches += 1;
         let owner = Owner { patch: self.patches, side: side as u32 };
         let corner = [(x as isize - region.x) as usize, (y as isize - region.y) as usize];
@@ -283,11 +297,11 @@ impl Canvas {
                 }
             }
         }
-        self.synthesise_anew(&taken_out);
+        self.synthesise_anew(&taken_out)
     }
 
     /// Synthesises pixels one by one, always the one with the most known neighbours; of those the uppermost, leftmost.
-    fn synthesise_anew(&mut self, pixels: &[usize]) {
+    fn synthesise_anew(&mut self, pixels: &[usize]) -> Result<()> {
         for &i in pixels {
             self.filled[i] = false;
             self.anew[i] = true;
@@ -309,7 +323,7 @@ impl Canvas {
                 queue.push((now, std::cmp::Reverse(i)));
                 continue;
             }
-            self.pixel(i % width, i / width);
+            self.pixel(i % width, i / width)?;
             let around = self.region(i % width, i / width, 1, RADIUS);
             for (_, _, j) in self.pixels(around) {
                 if self.anew[j] && !self.filled[j] {
@@ -317,10 +331,11 @@ impl Canvas {
                 }
             }
         }
+        Ok(())
     }
 
     /// Fills one pixel from its neighbourhood, smaller where the example or its mask have no room for 7 x 7.
-    fn pixel(&mut self, x: usize, y: usize) {
+    fn pixel(&mut self, x: usize, y: usize) -> Result<()> {
         for radius in (0..=RADIUS).rev() {
             let region = self.region(x, y, 1, radius);
             if (0..2).any(|axis| region.size[axis] > self.size[axis]) {
@@ -330,15 +345,16 @@ impl Canvas {
             let found = if known.is_empty() {
                 self.matcher.any(region.size, self.die(x, y))
             } else {
-                self.matcher.best(region.size, &known).map(|(place, _)| place)
+                self.matcher.best(region.size, &known)?.map(|(place, _)| place)
             };
             if let Some(place) = found {
                 let (u, v) = ((x as isize - region.x) as usize, (y as isize - region.y) as usize);
                 let i = y * self.size[0] + x;
                 self.colours[i] = self.matcher.colour(place[0] + u, place[1] + v);
                 self.filled[i] = true;
-                return;
+                break;
             }
         }
+        Ok(())
     }
 }

@@ -1,6 +1,9 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
+use crate::gpu::DeviceSettings;
+use crate::gpu::test_device::device;
+use crate::texture::materials::Parameters;
 use image::{Luma, Rgb};
 
 /// Stripes and dots with a little noise.
@@ -14,7 +17,7 @@ fn example(width: u32, height: u32) -> RgbImage {
 
 fn synthesised(example: &RgbImage, settings: Settings) -> Synthesis {
     let mut steps = 0;
-    let synthesis = synthesise(example, None, &settings, || steps += 1).unwrap();
+    let synthesis = synthesise(example, None, &settings, None, || steps += 1).unwrap();
     assert_eq!(steps, patch_count(&settings));
     assert_eq!([synthesis.picture.width(), synthesis.picture.height()], settings.size);
     synthesis
@@ -69,6 +72,31 @@ fn the_number_of_threads_changes_nothing_and_the_seed_does() {
 }
 
 #[test]
+fn a_device_chooses_what_the_processor_chooses() {
+    let name = "a_device_chooses_what_the_processor_chooses";
+    let Some((device, log)) = device(name, DeviceSettings::default()) else { return };
+    let brick = crate::texture::materials::Material::new("brick", Parameters::Defaults, 1, None).unwrap();
+    let wall = RgbImage::from_fn(61, 48, |x, y| {
+        Rgb(brick.at([x as f32 * 0.03, y as f32 * 0.03, 0.2]).colour.map(|c| (c * 255.0) as u8))
+    });
+    let mask = GrayImage::from_fn(61, 48, |x, y| Luma([if x + y < 20 { 0 } else { 255 }]));
+    for (example, mask) in [(&example(40, 40), None), (&wall, Some(&mask)), (&example(5, 30), None)] {
+        for settings in [
+            Settings { delta_max: 1.0, ..SMALL },
+            Settings { delta_max: 0.003, tile: true, ..SMALL },
+            Settings { size: [20, 16], delta_max: 0.0, ..SMALL },
+        ] {
+            let here = synthesise(example, mask, &settings, None, || ()).unwrap();
+            let there = synthesise(example, mask, &settings, Some(&device), || ()).unwrap();
+            assert!(here.picture == there.picture && here.decomposition == there.decomposition, "{settings:?}");
+            assert_eq!(here.resynthesised_count, there.resynthesised_count);
+        }
+    }
+    drop(device);
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+#[test]
 fn a_tile_continues_over_its_borders() {
     let example = example(48, 40);
     let settings = Settings { size: [60, 60], tile: true, ..SMALL };
@@ -108,7 +136,7 @@ fn masked_pixels_are_not_used() {
     let example = RgbImage::from_fn(40, 40, |x, y| Rgb([if x < 20 { (x * 3 + y) as u8 } else { 255 }; 3]));
     let mask = GrayImage::from_fn(40, 40, |x, _| Luma([if x < 20 { 255 } else { 0 }]));
     let settings = Settings { delta_pixel: 1.0, ..SMALL };
-    let synthesis = synthesise(&example, Some(&mask), &settings, || ()).unwrap();
+    let synthesis = synthesise(&example, Some(&mask), &settings, None, || ()).unwrap();
     assert!(synthesis.picture.pixels().all(|pixel| pixel.0[0] < 120));
 }
 
@@ -116,7 +144,7 @@ fn masked_pixels_are_not_used() {
 fn wrong_settings_are_named() {
     let example = example(10, 10);
     let message = |settings: Settings, mask: Option<&GrayImage>| {
-        synthesise(&example, mask, &settings, || ()).unwrap_err().to_string()
+        synthesise(&example, mask, &settings, None, || ()).unwrap_err().to_string()
     };
     assert!(message(Settings { size: [0, 5], ..SMALL }, None).contains("a texture of 0 x 5 pixels"));
     assert!(message(Settings { size: [u32::MAX, u32::MAX], ..SMALL }, None).contains("expected 1 to 67108864"));
@@ -128,6 +156,6 @@ fn wrong_settings_are_named() {
         message(SMALL, Some(&GrayImage::new(9, 10))).contains("mask has 9 x 10 pixels, expected the example's 10 x 10")
     );
     assert!(message(SMALL, Some(&GrayImage::new(10, 10))).contains("dark all over"));
-    let empty = synthesise(&RgbImage::new(0, 3), None, &SMALL, || ()).unwrap_err().to_string();
+    let empty = synthesise(&RgbImage::new(0, 3), None, &SMALL, None, || ()).unwrap_err().to_string();
     assert!(empty.contains("an example of 0 x 3 pixels"), "{empty}");
 }

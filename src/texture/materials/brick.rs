@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use super::space::{blend, lit, step};
 use super::{Solid, Space, Texel};
+use crate::texture::stages::MATERIAL_BRICK;
 
 /// Parameters.
 #[derive(Clone, Debug, Deserialize)]
@@ -63,5 +64,11 @@ impl Solid for Brick {
         let sand = lit(self.mortar, 1.0 + self.roughness * 0.3 * space.another(8).fbm(3, 22.0, p));
         let height = (face * (0.75 + 0.15 * shade + 0.2 * self.roughness * rough) + 0.15).clamp(0.0, 1.0);
         Texel { colour: blend(sand, clay, face), height }
+    }
+
+    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
+        let per_unit = self.size.map(|s| 1.0 / s.abs().max(1e-3));
+        let edges = [self.joint.abs() / 2.0, self.roughness];
+        Some((MATERIAL_BRICK, [&self.brick[..], &self.burnt, &self.mortar, &per_unit, &edges].concat()))
     }
 }

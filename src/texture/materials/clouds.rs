@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use super::space::blend;
 use super::{Solid, Space, Texel};
+use crate::texture::stages::MATERIAL_CLOUDS;
 
 /// Parameters; the thesis's values by default.
 #[derive(Clone, Debug, Deserialize)]
@@ -32,5 +33,10 @@ impl Solid for Clouds {
         let sum: f32 = (0..4).map(|k| space.octave(k, self.scale, p)).sum();
         let height = self.contrast * (sum + self.offset);
         Texel { colour: blend(self.sky, self.cloud, height), height }
+    }
+
+    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
+        let Self { sky, cloud, offset, contrast, scale } = *self;
+        Some((MATERIAL_CLOUDS, [&sky[..], &cloud, &[offset, contrast, scale]].concat()))
     }
 }

@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use super::space::lit;
 use super::{Solid, Space, Texel};
+use crate::texture::stages::MATERIAL_FABRIC;
 
 /// Parameters.
 #[derive(Clone, Debug, Deserialize)]
@@ -62,5 +63,10 @@ impl Solid for Fabric {
         let fibres = space.another(3).sum(crate::texture::noise::Sum::Fbm, 3, fibre.map(|f| f * self.threads * 0.5), p);
         let shade = (0.35 + 0.65 * height) * (1.0 + self.irregularity * (0.5 * own + 0.35 * fibres));
         Texel { colour: lit(colour, shade).map(|c| c.clamp(0.0, 1.0)), height: height.clamp(0.0, 1.0) }
+    }
+
+    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
+        let over = self.over.clamp(1, 16) as f32;
+        Some((MATERIAL_FABRIC, [&self.warp[..], &self.weft, &[self.threads, over, self.irregularity]].concat()))
     }
 }

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::{Solid, Space, Texel};
+use crate::texture::stages::MATERIAL_GRANITE;
 
 /// Parameters; the thesis's values by default.
 #[derive(Clone, Debug, Deserialize)]
@@ -26,5 +27,9 @@ impl Solid for Granite {
     fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
         let height = (self.contrast * space.octave(3, self.scale, p)).clamp(0.0, 1.0);
         Texel { colour: self.colour.map(|c| c * height), height }
+    }
+
+    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
+        Some((MATERIAL_GRANITE, [&self.colour[..], &[self.contrast, self.scale]].concat()))
     }
 }

@@ -5,6 +5,7 @@ use serde::Deserialize;
 use super::space::blend;
 use super::{Solid, Space, Texel};
 use crate::texture::noise::Sum;
+use crate::texture::stages::MATERIAL_LAVA;
 
 /// Parameters; the thesis's values by default.
 #[derive(Clone, Debug, Deserialize)]
@@ -31,5 +32,10 @@ impl Solid for Lava {
         let about_means = space.sum(Sum::Turbulence, 4, [self.scale; 3], p) / 4.0;
         let height = (self.contrast * about_means).clamp(0.0, 1.0);
         Texel { colour: blend(self.bright, self.dark, height), height }
+    }
+
+    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
+        let Self { bright, dark, contrast, scale } = *self;
+        Some((MATERIAL_LAVA, [&bright[..], &dark, &[contrast, scale]].concat()))
     }
 }

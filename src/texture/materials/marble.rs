@@ -5,6 +5,7 @@ use serde::Deserialize;
 use super::space::blend;
 use super::{Solid, Space, Texel};
 use crate::texture::noise::Sum;
+use crate::texture::stages::MATERIAL_MARBLE;
 
 /// Parameters; frequencies are the thesis's by default.
 #[derive(Clone, Debug, Deserialize)]
@@ -34,5 +35,10 @@ impl Solid for Marble {
         let waves = space.whole(self.frequency / std::f32::consts::TAU, 1, 1.0);
         let height = 0.5 * (std::f32::consts::TAU * waves * p[1] + self.bend * turbulence).sin() + 0.5;
         Texel { colour: blend(self.vein, self.stone, height), height }
+    }
+
+    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
+        let Self { vein, stone, frequency, bend, scale } = *self;
+        Some((MATERIAL_MARBLE, [&vein[..], &stone, &[frequency / std::f32::consts::TAU, bend, scale]].concat()))
     }
 }

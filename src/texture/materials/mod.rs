@@ -33,7 +33,8 @@ pub use space::Space;
 pub use terrain::{Band, Fractal, Map, Terrain};
 pub use wood::Wood;
 
-use crate::files::read_toml;
+use super::stages::{MATERIAL_LATTICES, MATERIAL_NUMBERS};
+use crate::files::{parse_table, read_toml};
 
 /// What a material is at a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -55,6 +56,24 @@ impl Texel {
 pub(crate) trait Solid: Send + Sync {
     /// The texel at `p`, object units.
     fn at(&self, space: &Space, p: [f32; 3]) -> Texel;
+
+    /// Its kind (`MATERIAL_*`) and numbers in the order of `glsl/texture/materials.glsl`, where stages have it.
+    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
+        None
+    }
+}
+
+/// A material as stages take it: see `glsl/texture/materials.glsl`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StageMaterial {
+    /// `MATERIAL_*`.
+    pub kind: u32,
+    /// Seed of its dice.
+    pub seed: u64,
+    /// States of the lattices of its space and of its others, from 1.
+    pub lattices: [u32; MATERIAL_LATTICES as usize],
+    /// Its parameters.
+    pub numbers: [f32; MATERIAL_NUMBERS as usize],
 }
 
 /// A material by name.
@@ -67,16 +86,43 @@ pub struct Kind {
     build: Build,
 }
 
-/// Parameters (from a file, or the defaults) and seed to the material.
-type Build = fn(Option<&Path>, u64) -> Result<Box<dyn Solid>>;
-
-fn parameters<T: DeserializeOwned + Default>(path: Option<&Path>) -> Result<T> {
-    path.map_or_else(|| Ok(T::default()), read_toml)
+/// Where a material's parameters come from; what is not said is the default.
+#[derive(Clone, Copy, Debug)]
+pub enum Parameters<'a> {
+    /// Nowhere.
+    Defaults,
+    /// A TOML file.
+    File(&'a Path),
+    /// A table of another file.
+    Table(&'a toml::Table),
 }
+
+impl Parameters<'_> {
+    fn read<T: DeserializeOwned + Default>(self) -> Result<T> {
+        match self {
+            Self::Defaults => Ok(T::default()),
+            Self::File(path) => read_toml(path),
+            Self::Table(table) => parse_table(table, "parameters"),
+        }
+    }
+
+    /// Fails where a number is not finite or beyond what sums of octaves stay finite with.
+    fn check(self) -> Result<()> {
+        let (table, name) = match self {
+            Self::Defaults => return Ok(()),
+            Self::File(path) => (read_toml(path)?, path.display().to_string()),
+            Self::Table(table) => (table.clone(), "parameters".into()),
+        };
+        check_numbers(&toml::Value::Table(table), "").map_err(|message| anyhow!("{name}: {message}"))
+    }
+}
+
+/// Parameters and seed to the material.
+type Build = fn(Parameters<'_>, u64) -> Result<Box<dyn Solid>>;
 
 macro_rules! kind {
     ($name:literal, $looks:literal, $type:ty) => {
-        Kind { name: $name, looks: $looks, build: |path, _| Ok(Box::new(parameters::<$type>(path)?)) }
+        Kind { name: $name, looks: $looks, build: |parameters, _| Ok(Box::new(parameters.read::<$type>()?)) }
     };
 }
 
@@ -94,7 +140,7 @@ pub const KINDS: &[Kind] = &[
     Kind {
         name: "fractal",
         looks: "terrain by random mid-point displacement, in colour bands",
-        build: |path, seed| Ok(Box::new(parameters::<Fractal>(path)?.displaced(seed))),
+        build: |parameters, seed| Ok(Box::new(parameters.read::<Fractal>()?.displaced(seed))),
     },
     kind!("terrain", "terrain by noise, in colour bands with isolines", Terrain),
 ];
@@ -112,13 +158,13 @@ impl std::fmt::Debug for Material {
 }
 
 impl Material {
-    /// The material called `name` with the parameters of a TOML file (its defaults without one). With a `tile` it repeats
-    /// itself after those lengths along x and y, object units: its frequencies become whole numbers of cells a tile.
+    /// The material called `name` with `parameters`. With a `tile` it repeats itself after those lengths along x and y, object
+    /// units: its frequencies become whole numbers of cells a tile.
     ///
     /// # Errors
-    /// When there is none of that name (the nearest is named), when the file has an unknown key or a number that is not finite
-    /// or beyond 1e6, or when the tile is not a positive length.
-    pub fn new(name: &str, parameters: Option<&Path>, seed: u64, tile: Option<[f32; 2]>) -> Result<Self> {
+    /// When there is none of that name (the nearest is named), when the parameters have an unknown key or a number that is not
+    /// finite or beyond 1e6, or when the tile is not a positive length.
+    pub fn new(name: &str, parameters: Parameters<'_>, seed: u64, tile: Option<[f32; 2]>) -> Result<Self> {
         let kind = KINDS.iter().find(|kind| kind.name == name).ok_or_else(|| {
             let distance = |kind: &&Kind| strsim::damerau_levenshtein(kind.name, name);
             let nearest = KINDS.iter().min_by_key(distance).map_or("", |kind| kind.name);
@@ -129,11 +175,7 @@ impl Material {
         if let Some(tile) = tile.filter(|tile| !tile.iter().all(|length| (1e-3..=1e4).contains(length))) {
             bail!("a tile of {} x {} units, expected lengths from 0.001 to 10000", tile[0], tile[1]);
         }
-        if let Some(path) = parameters {
-            let table: toml::Table = read_toml(path)?;
-            check_numbers(&toml::Value::Table(table), "")
-                .map_err(|message| anyhow!("{}: {message}", path.display()))?;
-        }
+        parameters.check()?;
         Ok(Self { solid: (kind.build)(parameters, seed)?, space: Space::new(seed, tile) })
     }
 
@@ -141,6 +183,17 @@ impl Material {
     pub fn at(&self, p: [f32; 3]) -> Texel {
         let texel = self.solid.at(&self.space, p.map(|x| if x.is_finite() { x.clamp(-1e6, 1e6) } else { 0.0 }));
         Texel { colour: texel.colour.map(|c| c.clamp(0.0, 1.0)), height: texel.height.clamp(0.0, 1.0) }
+    }
+
+    /// The material for stages, within 1e-3 of [`Self::at`] but beside edges; none where stages do not have it.
+    pub fn for_stages(&self) -> Option<StageMaterial> {
+        let (kind, row) = self.solid.numbers()?;
+        let mut numbers = [0.0; MATERIAL_NUMBERS as usize];
+        numbers.iter_mut().zip(row).for_each(|(number, value)| *number = value);
+        let lattices = std::array::from_fn(
+            |i| if i == 0 { self.space.lattice() } else { self.space.another(i as u64).lattice() }.seed,
+        );
+        Some(StageMaterial { kind, seed: self.space.seed(), lattices, numbers })
     }
 }
 

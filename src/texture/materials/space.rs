@@ -25,6 +25,16 @@ impl Space {
         [self.tile[0], self.tile[1]]
     }
 
+    /// The seed of its dice.
+    pub(super) fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// The lattice of its noise.
+    pub(super) fn lattice(&self) -> HashLattice {
+        self.lattice
+    }
+
     /// A space with other noise and the same tile.
     pub fn another(&self, number: u64) -> Self {
         let seed = u64::from(mixed(self.seed ^ (number << 40)));

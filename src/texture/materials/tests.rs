@@ -6,8 +6,8 @@ use crate::texture::picture::{View, flat};
 #[test]
 fn every_material_has_contrast_and_follows_its_seed() {
     for kind in KINDS {
-        let material = Material::new(kind.name, None, 1, None).unwrap();
-        let other = Material::new(kind.name, None, 2, None).unwrap();
+        let material = Material::new(kind.name, Parameters::Defaults, 1, None).unwrap();
+        let other = Material::new(kind.name, Parameters::Defaults, 2, None).unwrap();
         let points = || (0..400).map(|i| [i as f32 * 0.037 - 7.0, (i % 20) as f32 * 0.113, 0.2]);
         let grey = |p| material.at(p).colour.iter().sum::<f32>() / 3.0;
         let low = points().map(grey).fold(f32::MAX, f32::min);
@@ -21,7 +21,7 @@ fn every_material_has_contrast_and_follows_its_seed() {
 fn texels_stay_in_range_at_any_point() {
     for kind in KINDS {
         for tile in [None, Some([2.0, 3.0])] {
-            let material = Material::new(kind.name, None, 1, tile).unwrap();
+            let material = Material::new(kind.name, Parameters::Defaults, 1, tile).unwrap();
             for p in [[0.0; 3], [-1e6, 1e6, 3.0], [f32::MAX, f32::MIN, 1e-30], [f32::NAN, f32::INFINITY, -0.0]] {
                 let texel = material.at(p);
                 let values = [texel.colour[0], texel.colour[1], texel.colour[2], texel.height];
@@ -36,7 +36,7 @@ fn texels_stay_in_range_at_any_point() {
 fn tiles_have_no_seam() {
     for kind in KINDS {
         let view = View { size: [160, 96], offset: [0.3, -0.7, 0.1], scale: 4.0 };
-        let material = Material::new(kind.name, None, 4, Some(view.extent())).unwrap();
+        let material = Material::new(kind.name, Parameters::Defaults, 4, Some(view.extent())).unwrap();
         let [width, height] = view.extent();
         // The same place one tile on: equal, but for points that rounding moves over an edge of a brick, a blade or a thread.
         let unequal = |material: &Material| {
@@ -52,7 +52,7 @@ fn tiles_have_no_seam() {
                 .count()
         };
         assert!(unequal(&material) <= 10, "{}: {} of 500 points", kind.name, unequal(&material));
-        let untiled = Material::new(kind.name, None, 4, None).unwrap();
+        let untiled = Material::new(kind.name, Parameters::Defaults, 4, None).unwrap();
         assert!(unequal(&untiled) > 60, "{}: {} of 500 points without a tile", kind.name, unequal(&untiled));
         let picture = flat(&material, &view);
         let column = |a: u32, b: u32| -> f64 {
@@ -70,7 +70,7 @@ fn parameters_come_from_a_file_and_wrong_ones_are_named() {
     let path = folder.path().join("m.toml");
     let message = |text: &str, name: &str| {
         std::fs::write(&path, text).unwrap();
-        format!("{:#}", Material::new(name, Some(&path), 0, None).unwrap_err())
+        format!("{:#}", Material::new(name, Parameters::File(&path), 0, None).unwrap_err())
     };
     let error = message("frequenzy = 3.0\n", "marble");
     assert!(error.contains("m.toml, line 1") && error.contains("nearest known key is `frequency`"), "{error}");
@@ -81,7 +81,12 @@ fn parameters_come_from_a_file_and_wrong_ones_are_named() {
     let error = message("", "marbel");
     assert!(error.contains("unknown material marbel, the nearest is marble"), "{error}");
     std::fs::write(&path, "vein = [1.0, 0.0, 0.0]\nstone = [1.0, 0.0, 0.0]\n").unwrap();
-    let red = Material::new("marble", Some(&path), 0, None).unwrap();
+    let red = Material::new("marble", Parameters::File(&path), 0, None).unwrap();
     assert_eq!(red.at([0.3, 0.4, 0.5]).colour, [1.0, 0.0, 0.0]);
-    assert!(Material::new("marble", None, 0, Some([0.0, 1.0])).unwrap_err().to_string().contains("tile of 0 x 1"));
+    assert!(
+        Material::new("marble", Parameters::Defaults, 0, Some([0.0, 1.0]))
+            .unwrap_err()
+            .to_string()
+            .contains("tile of 0 x 1")
+    );
 }

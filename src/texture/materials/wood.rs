@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use super::space::blend;
 use super::{Solid, Space, Texel};
+use crate::texture::stages::MATERIAL_WOOD;
 
 /// Parameters; the thesis's values by default.
 #[derive(Clone, Debug, Deserialize)]
@@ -73,5 +74,11 @@ impl Solid for Wood {
             colour: std::array::from_fn(|i| (colour[i] + self.light[i] * change).clamp(0.0, 1.0)),
             height: (1.0 - ring + change).clamp(0.0, 1.0),
         }
+    }
+
+    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
+        let Self { light, dark, frequency, noisiness, scale, grain_scale, grain_threshold, .. } = *self;
+        let grain = [grain_scale, grain_threshold, self.light_grains, self.dark_grains];
+        Some((MATERIAL_WOOD, [&light[..], &dark, &[frequency, noisiness], &scale, &grain].concat()))
     }
 }

@@ -5,7 +5,7 @@
 use super::generated::FARTHEST_BITS;
 use super::*;
 use crate::gpu::test_device::{device, device_under};
-use crate::gpu::{Device, DeviceSettings, Memory, Timing, Validation, by_name};
+use crate::gpu::{Device, DeviceSettings, Format, ImageUse, Memory, Timing, Validation, by_name};
 use crate::texture::noise::{
     FARTHEST, HashLattice, Lattice, Noise, Octaves, Perlin, Sum, TableLattice, Tables, Value, hard_coordinates,
 };
@@ -96,6 +96,47 @@ fn a_device_has_the_words_and_values_of_the_cpu() {
         unequal += agree::<3>(&device, &points, &request(3, four(Sum::Fbm), hash, [7.0, 3.5, 0.0, 0.0]));
     }
     println!("{unequal} of 1600000 values differ in a bit");
+    drop(device);
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+#[test]
+fn fragments_have_the_values_of_compute() {
+    let name = "fragments_have_the_values_of_compute";
+    let Some((device, log)) = device(name, DeviceSettings::default()) else { return };
+    let size = [250, 160];
+    let rows: Vec<Vec<f32>> = (0..4).map(|axis| hard_coordinates(40_000, 70 + axis)).collect();
+    let points: Vec<[f32; 4]> = (0..40_000).map(|i| [rows[0][i], rows[1][i], rows[2][i], rows[3][i]]).collect();
+    let tables = Tables::new(3);
+    let mut unequal = 0;
+    for (dimensions, kind, source) in [
+        (3, NoiseKind::Perlin, NoiseSource::Hash(HashLattice::new(9))),
+        (2, NoiseKind::Perlin, NoiseSource::Tables(&tables)),
+        (4, NoiseKind::Value, NoiseSource::Hash(HashLattice::new(9))),
+    ] {
+        let request =
+            NoiseRequest { dimensions, kind, octaves: Octaves::default(), source, tile: [0.0, 3.0, 0.0, 0.0] };
+        let (computed, _, _) = on_device(&device, &request, &points);
+        let stage = NoiseImageStage::new(&device, &request).unwrap();
+        let input = device.buffer::<[f32; 4]>("points", points.len(), Memory::Upload).unwrap();
+        input.write(0, &points).unwrap();
+        let picture = device.image("noise", Format::R32Float, size, ImageUse::Target).unwrap();
+        let output = device.buffer::<f32>("values", points.len(), Memory::Readback).unwrap();
+        let mut recorder = device.recorder(Timing::Off).unwrap();
+        stage.record(&mut recorder, &input, &picture).unwrap();
+        recorder.read_image("read", &picture, [0, 0, size[0], size[1]], (&output, 0)).unwrap();
+        recorder.finish().unwrap().run().unwrap();
+        let mut drawn = vec![0.0_f32; points.len()];
+        output.read(0, &mut drawn).unwrap();
+        for ((drawn, computed), p) in drawn.iter().zip(&computed).zip(&points) {
+            assert!((drawn - computed).abs() <= 1e-5, "{request:?} at {p:?}: {drawn} drawn, {computed} computed");
+            unequal += usize::from(drawn.to_bits() != computed.to_bits());
+        }
+        let small = device.image("bytes", Format::Rgba8, size, ImageUse::Target).unwrap();
+        let error = stage.record(&mut device.recorder(Timing::Off).unwrap(), &input, &small).unwrap_err();
+        assert!(error.to_string().contains("no float picture"), "{error}");
+    }
+    println!("{unequal} of 120000 values differ in a bit");
     drop(device);
     assert_eq!(log.messages(), Vec::<String>::new());
 }

@@ -1,0 +1,39 @@
+//! `--backend` of what draws pictures: the processor or a Vulkan device.
+
+use anyhow::Result;
+
+use crate::evaluate::vulkan::open_device;
+use crate::gpu::{Device, DeviceKind};
+
+/// What draws.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Draws {
+    /// The processor
+    Cpu,
+    /// The Vulkan device
+    Device,
+    /// A Vulkan device that is no processor itself, else the processor
+    Auto,
+}
+
+impl Draws {
+    /// The device that draws; none for the processor. Where `auto` takes the processor, one sentence says why.
+    ///
+    /// # Errors
+    /// When a device is asked for and none can be opened.
+    pub fn device(self) -> Result<Option<Device>> {
+        let opened = match self {
+            Self::Cpu => return Ok(None),
+            Self::Device => return open_device().map(Some),
+            Self::Auto => open_device(),
+        };
+        match opened {
+            Ok(device) if device.facts().kind != DeviceKind::Cpu => return Ok(Some(device)),
+            Ok(device) => {
+                eprintln!("on the processor: the Vulkan device {} is the processor itself", device.facts().name)
+            }
+            Err(error) => eprintln!("on the processor: {error:#}"),
+        }
+        Ok(None)
+    }
+}

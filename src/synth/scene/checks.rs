@@ -1,0 +1,234 @@
+//! What can be asked of a scene: every setting is held to its range before anything is drawn.
+
+use anyhow::{Context, Result, bail, ensure};
+
+use super::{ActorSettings, CameraSettings, MotionSettings, RigSettings, RoomSettings, Scene, SensorSettings};
+
+/// Gaits by name.
+pub(in crate::synth) const GAITS: [&str; 6] = ["circle", "straight", "diagonal", "run", "jump", "stand"];
+/// Parts of clothing by name.
+const GARMENTS: [&str; 5] = ["skin", "hair", "shirt", "trousers", "shoes"];
+const RIGS: [&str; 2] = ["corners", "ring"];
+const LENSES: [&str; 3] = ["brown-conrady", "tsai", "pinhole"];
+const PICTURES: [&str; 3] = ["png", "jpeg", "video"];
+const UNITS: [(&str, f64); 4] = [("mm", 1.0), ("cm", 10.0), ("inch", 25.4), ("m", 1000.0)];
+
+/// Holds a name to those that are known.
+pub(super) fn one_of(what: &str, found: &str, known: &[&str]) -> Result<()> {
+    if known.contains(&found) {
+        return Ok(());
+    }
+    let found = crate::files::shortened(found);
+    let nearest =
+        known.iter().min_by_key(|name| strsim::damerau_levenshtein(&found, name)).copied().unwrap_or_default();
+    bail!("{what} is `{found}`, the nearest known one is `{nearest}` (known: {})", known.join(", "))
+}
+
+/// Holds a number to its range; NaN is in none.
+fn within(what: &str, value: f64, low: f64, high: f64, unit: &str) -> Result<()> {
+    ensure!((low..=high).contains(&value), "{what} is {value}, expected {low} to {high} {unit}");
+    Ok(())
+}
+
+impl Scene {
+    /// Refuses what cannot be drawn.
+    ///
+    /// # Errors
+    /// One sentence that names the setting, its value and what was expected.
+    pub fn check(&self) -> Result<()> {
+        ensure!(
+            !self.name.is_empty() && !self.name.chars().any(char::is_control),
+            "name is {:?}, expected at least one letter and no control characters",
+            self.name
+        );
+        ensure!((1..=1_000_000).contains(&self.frames), "frames is {}, expected 1 to 1000000", self.frames);
+        within("fps", self.fps, 1.0, 1000.0, "frames a second")?;
+        ensure!([15, 39].contains(&self.markers), "markers is {}, expected 15 or 39", self.markers);
+        self.room.check().context("[room]")?;
+        within("[light] swing", self.light.swing, 0.0, 0.95, "of the light")?;
+        within("[light] period", self.light.period, 0.01, 1e6, "s")?;
+        if let Some([x, y, z]) = self.light.position {
+            ensure!(
+                [x, y, z].iter().all(|value| value.abs() <= 1e9) && z > 2000.0,
+                "[light] position is [{x}, {y}, {z}], expected a place at least 2000 mm above the floor"
+            );
+        }
+        self.rig.check().context("[rig]")?;
+        self.sensor.check(self.fps).context("[sensor]")?;
+        one_of("[output] pictures", &self.output.pictures, &PICTURES)?;
+        ensure!(
+            (1..=100).contains(&self.output.quality),
+            "[output] quality is {}, expected 1 to 100",
+            self.output.quality
+        );
+        ensure!(self.output.crf <= 51, "[output] crf is {}, expected 0 to 51", self.output.crf);
+        ensure!(!self.actor.is_empty(), "there is no [[actor]], expected one to track");
+        ensure!(self.actor.len() <= 8, "there are {} [[actor]], expected at most 8", self.actor.len());
+        for (index, actor) in self.actor.iter().enumerate() {
+            actor.check().with_context(|| format!("actor {}", index + 1))?;
+        }
+        for camera in &self.camera {
+            camera.check(self.frames).with_context(|| format!("camera `{}`", camera.name))?;
+        }
+        Ok(())
+    }
+}
+
+impl RoomSettings {
+    fn check(&self) -> Result<()> {
+        for (side, extent) in ["size along x", "size along y"].into_iter().zip(self.size) {
+            within(side, extent, 1500.0, 60_000.0, "mm")?;
+        }
+        within("height", self.height, 1500.0, 20_000.0, "mm")?;
+        within("rug", self.rug, 0.0, 20_000.0, "mm")
+    }
+}
+
+impl RigSettings {
+    fn check(&self) -> Result<()> {
+        one_of("preset", &self.preset, &RIGS)?;
+        one_of("lens", &self.lens, &LENSES)?;
+        ensure!((1..=64).contains(&self.count), "count is {}, expected 1 to 64 cameras", self.count);
+        ensure!(
+            self.preset == "ring" || self.count == 4,
+            "count is {} beside the preset `{}`, expected the preset `ring` for another number than 4",
+            self.count,
+            self.preset
+        );
+        within("zoom", self.zoom, 0.3, 5.0, "")?;
+        ensure!(
+            self.size.iter().all(|side| (32..=8192).contains(side)),
+            "size is {} x {}, expected 32 to 8192 pixels a side",
+            self.size[0],
+            self.size[1]
+        );
+        Ok(())
+    }
+}
+
+impl SensorSettings {
+    fn check(&self, fps: f64) -> Result<()> {
+        within("noise", self.noise, 0.0, 100.0, "grey levels")?;
+        within("gain", self.gain, 0.01, 100.0, "")?;
+        within("exposure", self.exposure, 0.0, 1000.0 / fps, "ms, the time from frame to frame")?;
+        ensure!((1..=64).contains(&self.sub_frames), "sub_frames is {}, expected 1 to 64", self.sub_frames);
+        Ok(())
+    }
+}
+
+impl CameraSettings {
+    fn check(&self, frames: usize) -> Result<()> {
+        within("noise", self.noise.unwrap_or(0.0), 0.0, 100.0, "grey levels")?;
+        within("gain", self.gain.unwrap_or(1.0), 0.01, 100.0, "")?;
+        within("exposure", self.exposure.unwrap_or(0.0), 0.0, 1000.0, "ms")?;
+        within("drop_rate", self.drop_rate.unwrap_or(0.0), 0.0, 0.9, "of the frames")?;
+        within("shift", self.shift.unwrap_or(0.0), -100.0, 100.0, "frames")?;
+        if let Some(frame) = self.dropped.iter().find(|frame| **frame == 0 || **frame >= frames) {
+            bail!("dropped names frame {frame}, expected 1 to {}: the first is always there", frames - 1);
+        }
+        Ok(())
+    }
+}
+
+impl ActorSettings {
+    fn check(&self) -> Result<()> {
+        within("height", self.height, 500.0, 2500.0, "mm")?;
+        for name in self.clothes.keys() {
+            one_of("a part of clothes", name, &GARMENTS)?;
+        }
+        self.motion.check().context("motion")
+    }
+}
+
+impl MotionSettings {
+    fn check(&self) -> Result<()> {
+        within("radius", self.radius, 300.0, 20_000.0, "mm")?;
+        within("stride_time", self.stride_time, 0.4, 10.0, "seconds")?;
+        within("jump_height", self.jump_height, 10.0, 1000.0, "mm")?;
+        within("start", self.start, 0.0, 1e5, "seconds")?;
+        within("heading", self.heading.unwrap_or(0.0), -3600.0, 3600.0, "degrees")?;
+        for value in self.at {
+            within("at", value, -30_000.0, 30_000.0, "mm")?;
+        }
+        match (&self.gait, &self.file) {
+            (Some(gait), None) => one_of("gait", gait, &GAITS)?,
+            (Some(_), Some(_)) => bail!("it has both `gait` and `file`, expected one of them"),
+            _ => {}
+        }
+        if self.file.is_none() {
+            let of_files = [
+                ("skeleton", self.skeleton.is_some()),
+                ("rate", self.rate.is_some()),
+                ("unit", self.unit.is_some()),
+                ("up", self.up.is_some()),
+                ("until", self.until.is_some()),
+                ("repeats", self.repeats),
+                ("joints", !self.joints.is_empty()),
+            ];
+            if let Some((key, _)) = of_files.into_iter().find(|(_, is_there)| *is_there) {
+                bail!("`{key}` stands without `file`, expected it beside a motion file");
+            }
+        }
+        if let Some(unit) = &self.unit {
+            one_of("unit", unit, &UNITS.map(|(name, _)| name))?;
+        }
+        if let Some(up) = &self.up {
+            one_of("up", up, &["y", "z"])?;
+        }
+        Ok(())
+    }
+
+    /// Length of the file's unit, mm, where it is named.
+    pub(in crate::synth) fn unit_mm(&self) -> Option<f64> {
+        let unit = self.unit.as_deref()?;
+        UNITS.iter().find(|(name, _)| *name == unit).map(|(_, length)| *length)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::FinishSettings;
+    use super::*;
+
+    #[test]
+    fn impossible_settings_are_named() {
+        Scene::default().check().unwrap();
+        let wrong = |change: fn(&mut Scene)| {
+            let mut scene = Scene::default();
+            change(&mut scene);
+            format!("{:#}", scene.check().unwrap_err())
+        };
+        for (change, expected) in [
+            ((|s| s.actor[0].height = f64::NAN) as fn(&mut Scene), "actor 1: height is NaN, expected 500"),
+            (|s| s.fps = 0.0, "fps is 0"),
+            (|s| s.actor[0].motion.radius = f64::INFINITY, "motion: radius is inf"),
+            (|s| s.frames = 0, "frames is 0"),
+            (|s| s.rig.size = [480, 1 << 30], "[rig]: size is 480 x 1073741824"),
+            (|s| s.name = "a\nb".into(), "no control characters"),
+            (|s| s.markers = 40, "markers is 40, expected 15 or 39"),
+            (|s| s.actor.clear(), "there is no [[actor]]"),
+            (|s| s.rig.count = 5, "expected the preset `ring`"),
+            (|s| s.rig.lens = "fisheye".into(), "[rig]: lens is `fisheye`"),
+            (|s| s.sensor.exposure = 50.0, "[sensor]: exposure is 50, expected 0 to 40 ms"),
+            (|s| s.output.pictures = "jpg".into(), "the nearest known one is `jpeg`"),
+            (|s| s.output.crf = 60, "crf is 60"),
+            (|s| s.light.position = Some([0.0, 0.0, -1.0]), "[light] position"),
+            (|s| s.actor[0].motion.gait = Some("strait".into()), "the nearest known one is `straight`"),
+            (|s| s.actor[0].motion.unit = Some("cm".into()), "`unit` stands without `file`"),
+            (
+                |s| drop(s.actor[0].clothes.insert("hat".into(), FinishSettings::default())),
+                "a part of clothes is `hat`",
+            ),
+            (|s| s.room.size[1] = 100.0, "[room]: size along y is 100"),
+            (
+                |s| {
+                    s.camera.push(CameraSettings { name: "cam1".into(), dropped: vec![0], ..CameraSettings::default() })
+                },
+                "camera `cam1`: dropped names frame 0",
+            ),
+        ] {
+            let message = wrong(change);
+            assert!(message.contains(expected), "{message}");
+        }
+    }
+}
