@@ -92,7 +92,7 @@ fn score_refuses_in_one_sentence() {
     refused(at, &["score", "empty", "--truth", "joints.csv"], "neither markers.c3d nor joints.csv");
     refused(at, &["score", "out", "--truth", "markers.trc", "--points", "HIP"], "no point `HIP` to compare");
     let (status, _, error) = pantin(at, &["score", "out", "--truth", "joints.csv", "--map", "LKnee"]);
-    assert!(status == 2 && error.contains("expected TRUTH=OURS"), "{error}");
+    assert!(status == 2 && error.contains("\"LKnee\" is no pair, expected two names with `=`"), "{error}");
 }
 
 const BVH: &str = "HIERARCHY\nROOT hip\n{\n OFFSET 0 0 0\n CHANNELS 3 Xposition Yposition Zposition\n End Site\n {\n  OFFSET 0 10 0\n }\n}\n\

@@ -1,7 +1,7 @@
 //! A body written as `body.toml`, so that fitted bodies can be kept and edited.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, absolute};
 
 use anyhow::Result;
 use glam::DVec3;
@@ -20,12 +20,19 @@ impl Body {
         text
     }
 
-    /// Writes `body.toml`, atomically.
+    /// Writes `body.toml`, atomically. A mesh's file in the same folder is named from there, so that both can be moved.
     ///
     /// # Errors
     /// When the file exists and may not be replaced, or cannot be written.
     pub fn save(&self, path: &Path, overwrite: Overwrite) -> Result<()> {
-        write_atomically(path, overwrite, |writer| Ok(writer.write_all(self.to_toml().as_bytes())?))
+        let mut body = self.clone();
+        if let Some(MeshSource::Skinned { file, .. }) = &mut body.mesh
+            && let Some(folder) = absolute(path).ok().as_deref().and_then(Path::parent)
+            && let Ok(below) = file.strip_prefix(folder)
+        {
+            *file = below.to_path_buf();
+        }
+        write_atomically(path, overwrite, |writer| Ok(writer.write_all(body.to_toml().as_bytes())?))
     }
 
     fn write_toml(&self, text: &mut String) -> std::fmt::Result {

@@ -1,21 +1,25 @@
 //! `pantin convert`.
 
-use std::path::PathBuf;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, ensure};
 
+use super::name_pair;
+use crate::body::{ADULT_HEIGHT, Body};
 use crate::files::{Overwrite, write_atomically};
 use crate::motion::{PointFormat, read_bvh, read_points, write_bvh, write_points};
 
 /// Converts a recording between C3D, TRC, BVH and CSV, each known by its extension. Lengths become millimetres (BVH has
 /// no unit: its numbers are taken as millimetres, see --scale). A BVH becomes the points of its joints and free ends;
-/// points do not become a BVH, which needs the joint angles of a skeleton.
+/// points do not become a BVH, which needs the joint angles of a skeleton. A skinned person (.glb, .gltf) becomes a
+/// body.toml: the default body's bones with the person's lengths, parts as thick as the skin, and the file as its mesh.
 #[derive(clap::Args, Debug)]
 pub struct ConvertArgs {
-    /// The file to read: .c3d, .trc, .csv (frame,time,<name>.x,…) or .bvh.
+    /// The file to read: .c3d, .trc, .csv (frame,time,<name>.x,…) or .bvh; .glb or .gltf for a body.
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// The file to write: .c3d, .trc, .csv, or .bvh from a .bvh.
+    /// The file to write: .c3d, .trc, .csv, or .bvh from a .bvh; .toml from a .glb or .gltf.
     #[arg(value_name = "OUT")]
     output: PathBuf,
     /// Multiply every length, for files without a unit (10 for a BVH in centimetres).
@@ -27,6 +31,12 @@ pub struct ConvertArgs {
     /// The input is y-up (BVH, OpenSim): turn it z-up, (x, y, z) becoming (z, x, y).
     #[arg(long)]
     y_up: bool,
+    /// The height of a skinned person in mm, for files that are not in metres.
+    #[arg(long, value_name = "MM")]
+    height: Option<f64>,
+    /// Name the joint of a skinned person that a bone (or left_wrist, head_top, …) stands for, where its name does not tell.
+    #[arg(long, value_name = "BONE=JOINT", value_delimiter = ',', num_args = 1.., value_parser = name_pair)]
+    bone: Vec<(String, String)>,
     /// Replace OUT when it is there.
     #[arg(long)]
     force: bool,
@@ -43,6 +53,10 @@ pub fn run(args: &ConvertArgs) -> Result<()> {
         ensure!(positive(rate), "--rate is {rate}, expected a positive number of frames a second");
     }
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    if is_skinned_file(&args.input) {
+        return import(args, overwrite);
+    }
+    ensure!(args.height.is_none() && args.bone.is_empty(), "--height and --bone are for .glb and .gltf files alone");
     let formats = (PointFormat::of(&args.input)?, PointFormat::of(&args.output)?);
     let (points, frames, what) = if formats == (PointFormat::Bvh, PointFormat::Bvh) {
         ensure!(!args.y_up, "--y-up turns points, but a BVH stays a skeleton here: write .c3d, .trc or .csv instead");
@@ -60,5 +74,26 @@ pub fn run(args: &ConvertArgs) -> Result<()> {
         (points.names.len(), points.frames.len(), "points")
     };
     println!("{}: {points} {what}, {frames} frames", args.output.display());
+    Ok(())
+}
+
+fn is_skinned_file(path: &Path) -> bool {
+    path.extension().is_some_and(|end| end.eq_ignore_ascii_case("glb") || end.eq_ignore_ascii_case("gltf"))
+}
+
+fn import(args: &ConvertArgs, overwrite: Overwrite) -> Result<()> {
+    ensure!(
+        args.scale == 1.0 && args.rate.is_none() && !args.y_up,
+        "--scale, --rate and --y-up are for recordings, expected --height to give the size of a skinned person"
+    );
+    ensure!(
+        args.output.extension().is_some_and(|end| end == "toml"),
+        "{} is no body file, expected a name that ends in .toml: a skinned person becomes a body",
+        args.output.display()
+    );
+    let names: BTreeMap<String, String> = args.bone.iter().cloned().collect();
+    let body = Body::from_gltf(&args.input, &Body::adult(ADULT_HEIGHT)?, args.height, &names)?;
+    body.save(&args.output, overwrite)?;
+    println!("{}: {} bones, {} parts", args.output.display(), body.bones.len(), body.parts.len());
     Ok(())
 }

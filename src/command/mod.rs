@@ -101,3 +101,11 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Track(args) => track::run(&args),
     }
 }
+
+/// `A=B`, a flag that gives one thing another's name.
+fn name_pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((left, right)) if !left.is_empty() && !right.is_empty() => Ok((left.to_string(), right.to_string())),
+        _ => Err(format!("{text:?} is no pair, expected two names with `=` between them")),
+    }
+}

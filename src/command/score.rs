@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use serde_json::json;
 
+use super::name_pair;
 use crate::files::{Overwrite, write_atomically};
 use crate::motion::{Matching, PointPairs, TrajectoryError, read_points, write_frame_errors};
 use crate::track::tracked_points;
@@ -47,13 +48,6 @@ pub struct ScoreArgs {
     /// Replace the --per-frame file when it is there.
     #[arg(long)]
     force: bool,
-}
-
-fn name_pair(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((truth, ours)) if !truth.is_empty() && !ours.is_empty() => Ok((truth.to_string(), ours.to_string())),
-        _ => Err("expected TRUTH=OURS, the truth's name and the track's".to_string()),
-    }
 }
 
 /// Runs the command.

@@ -36,7 +36,13 @@ impl Mesh {
     }
 }
 
-fn bind(mut file: SkinnedFile, body: &Body, skinning: Skinning, asked: &BTreeMap<String, String>) -> Result<Mesh> {
+/// [`Mesh::read`] of a file already read.
+pub(super) fn bind(
+    mut file: SkinnedFile,
+    body: &Body,
+    skinning: Skinning,
+    asked: &BTreeMap<String, String>,
+) -> Result<Mesh> {
     let mut map = JointMap::of_limbs(body, &file.joints, asked.iter())?;
     let origins = rest_origins(body);
     lay_over(&mut file, body, &map, &origins)?;
@@ -61,7 +67,7 @@ fn bind(mut file: SkinnedFile, body: &Body, skinning: Skinning, asked: &BTreeMap
 
 /// Brings joints and vertices from the file's world (metres, y up) over the body at rest (mm, x forward, z up), root at its
 /// offset.
-fn lay_over(file: &mut SkinnedFile, body: &Body, map: &JointMap, origins: &[DVec3]) -> Result<()> {
+pub(super) fn lay_over(file: &mut SkinnedFile, body: &Body, map: &JointMap, origins: &[DVec3]) -> Result<()> {
     let upright = |at: DVec3| DVec3::new(at.z, at.x, at.y) * 1000.0;
     let pairs: Vec<(usize, usize)> =
         map.of_bone.iter().enumerate().filter_map(|(bone, joint)| joint.map(|joint| (bone, joint))).collect();
@@ -110,7 +116,7 @@ fn lay_over(file: &mut SkinnedFile, body: &Body, map: &JointMap, origins: &[DVec
 }
 
 /// How tall the parts stand at rest, mm.
-fn height_at_rest(body: &Body, origins: &[DVec3]) -> f64 {
+pub(super) fn height_at_rest(body: &Body, origins: &[DVec3]) -> f64 {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for part in &body.parts {
         let axis = (part.b - part.a).normalize();
@@ -126,12 +132,12 @@ fn height_at_rest(body: &Body, origins: &[DVec3]) -> f64 {
 }
 
 /// What follows a bone: a bone or a free end with a joint, by its offset at rest and its joint.
-struct Follower {
-    offset: DVec3,
-    joint: usize,
+pub(super) struct Follower {
+    pub(super) offset: DVec3,
+    pub(super) joint: usize,
 }
 
-fn followers(body: &Body, map: &JointMap, origins: &[DVec3], bone: usize) -> Vec<Follower> {
+pub(super) fn followers(body: &Body, map: &JointMap, origins: &[DVec3], bone: usize) -> Vec<Follower> {
     let nearest_known_above = |index: usize| {
         let above = std::iter::successors(body.bones[index].parent, |&at| body.bones[at].parent);
         above.into_iter().find(|&at| map.of_bone[at].is_some())
@@ -148,6 +154,12 @@ fn followers(body: &Body, map: &JointMap, origins: &[DVec3], bone: usize) -> Vec
     bones.chain(ends).collect()
 }
 
+/// Whether a bone of that name is of the trunk, on either side.
+pub(super) fn is_of_trunk(name: &str) -> bool {
+    let plain = name.strip_prefix("left_").or_else(|| name.strip_prefix("right_")).unwrap_or(name);
+    TRUNK.contains(&plain)
+}
+
 /// B_i^-1 of every bone.
 fn inverse_bind(body: &Body, map: &JointMap, places: &[DVec3], origins: &[DVec3]) -> Result<Vec<DAffine3>> {
     let mut inverse: Vec<DAffine3> = origins.iter().map(|origin| DAffine3::from_translation(-*origin)).collect();
@@ -157,8 +169,7 @@ fn inverse_bind(body: &Body, map: &JointMap, places: &[DVec3], origins: &[DVec3]
         let above = body.bones[bone].parent.map_or((DQuat::IDENTITY, false), |parent| turned[parent]);
         let following = followers(body, map, origins, bone);
         let name = body.bones[bone].name.as_str();
-        let plain = name.strip_prefix("left_").or_else(|| name.strip_prefix("right_")).unwrap_or(name);
-        let begins_limb = following.len() == 1 && body.bones[bone].parent.is_some() && !TRUNK.contains(&plain);
+        let begins_limb = following.len() == 1 && body.bones[bone].parent.is_some() && !is_of_trunk(name);
         turned[bone] = (above.0, above.1 || begins_limb);
         let Some(joint) = map.of_bone[bone].filter(|_| turned[bone].1) else { continue };
         let mut stretch = DMat3::IDENTITY;

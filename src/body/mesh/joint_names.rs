@@ -76,7 +76,7 @@ impl JointMap {
             let known: Vec<&str> = joints.iter().map(|joint| joint.name.as_str()).collect();
             let index = known.iter().position(|known| known == joint);
             let index = index.ok_or_else(|| {
-                anyhow!("[mesh.bones] gives `{name}` the joint `{joint}`, which is none, {}", expected(joint, &known))
+                anyhow!("`{name}` is given the joint `{joint}`, which is none, {}", expected(joint, &known))
             })?;
             if let Some(place) = names.iter().position(|known| known == name) {
                 found[place] = Some(index);
@@ -135,7 +135,7 @@ impl JointMap {
         if !lost.is_empty() {
             let known = joints.iter().take(40).map(|joint| joint.name.as_str()).collect::<Vec<_>>().join(", ");
             bail!(
-                "no joint of it is known to be {}, expected [mesh.bones] to name it (joints: {known})",
+                "no joint of it is known to be {}, expected [mesh.bones] or --bone to name it (joints: {known})",
                 lost.join(", ")
             );
         }

@@ -5,6 +5,7 @@ mod adjacency;
 mod binding;
 mod frusta;
 mod gltf_file;
+mod import;
 mod joint_names;
 mod source;
 
