@@ -71,11 +71,16 @@ impl Compute {
         let model = DeviceModel::new(device, &Projector::new(body, cameras), labels)?;
         let mut recorder = device.recorder(Timing::Off)?;
         model.record_upload(&mut recorder)?;
+        let (raster, others) = rayon::join(
+            || RasterStage::new(device),
+            || anyhow::Ok((PoseStage::new(device)?, ProjectStage::new(device)?, ObjectiveStage::new(device)?)),
+        );
+        let (pose, project, objective) = others?;
         Ok(Self {
-            pose: PoseStage::new(device)?,
-            project: ProjectStage::new(device)?,
-            raster: RasterStage::new(device)?,
-            objective: ObjectiveStage::new(device)?,
+            pose,
+            project,
+            raster: raster?,
+            objective,
             room: Room::new(&model, 1)?,
             segments: None,
             runs: Runs::new(recorder.finish()?),

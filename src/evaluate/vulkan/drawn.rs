@@ -29,11 +29,12 @@ pub(super) struct DrawnMesh {
 impl Drawn {
     /// The flat model of a body of `parts` parts.
     pub(super) fn flat(device: &Device, parts: u32, packing: Packing, coverage: Coverage) -> Result<Self> {
-        Ok(Self::Flat {
-            project: ProjectStage::new(device)?,
-            draw: DrawStage::new(device, parts, packing, coverage)?,
-            raster: RasterStage::new(device)?,
-        })
+        let (raster, others) = rayon::join(
+            || RasterStage::new(device),
+            || anyhow::Ok((ProjectStage::new(device)?, DrawStage::new(device, parts, packing, coverage)?)),
+        );
+        let (project, draw) = others?;
+        Ok(Self::Flat { project, draw, raster: raster? })
     }
 
     /// The mesh of a projector that `model` was made of.
