@@ -312,3 +312,40 @@ fn a_real_person_fits_the_body() {
         );
     }
 }
+
+#[test]
+fn damaged_files_give_a_body_that_saves_or_a_sentence() {
+    let template = parse_body(POST, "post.toml").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("tiny.glb");
+    let whole = Tiny::new().glb();
+    std::fs::write(&path, &whole).unwrap();
+    let import = || Body::from_gltf(&path, &template, None, &BTreeMap::new());
+    let body = import().unwrap();
+    // The thigh of 400 mm in the file, the calf of 600, both 100 mm broad: seen from all sides a square is as broad as a circle of
+    // its perimeter.
+    assert!((body.bones[2].offset.z + 400.0).abs() < 0.2, "{}", body.bones[2].offset);
+    let mut random = 5_u64;
+    let mut next = |below: usize| {
+        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (random >> 33) as usize % below
+    };
+    let mut refused = 0;
+    for _ in 0..600 {
+        let mut bytes = whole.clone();
+        for _ in 0..=next(3) {
+            let at = 12 + next(bytes.len() - 12);
+            bytes[at] = next(256) as u8;
+        }
+        std::fs::write(&path, bytes).unwrap();
+        match import() {
+            Ok(body) => assert_eq!(parse_body(&body.to_toml(), "tiny.toml").unwrap().bones, body.bones),
+            Err(error) => {
+                refused += 1;
+                let error = format!("{error:#}");
+                assert!(error.contains("tiny.glb") && !error.contains('\n'), "{error}");
+            }
+        }
+    }
+    assert!((100..600).contains(&refused), "{refused}");
+}

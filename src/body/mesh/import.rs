@@ -16,7 +16,7 @@ use super::gltf_file::{self, SkinnedFile};
 use super::joint_names::JointMap;
 use super::{Mesh, MeshSource, Skinning};
 use crate::body::loader::expected;
-use crate::body::{Body, Part};
+use crate::body::{Body, Part, parse_body};
 use crate::files::shortened;
 
 /// No person is smaller or taller, mm.
@@ -49,7 +49,7 @@ impl Body {
         }
         let file = absolute(path).with_context(|| path.display().to_string())?;
         body.mesh = Some(MeshSource::Skinned { file, skinning: Skinning::default(), joints: joints.clone() });
-        Ok(body.rounded())
+        Ok(body)
     }
 }
 
@@ -79,7 +79,9 @@ fn imported(
     let mesh = bind(file.clone(), &body, Skinning::default(), joints)?;
     fit_parts(&mut body, &mesh)?;
     stand_as_tall(&mut body, height);
-    Ok(body)
+    // A file may hold anything: what is made of it has to load again.
+    parse_body(&body.rounded().to_toml(), "the body made from it").context("its skin is no person's")?;
+    Ok(body.rounded())
 }
 
 /// The body with its joints where the file has them.
