@@ -1,6 +1,8 @@
 //! The stages of `pantin::features`, ids as their files are named: one view of 640 x 480 pixels each; and the whole extractor
-//! with four such views, with every edge operator and metric, and with one view of 1920 x 1080.
+//! with four such views, with every edge operator and metric, and with one view of 1920 x 1080; and on a Vulkan device, where there is
+//! one.
 #![allow(missing_docs, reason = "criterion_group! makes an undocumented function")]
+#![allow(clippy::print_stdout, reason = "passes on a device are no criterion measurement")]
 
 use std::hint::black_box;
 
@@ -14,6 +16,7 @@ use pantin::features::plate::Plate;
 use pantin::features::{
     BitImage, DistanceMap, EdgeSettings, Extractor, FeatureSettings, Metric, Operator, Shape, ViewFeatures, ViewSource,
 };
+use pantin::gpu::{Device, DeviceSettings, Instance, Validation, by_name};
 
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 480;
@@ -144,5 +147,39 @@ fn whole_frames(criterion: &mut Criterion) {
     frames(criterion, "one view of 1920 x 1080, mixture", settings(), false, 1, large);
 }
 
-criterion_group!(features, stages, whole_frames);
+/// Frames on the first Vulkan device beside the same on the processor, and where the device's time goes: the median of each pass by
+/// its own timestamps, printed.
+fn device_frames(criterion: &mut Criterion) {
+    let opened =
+        Instance::open(Validation::Off).and_then(|instance| Device::open(&instance, DeviceSettings::default()));
+    let Ok(device) = opened else { return println!("no device: frames on a device are not measured") };
+    for (id, operator, plate) in [
+        ("device, four views, plate", Operator::Sobel, true),
+        ("device, four views, mixture", Operator::Sobel, false),
+        ("device, four views, plate, canny", Operator::Canny, true),
+    ] {
+        let mut settings = FeatureSettings::default();
+        settings.edges.operator = operator;
+        let (room, picture) = (room(WIDTH, HEIGHT), picture(WIDTH, HEIGHT));
+        let sources = vec![ViewSource { width: WIDTH, height: HEIGHT, plate: plate.then(|| room.clone()) }; 4];
+        let Ok(mut extractor) = Extractor::on_device(settings, sources, &device) else { unreachable!("it fits") };
+        let (empty, seen, masks) = (vec![room; 4], vec![picture; 4], vec![None; 4]);
+        let mut features: Vec<ViewFeatures> = Vec::new();
+        assert!(extractor.prime(&empty).is_ok());
+        criterion.bench_function(id, |b| b.iter(|| extractor.extract_into(black_box(&seen), &masks, &mut features)));
+        extractor.measure_passes();
+        let mut rounds: Vec<Vec<(String, f64, usize)>> = Vec::new();
+        for _ in 0..9 {
+            assert!(extractor.extract_into(&seen, &masks, &mut features).is_ok());
+            rounds.extend(extractor.passes().map(|passes| by_name(&passes)));
+        }
+        for (place, (name, ..)) in rounds[0].iter().enumerate() {
+            let mut times: Vec<f64> = rounds.iter().map(|round| round[place].1).collect();
+            times.sort_by(f64::total_cmp);
+            println!("{id}: {name} {:.3} ms", times[times.len() / 2]);
+        }
+    }
+}
+
+criterion_group!(features, stages, whole_frames, device_frames);
 criterion_main!(features);

@@ -6,6 +6,30 @@
 // Pixels of a row that a workgroup works on; two words of a bit picture.
 const uint ROW_GROUP = 64u;
 
+// Ratios of a picture's brightness to its background's are counted in steps of one in so many, over every so many rows and columns.
+const uint RATIO_STEPS = 128u;
+const uint RATIO_GRID = 4u;
+// Ratios of at least two and a half count as none.
+const uint RATIO_COUNTS = 320u;
+// Gains outside of these are no mild change of the lighting but another scene, and are not believed.
+const uint RATIO_LEAST = 64u;
+const uint RATIO_MOST = 256u;
+
+// The sum of the channels below which a pixel is so dark that it says nothing when the plate is as dark.
+const uint DARK = 192u;
+
+// How a component of the mixture follows a pixel.
+const uint ADAPTATION_WEIGHT = 0u;
+const uint ADAPTATION_DENSITY = 1u;
+// Values of a component: weight, mean red, green, blue, variance.
+const uint MIXTURE_FIELDS = 5u;
+
+// Which components of a bit picture are kept.
+const uint KEEP_LARGEST = 0u;
+const uint KEEP_TOUCHED = 1u;
+// The holes, which are the components of the clear pixels.
+const uint KEEP_HOLES = 2u;
+
 // What finds the edges.
 const uint EDGES_SOBEL = 0u;
 const uint EDGES_PREWITT = 1u;

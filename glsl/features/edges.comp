@@ -3,12 +3,10 @@
 
 // Edges among the pixels near the silhouette (SPEC A5.2): gradients of at least the threshold, or zero crossings.
 
-#include "features/constants.glsl"
-#include "features/picture.glsl"
+#include "features/gradient.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(std430, set = 0, binding = 0) readonly buffer Smoothed { uint smoothed[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Near { uint near[]; };
 layout(std430, set = 0, binding = 2) writeonly buffer Edges { uint edges[]; };
 
@@ -17,24 +15,8 @@ layout(constant_id = 1) const uint MAGNITUDE = 0u;
 
 shared uint words[2];
 
-int at(int x, int y) {
-    uint column = uint(clamp(x, 0, int(picture.width) - 1));
-    uint row = uint(clamp(y, 0, int(picture.height) - 1));
-    return int(smoothed[row * picture.width + column]);
-}
-
-// The middle weight is 2 for Sobel and 1 for Prewitt.
-ivec2 separable(int x, int y, int middle) {
-    int gx = at(x + 1, y - 1) - at(x - 1, y - 1) + middle * (at(x + 1, y) - at(x - 1, y)) + at(x + 1, y + 1) - at(x - 1, y + 1);
-    int gy = at(x - 1, y + 1) - at(x - 1, y - 1) + middle * (at(x, y + 1) - at(x, y - 1)) + at(x + 1, y + 1) - at(x + 1, y - 1);
-    return ivec2(gx, gy);
-}
-
 bool is_strong(ivec2 g, uint magnitude) {
-    int threshold = picture.amount;
-    if (magnitude == MAGNITUDE_EXACT) return g.x * g.x + g.y * g.y >= threshold * threshold;
-    if (magnitude == MAGNITUDE_SUM) return abs(g.x) + abs(g.y) >= threshold;
-    return max(abs(g.x), abs(g.y)) >= threshold;
+    return order(g, magnitude) >= order_of(picture.amount, magnitude);
 }
 
 int response(int x, int y, uint mask) {

@@ -5,6 +5,7 @@
 
 #include "features/constants.glsl"
 #include "features/picture.glsl"
+#include "features/place.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -16,8 +17,7 @@ layout(std430, set = 0, binding = 3) writeonly buffer Packed { uint observation[
 
 void main() {
     uint pixels = picture.width * picture.height;
-    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    uint place = group * ROW_GROUP + gl_LocalInvocationID.x;
+    uint place = flat_place();
     if (place * 4u >= pixels) return;
     uint word = 0u;
     for (uint i = 0u; i < 4u; i++) {

@@ -8,8 +8,8 @@ layout(push_constant) uniform Picture {
     uint height; // pixels
     uint stride; // 32-bit words of a row of a bit picture
     uint limit;  // the distance from which on all pixels are alike
-    int amount;  // of the edges: the threshold; of a dilation: the radius
-    uint square; // of a dilation: whether the element is a square, else a disc
+    int amount;  // of the edges: the threshold
+    int low;     // of Canny's edges: the lower threshold
 } picture;
 
 #endif

@@ -29,7 +29,7 @@ pub struct FeaturesArgs {
     /// The folder to write into
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// What makes the features: the processor, or from the silhouettes on a Vulkan device, to the same bits
+    /// What makes the features: the processor, or a Vulkan device, to the same bits
     #[arg(long, value_enum, default_value_t = FeatureBackend::Cpu)]
     backend: FeatureBackend,
     /// Write into a folder that is not empty, replacing its files
@@ -67,11 +67,12 @@ pub fn run(args: &FeaturesArgs) -> Result<()> {
         .zip(sequence.backgrounds()?)
         .map(|(&[width, height], plate)| ViewSource { width, height, plate })
         .collect();
-    let extractor = match args.backend {
-        FeatureBackend::Cpu => Extractor::new(settings, views),
-        FeatureBackend::Device => Extractor::on_device(settings, views, &open_device()?),
-    };
-    let mut extractor = extractor.with_context(|| name.clone())?;
+    let mut extractor = Extractor::new(settings, views).with_context(|| name.clone())?;
+    if args.backend == FeatureBackend::Device
+        && let Err(error) = extractor.move_to(&open_device()?)
+    {
+        eprintln!("note: the processor makes the features: {error:#}");
+    }
     let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;
 
     // A background that is learnt needs the frames before the first one wanted.

@@ -1,142 +1,168 @@
-//! From silhouettes to packed observations on a Vulkan device: all views of a frame in one submission.
+//! From pictures to packed observations on a Vulkan device: all views of a frame in one submission.
+
+mod passes;
+#[cfg(test)]
+mod tests;
+mod view;
 
 use anyhow::Result;
-use image::RgbImage;
+use image::{GrayImage, RgbImage};
 
-use super::stages::{DilateStage, DistanceStage, EdgesStage, PackStage, Picture, ReachStage, SmoothStage};
-use super::{FeatureSettings, Metric, ViewFeatures};
-use crate::gpu::{Buffer, Device, Memory, Recorder, Recording, Timing};
+use self::passes::Passes;
+pub(super) use self::view::{DeviceView, Plane};
+use super::stages::{BoundsStage, Rates};
+use super::{FeatureSettings, Region, ViewFeatures};
+use crate::gpu::{Device, PassTiming, Recording, Timing};
 
-/// The buffers of one view.
-#[derive(Debug)]
-pub(super) struct DeviceView {
-    /// What every pass on it is told.
-    pub(super) picture: Picture,
-    colours_in: Buffer,
-    silhouette_in: Buffer,
-    /// Red, green, blue bytes, row-major.
-    pub(super) colours: Buffer,
-    /// A bit picture.
-    pub(super) silhouette: Buffer,
-    /// The silhouette dilated.
-    pub(super) near: Buffer,
-    /// Grey values, a word each.
-    pub(super) smoothed: Buffer,
-    /// A bit picture.
-    pub(super) edges: Buffer,
-    /// Vertical distances, a word each.
-    pub(super) reach: Buffer,
-    /// Distances as [`Metric::code`] writes them, a word each.
-    pub(super) codes: Buffer,
-    /// Packed bytes, row-major.
-    pub(super) packed: Buffer,
-    edges_out: Buffer,
-    codes_out: Buffer,
-    packed_out: Buffer,
-}
-
-impl DeviceView {
-    /// Buffers for pictures of that size.
-    fn new(device: &Device, [width, height]: [u32; 2], limit: u8) -> Result<Self> {
-        let (pixels, rows) = (width as usize * height as usize, height as usize);
-        // As the words of a `BitImage`, whose rows are whole 64-bit words.
-        let stride = 2 * width.div_ceil(64);
-        let words = |name: &str, count: usize, memory: Memory| device.buffer::<u32>(name, count, memory);
-        let colours = (3 * pixels).div_ceil(4);
-        let bits = stride as usize * rows;
-        Ok(Self {
-            picture: Picture { width, height, stride, limit: u32::from(limit), amount: 0, square: 0 },
-            colours_in: words("colours staging", colours, Memory::Upload)?,
-            silhouette_in: words("silhouette staging", bits, Memory::Upload)?,
-            colours: words("colours", colours, Memory::Device)?,
-            silhouette: words("silhouette", bits, Memory::Device)?,
-            near: words("near", bits, Memory::Device)?,
-            smoothed: words("smoothed", pixels, Memory::Device)?,
-            edges: words("edges", bits, Memory::Device)?,
-            reach: words("reach", pixels, Memory::Device)?,
-            codes: words("codes", pixels, Memory::Device)?,
-            packed: words("packed", pixels.div_ceil(4), Memory::Device)?,
-            edges_out: words("edges readback", bits, Memory::Readback)?,
-            codes_out: words("codes readback", pixels, Memory::Readback)?,
-            packed_out: words("packed readback", pixels.div_ceil(4), Memory::Readback)?,
-        })
-    }
-}
-
-/// Edges, distances and packing of all views, recorded once.
+/// Everything from the pictures to the packed bytes of all views. What mixtures have learnt stays on the device.
 #[derive(Debug)]
 pub(super) struct DeviceChain {
+    device: Device,
+    settings: FeatureSettings,
+    passes: Passes,
     views: Vec<DeviceView>,
-    recording: Recording,
-    metric: Metric,
-    limit: u8,
+    timing: Timing,
+    /// The recording of a frame, and which views it expects masks for.
+    frame: Option<(Vec<bool>, Recording)>,
+    /// The recording of a frame that is only learnt from.
+    priming: Option<Recording>,
+    /// How many frames each view's mixture has seen.
+    seen: Vec<u32>,
     codes: Vec<u32>,
 }
 
 impl DeviceChain {
-    /// Records the chain for views of these sizes; `proximity` is the table of the settings.
+    /// Makes what views of these sizes and plates need; `proximity` is the table of the settings.
     ///
     /// # Errors
-    /// When the edge operator is Canny's, or the device has no memory for the views.
-    pub(super) fn new(
+    /// When a view is larger than the device binds at once, or it has no memory for the views.
+    pub(super) fn new<'a>(
         device: &Device,
-        sizes: &[[u32; 2]],
+        views: impl Iterator<Item = ([u32; 2], Option<&'a RgbImage>)>,
         settings: &FeatureSettings,
         proximity: &[u8],
     ) -> Result<Self> {
-        let (metric, limit) = (settings.distance.metric, settings.proximity.limit());
-        let views = sizes.iter().map(|&size| DeviceView::new(device, size, limit)).collect::<Result<Vec<_>>>()?;
-        let mut recorder = device.recorder(Timing::Off)?;
-        let whole = |recorder: &mut Recorder, name: &str, from: &Buffer, to: &Buffer| {
-            recorder.copy(name, (from, 0), (to, 0), from.size())
-        };
-        for view in &views {
-            whole(&mut recorder, "upload", &view.colours_in, &view.colours)?;
-            whole(&mut recorder, "upload", &view.silhouette_in, &view.silhouette)?;
-        }
-        SmoothStage::new(device, settings.edges.smooth)?.record(&mut recorder, &views)?;
-        DilateStage::new(device)?.record(&mut recorder, &views, settings.dilation())?;
-        EdgesStage::new(device, &settings.edges)?.record(&mut recorder, &views)?;
-        ReachStage::new(device)?.record(&mut recorder, &views)?;
-        DistanceStage::new(device, metric)?.record(&mut recorder, &views)?;
-        PackStage::new(device, proximity)?.record(&mut recorder, &views)?;
-        for view in &views {
-            whole(&mut recorder, "readback", &view.edges, &view.edges_out)?;
-            whole(&mut recorder, "readback", &view.codes, &view.codes_out)?;
-            whole(&mut recorder, "readback", &view.packed, &view.packed_out)?;
-        }
-        Ok(Self { views, recording: recorder.finish()?, metric, limit, codes: Vec::new() })
+        let limit = settings.proximity.limit();
+        let views = views
+            .map(|(size, plate)| DeviceView::new(device, size, plate, &settings.mixture, limit))
+            .collect::<Result<Vec<_>>>()?;
+        let seen = vec![0; views.len()];
+        Ok(Self {
+            device: device.clone(),
+            settings: settings.clone(),
+            passes: Passes::new(device, settings, proximity)?,
+            views,
+            timing: Timing::Off,
+            frame: None,
+            priming: None,
+            seen,
+            codes: Vec::new(),
+        })
     }
 
-    /// Fills in edges, distances and observations of features that have their silhouettes; one submission and one wait.
+    /// From the next frame on every pass is timed.
+    pub(super) fn measure_passes(&mut self) {
+        (self.timing, self.frame) = (Timing::Stamps, None);
+    }
+
+    /// The passes of the last frame; empty where they were not timed.
     ///
     /// # Errors
     /// When the device fails.
-    pub(super) fn run(&mut self, pictures: &[RgbImage], features: &mut [ViewFeatures]) -> Result<()> {
-        for ((view, picture), features) in self.views.iter().zip(pictures).zip(features.iter()) {
-            view.colours_in.write(0, picture.as_raw().as_slice())?;
-            view.silhouette_in.write(0, features.silhouette.words())?;
+    pub(super) fn passes(&self) -> Result<Vec<PassTiming>> {
+        self.frame.as_ref().map_or(Ok(Vec::new()), |(_, recording)| recording.timings())
+    }
+
+    /// Learns from a frame of the empty scene; one submission and one wait.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub(super) fn prime(&mut self, pictures: &[RgbImage]) -> Result<()> {
+        let learning: Vec<usize> = (0..self.views.len()).filter(|&at| self.views[at].plate().is_none()).collect();
+        if learning.is_empty() {
+            return Ok(());
         }
-        self.recording.run()?;
-        for (view, features) in self.views.iter().zip(features) {
-            view.edges_out.read(0, features.edges.words_mut())?;
-            let pixels = view.picture.width as usize * view.picture.height as usize;
-            self.codes.resize(pixels, 0);
-            view.codes_out.read(0, &mut self.codes)?;
-            features.distance.take_codes(
-                [view.picture.width, view.picture.height],
-                self.metric,
-                self.limit,
-                &self.codes,
-            );
-            let observation = &mut features.observation;
-            (observation.width, observation.height) = (view.picture.width, view.picture.height);
-            observation.bytes.resize(pixels, 0);
-            view.packed_out.read(0, &mut observation.bytes)?;
+        for &at in &learning {
+            self.views[at].colours_in.write(0, pictures[at].as_raw().as_slice())?;
+            self.set_rates(at)?;
+        }
+        if self.priming.is_none() {
+            let views: Vec<_> = learning.iter().map(|&at| &self.views[at]).collect();
+            let mut recorder = self.device.recorder(Timing::Off)?;
+            self.passes.record_priming(&mut recorder, &views, &self.settings)?;
+            self.priming = Some(recorder.finish()?);
+        }
+        self.priming.as_mut().map_or(Ok(()), Recording::run)
+    }
+
+    /// The features of a frame; one submission and one wait. Which views have masks is recorded, so that frames which take turns
+    /// with and without cost a recording each.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub(super) fn run(
+        &mut self,
+        pictures: &[RgbImage],
+        masks: &[Option<GrayImage>],
+        features: &mut [ViewFeatures],
+    ) -> Result<()> {
+        for (at, (mask, features)) in masks.iter().zip(features.iter_mut()).enumerate() {
+            let view = &self.views[at];
+            view.colours_in.write(0, pictures[at].as_raw().as_slice())?;
+            if let Some(mask) = mask {
+                features.foreground.copy_from_gray(mask);
+                features.silhouette.copy_from(&features.foreground);
+                view.mask_in.write(0, features.silhouette.words())?;
+            } else if view.plate().is_none() {
+                self.set_rates(at)?;
+            }
+        }
+        let masked: Vec<bool> = masks.iter().map(Option::is_some).collect();
+        if self.frame.as_ref().is_none_or(|(recorded, _)| *recorded != masked) {
+            let mut recorder = self.device.recorder(self.timing)?;
+            self.passes.record_frame(&mut recorder, &self.views, &masked, &self.settings)?;
+            self.frame = Some((masked, recorder.finish()?));
+        }
+        if let Some((_, recording)) = &mut self.frame {
+            recording.run()?;
+        }
+        for (at, (mask, features)) in masks.iter().zip(features).enumerate() {
+            self.read(at, mask.is_some(), features)?;
         }
         Ok(())
     }
-}
 
-#[cfg(test)]
-mod tests;
+    /// Tells a view's mixture the rates of its next step.
+    fn set_rates(&mut self, at: usize) -> Result<()> {
+        let (rates, seen) = (&self.views[at].rates, &mut self.seen[at]);
+        let alpha = self.settings.mixture.rate(*seen);
+        rates.write(0, &[Rates { alpha, first: u32::from(*seen == 0) }])?;
+        *seen = seen.saturating_add(1);
+        Ok(())
+    }
+
+    /// Takes what the device made of a view.
+    fn read(&mut self, at: usize, is_masked: bool, features: &mut ViewFeatures) -> Result<()> {
+        let view = &self.views[at];
+        let (width, height) = (view.picture.width, view.picture.height);
+        if !is_masked {
+            view.foreground_out.read(0, features.foreground.words_mut())?;
+            view.silhouette_out.read(0, features.silhouette.words_mut())?;
+        }
+        let mut sides = [0; 4];
+        view.sides_out.read(0, &mut sides)?;
+        features.region = BoundsStage::region(sides, width, height).map_or(Region::whole(width, height), |bounds| {
+            bounds.enlarged(self.settings.silhouette.motion, width, height)
+        });
+        view.edges_out.read(0, features.edges.words_mut())?;
+        let pixels = width as usize * height as usize;
+        self.codes.resize(pixels, 0);
+        view.codes_out.read(0, &mut self.codes)?;
+        let (metric, limit) = (self.settings.distance.metric, self.settings.proximity.limit());
+        features.distance.take_codes([width, height], metric, limit, &self.codes);
+        let observation = &mut features.observation;
+        (observation.width, observation.height) = (width, height);
+        observation.bytes.resize(pixels, 0);
+        view.packed_out.read(0, &mut observation.bytes)
+    }
+}

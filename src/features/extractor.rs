@@ -10,7 +10,7 @@ use super::foreground::Foreground;
 use super::morphology::Morphology;
 use super::segment::Segmenter;
 use super::{BitImage, DistanceMap, FeatureSettings, Observation, Region};
-use crate::gpu::Device;
+use crate::gpu::{Device, PassTiming};
 
 /// Larger working pictures are a mistake in the scale, and their memory would be too.
 const LARGEST_SIDE: u32 = 16384;
@@ -74,11 +74,16 @@ struct View {
 /// frames first with [`Extractor::prime`]. A person who was there from the start is learnt as background.
 pub struct Extractor {
     settings: FeatureSettings,
-    proximity: Vec<u8>,
     segmenter: Option<Segmenter>,
-    views: Vec<View>,
-    /// Where edges, distances and packing are done by a device.
-    device: Option<DeviceChain>,
+    /// Widths and heights of the views.
+    sizes: Vec<(u32, u32)>,
+    chain: Chain,
+}
+
+/// Who does the work.
+enum Chain {
+    Processor { views: Vec<View>, proximity: Vec<u8> },
+    Device(Box<DeviceChain>),
 }
 
 impl Extractor {
@@ -92,6 +97,7 @@ impl Extractor {
         if views.is_empty() {
             bail!("features need at least one view, found none");
         }
+        let sizes = views.iter().map(|view| (view.width, view.height)).collect();
         let views = views
             .into_iter()
             .enumerate()
@@ -99,18 +105,50 @@ impl Extractor {
             .collect::<Result<_>>()?;
         let proximity = settings.proximity.table(settings.distance.metric);
         let segmenter = Segmenter::new(&settings.segment)?;
-        Ok(Self { settings, proximity, segmenter, views, device: None })
+        Ok(Self { settings, segmenter, sizes, chain: Chain::Processor { views, proximity } })
     }
 
-    /// As [`Self::new`], with all that follows the silhouette done by a Vulkan device: the same features, bit by bit.
+    /// As [`Self::new`] and [`Self::move_to`].
     ///
     /// # Errors
-    /// As [`Self::new`]; when the edge operator is Canny's, which only the processor does; when the device fails.
+    /// Theirs.
     pub fn on_device(settings: FeatureSettings, views: Vec<ViewSource>, device: &Device) -> Result<Self> {
         let mut extractor = Self::new(settings, views)?;
-        let sizes: Vec<_> = extractor.views.iter().map(|view| [view.width, view.height]).collect();
-        extractor.device = Some(DeviceChain::new(device, &sizes, &extractor.settings, &extractor.proximity)?);
+        extractor.move_to(device)?;
         Ok(extractor)
+    }
+
+    /// Leaves everything from the pictures to the packed bytes to a Vulkan device, which gives the same features bit by bit (but
+    /// see docs/FEATURES.md on `mixture.adaptation = "density"`); body parts are still told apart by the processor. What was
+    /// learnt so far is forgotten.
+    ///
+    /// # Errors
+    /// When the device fails, has no memory for the views, or cannot bind buffers of their size; the extractor is then as it was.
+    pub fn move_to(&mut self, device: &Device) -> Result<()> {
+        if let Chain::Processor { views, proximity } = &self.chain {
+            let views = views.iter().map(|view| ([view.width, view.height], view.foreground.plate()));
+            let chain = DeviceChain::new(device, views, &self.settings, proximity)?;
+            self.chain = Chain::Device(Box::new(chain));
+        }
+        Ok(())
+    }
+
+    /// From the next frame on the device's passes are timed, where there is a device with timestamps.
+    pub fn measure_passes(&mut self) {
+        if let Chain::Device(device) = &mut self.chain {
+            device.measure_passes();
+        }
+    }
+
+    /// The device's passes of the last frame; empty where they were not timed.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn passes(&self) -> Result<Vec<PassTiming>> {
+        match &self.chain {
+            Chain::Processor { .. } => Ok(Vec::new()),
+            Chain::Device(device) => device.passes(),
+        }
     }
 
     /// The settings in use.
@@ -125,9 +163,12 @@ impl Extractor {
     pub fn prime(&mut self, pictures: &[RgbImage]) -> Result<()> {
         self.check_frame(pictures, None)?;
         let settings = &self.settings;
-        self.views.par_iter_mut().zip(pictures).for_each(|(view, picture)| {
-            view.foreground.learn(picture, settings);
-        });
+        match &mut self.chain {
+            Chain::Processor { views, .. } => views.par_iter_mut().zip(pictures).for_each(|(view, picture)| {
+                view.foreground.learn(picture, settings);
+            }),
+            Chain::Device(device) => device.prime(pictures)?,
+        }
         Ok(())
     }
 
@@ -153,24 +194,24 @@ impl Extractor {
         features: &mut Vec<ViewFeatures>,
     ) -> Result<()> {
         self.check_frame(pictures, Some(masks))?;
-        features.truncate(self.views.len());
-        for (at, view) in self.views.iter().enumerate() {
+        features.truncate(self.sizes.len());
+        for (at, &(width, height)) in self.sizes.iter().enumerate() {
             match features.get(at) {
-                Some(old) if (old.silhouette.width(), old.silhouette.height()) == (view.width, view.height) => {}
-                Some(_) => features[at] = ViewFeatures::empty(view.width, view.height),
-                None => features.push(ViewFeatures::empty(view.width, view.height)),
+                Some(old) if (old.silhouette.width(), old.silhouette.height()) == (width, height) => {}
+                Some(_) => features[at] = ViewFeatures::empty(width, height),
+                None => features.push(ViewFeatures::empty(width, height)),
             }
         }
-        let (settings, proximity, on_device) = (&self.settings, &self.proximity, self.device.is_some());
-        let views = self.views.par_iter_mut().zip(pictures).zip(masks).zip(features.par_iter_mut());
-        views.for_each(|(((view, picture), mask), features)| {
-            view.find_silhouette(picture, mask.as_ref(), settings, features);
-            if !on_device {
-                view.find_edges(picture, settings, proximity, features);
+        let settings = &self.settings;
+        match &mut self.chain {
+            Chain::Processor { views, proximity } => {
+                let views = views.par_iter_mut().zip(pictures).zip(masks).zip(features.par_iter_mut());
+                views.for_each(|(((view, picture), mask), features)| {
+                    view.find_silhouette(picture, mask.as_ref(), settings, features);
+                    view.find_edges(picture, settings, proximity, features);
+                });
             }
-        });
-        if let Some(device) = &mut self.device {
-            device.run(pictures, features)?;
+            Chain::Device(device) => device.run(pictures, masks, features)?,
         }
         let Some(segmenter) = &self.segmenter else {
             features.iter_mut().for_each(|features| features.observation.segmentation = None);
@@ -183,7 +224,7 @@ impl Extractor {
     }
 
     fn check_frame(&self, pictures: &[RgbImage], masks: Option<&[Option<GrayImage>]>) -> Result<()> {
-        let views = self.views.len();
+        let views = self.sizes.len();
         if pictures.len() != views {
             bail!("a frame holds {} pictures, expected one for each of the {views} views", pictures.len());
         }
@@ -192,8 +233,7 @@ impl Extractor {
         {
             bail!("a frame holds {} masks or gaps, expected one for each of the {views} views", masks.len());
         }
-        for (at, view) in self.views.iter().enumerate() {
-            let expected = (view.width, view.height);
+        for (at, &expected) in self.sizes.iter().enumerate() {
             same_size("picture", at, pictures[at].dimensions(), expected)?;
             if let Some(Some(mask)) = masks.map(|masks| &masks[at]) {
                 same_size("mask", at, mask.dimensions(), expected)?;

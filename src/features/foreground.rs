@@ -46,6 +46,14 @@ impl Foreground {
         }
     }
 
+    /// The picture of the empty scene, where there is one.
+    pub(super) fn plate(&self) -> Option<&RgbImage> {
+        match &self.background {
+            Background::Plate { plate, .. } => Some(plate.image()),
+            Background::Mixture { .. } => None,
+        }
+    }
+
     /// Shows a picture to a background model that learns.
     pub(super) fn learn(&mut self, picture: &RgbImage, settings: &FeatureSettings) {
         if let Background::Mixture { mixture, foreground } = &mut self.background {

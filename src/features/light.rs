@@ -1,23 +1,22 @@
 //! A change of the light over the whole picture: how much brighter a picture is than the background known, channel by channel.
 
-/// Gains outside this range are no mild change of the lighting but another scene, and are not believed.
-const GAINS: (f32, f32) = (0.5, 2.0);
+use super::stages::{RATIO_COUNTS, RATIO_GRID, RATIO_LEAST, RATIO_MOST, RATIO_STEPS};
 
 /// The steps a ratio is counted in.
-const STEPS: usize = 128;
+const STEPS: usize = RATIO_STEPS as usize;
 
 /// Every how many rows and columns a pixel is asked.
-pub(super) const GRID: usize = 4;
+pub(super) const GRID: usize = RATIO_GRID as usize;
 
 /// Ratios of a picture to its background over a grid of pixels, counted.
 pub(super) struct Ratios {
-    counts: [[u32; 2 * STEPS + STEPS / 2]; 3],
+    counts: [[u32; RATIO_COUNTS as usize]; 3],
 }
 
 impl Ratios {
     /// None yet.
     pub(super) fn new() -> Self {
-        Self { counts: [[0; 2 * STEPS + STEPS / 2]; 3] }
+        Self { counts: [[0; RATIO_COUNTS as usize]; 3] }
     }
 
     /// Counts a pixel.
@@ -38,7 +37,8 @@ impl Ratios {
     /// What to multiply the background with so that it is as bright as the picture: the median ratio, which no person
     /// covering less than half the picture can move far.
     pub(super) fn gains(&self) -> [f32; 3] {
-        self.counts.map(|counts| median(&counts).clamp(GAINS.0, GAINS.1))
+        let [least, most] = [RATIO_LEAST, RATIO_MOST].map(|steps| steps as f32 / STEPS as f32);
+        self.counts.map(|counts| median(&counts).clamp(least, most))
     }
 }
 

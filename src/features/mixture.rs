@@ -68,7 +68,7 @@ impl Default for MixtureSettings {
 const LANES: usize = 8;
 
 /// Values of a component: weight, mean red, green, blue, variance.
-const FIELDS: usize = 5;
+const FIELDS: usize = super::stages::MIXTURE_FIELDS as usize;
 
 /// Rows a task: enough work to be worth handing to another core.
 const ROWS: usize = 16;
@@ -96,12 +96,27 @@ struct Rates {
     dim: [f32; 3],
 }
 
+impl MixtureSettings {
+    /// The weights' learning rate of a frame after `frames` others.
+    pub(super) fn rate(&self, frames: u32) -> f32 {
+        let average = if frames < self.warm_up { 1.0 / (frames as f32 + 1.0) } else { 0.0 };
+        self.learning_rate.max(average)
+    }
+}
+
 impl Mixture {
     /// Mixtures that have seen nothing, for pictures of `width` × `height` pixels.
     pub fn new(settings: MixtureSettings, width: u32, height: u32) -> Self {
         let blocks = (width as usize).div_ceil(LANES);
         let state = vec![0.0; height as usize * blocks * settings.components * FIELDS * LANES];
         Self { settings, width: width as usize, blocks, frames: 0, state }
+    }
+
+    /// One number of a pixel's component `k`: weight, mean red, green, blue, variance.
+    #[cfg(test)]
+    pub(super) fn value(&self, x: usize, y: usize, k: usize, field: usize) -> f32 {
+        let block = y * self.blocks + x / LANES;
+        self.state[((block * self.settings.components + k) * FIELDS + field) * LANES + x % LANES]
     }
 
     /// Learns from a picture and flags (0 or 1, row-major) the pixels that are neither background nor its shadow. The
@@ -131,10 +146,8 @@ impl Mixture {
 
     fn update_k<const K: usize>(&mut self, picture: &RgbImage, shadow: &ShadowSettings, foreground: &mut [u8]) {
         let (width, settings, first) = (self.width, self.settings, self.frames == 0);
-        let warming = self.frames < settings.warm_up;
-        let average = if warming { 1.0 / (self.frames as f32 + 1.0) } else { 0.0 };
         let rates = Rates {
-            alpha: settings.learning_rate.max(average),
+            alpha: settings.rate(self.frames),
             match_squared: settings.match_sigma * settings.match_sigma,
             dim: if settings.gain && !first { self.gain::<K>(picture).map(|gain| 1.0 / gain) } else { [1.0; 3] },
         };

@@ -1,8 +1,8 @@
 //! From pictures to packed observations (SPEC A5).
 //!
 //! One file a stage, in the order of the data: [`plate`] or [`mixture`] (with [`shadow`]) → [`morphology`] and [`blobs`]
-//! → [`edges`] → [`distance`] → [`proximity`] → [`Observation`]. [`Extractor`] runs them all, one view a task; from the silhouette on
-//! a Vulkan device can do the same.
+//! → [`edges`] → [`distance`] → [`proximity`] → [`Observation`]. [`Extractor`] runs them all, one view a task, or a Vulkan device
+//! does, all views at once.
 
 mod bit_image;
 pub mod blobs;

@@ -31,7 +31,7 @@ impl Default for PlateSettings {
 
 /// The sum of the channels below which a pixel is so dark that it says nothing when the plate is as dark: black clothes
 /// before black furniture may not differ at all.
-const DARK: f32 = 192.0;
+const DARK: f32 = super::stages::DARK as f32;
 
 /// What differs from the plate in one row, one flag (0 or 1) a pixel.
 #[derive(Clone, Debug)]
@@ -69,6 +69,11 @@ impl Plate {
             *plane = image.pixels().map(|pixel| f32::from(pixel[channel])).collect();
         }
         Self { width, planes, image, seen: [const { Vec::new() }; 3] }
+    }
+
+    /// The picture as it was taken.
+    pub(super) fn image(&self) -> &RgbImage {
+        &self.image
     }
 
     /// What to multiply the plate with, channel by channel, so that it is as bright as `picture`: the median ratio over

@@ -25,6 +25,11 @@ impl ComputeStage {
         Ok(Self { name, pipeline: device.compute_pipeline(stage)? })
     }
 
+    /// The name of its passes.
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
     /// Records a pass that runs it once.
     ///
     /// # Errors

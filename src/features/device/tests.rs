@@ -5,39 +5,68 @@
 use image::{GrayImage, Luma, Rgb};
 
 use super::super::{
-    DistanceSettings, EdgeSettings, Extractor, Magnitude, Normalisation, Operator, ProximitySettings, ViewSource,
+    DistanceSettings, EdgeSettings, Extractor, Magnitude, Metric, MixtureSettings, Normalisation, Operator,
+    PlateSettings, ProximitySettings, Shape, SilhouetteSettings, ViewSource,
 };
 use super::*;
-use crate::gpu::DeviceSettings;
 use crate::gpu::test_device::device;
+use crate::gpu::{Capabilities, DeviceSettings};
 
 /// Sizes round whole words, and one smaller than most elements.
-const SIZES: [[u32; 2]; 3] = [[131, 97], [64, 40], [3, 2]];
+const SIZES: [[u32; 2]; 4] = [[131, 97], [64, 40], [3, 2], [150, 60]];
 
 /// Patches of one colour with noise on them.
-fn picture([width, height]: [u32; 2], seed: u32) -> RgbImage {
+fn room([width, height]: [u32; 2], seed: u32) -> RgbImage {
     RgbImage::from_fn(width, height, |x, y| {
-        let mut hash = (x / 9 * 31 + y / 7 * 17 + seed).wrapping_mul(0x9e37_79b1);
+        let mut hash = (x / 9 * 31 + y / 7 * 17 + 5).wrapping_mul(0x9e37_79b1);
         hash ^= hash >> 15;
-        let noise = (x.wrapping_mul(0x85eb_ca6b) ^ y.wrapping_mul(0xc2b2_ae35) ^ seed).wrapping_mul(0x27d4_eb2f) >> 26;
+        let noise = (x.wrapping_mul(0x85eb_ca6b) ^ y.wrapping_mul(0xc2b2_ae35) ^ seed).wrapping_mul(0x27d4_eb2f) >> 28;
         Rgb([0, 8, 16].map(|shift: u32| ((hash >> shift & 0xbf) + noise) as u8))
     })
 }
 
 /// Two discs; none in the smallest view of even seeds.
-fn mask([width, height]: [u32; 2], seed: u32) -> GrayImage {
-    GrayImage::from_fn(width, height, |x, y| {
-        let disc = |cx: u32, cy: u32, r: u32| x.abs_diff(cx).pow(2) + y.abs_diff(cy).pow(2) < r * r;
-        let inside = disc(width / 2, height / 2, 17) || disc(width - 1, 3 + seed, 9);
-        Luma([if inside && (width > 3 || !seed.is_multiple_of(2)) { 255 } else { 0 }])
-    })
+fn inside([width, height]: [u32; 2], seed: u32, x: u32, y: u32) -> bool {
+    let disc = |cx: u32, cy: u32, r: u32| x.abs_diff(cx).pow(2) + y.abs_diff(cy).pow(2) < r * r;
+    (disc(width / 2, height / 2, 17) || disc(width - 1, 3 + seed, 9)) && (width > 3 || !seed.is_multiple_of(2))
 }
 
-#[test]
-fn the_device_s_features_are_the_processor_s() {
-    let Some((device, log)) = device("the_device_s_features_are_the_processor_s", DeviceSettings::default()) else {
-        return;
-    };
+/// The room with the discs in colours of their own, and specks, in slightly other light.
+fn picture(size: [u32; 2], seed: u32) -> RgbImage {
+    let mut picture = room(size, seed);
+    for (x, y, pixel) in picture.enumerate_pixels_mut() {
+        if inside(size, seed, x, y) || (x * 7 + y * 13 + seed).is_multiple_of(101) {
+            *pixel = Rgb([200 - (x % 40) as u8, (y * 3 % 250) as u8, 30 + (seed * 9) as u8]);
+        } else {
+            *pixel = Rgb(pixel.0.map(|value| (f32::from(value) * 0.93) as u8));
+        }
+    }
+    picture
+}
+
+fn mask(size: [u32; 2], seed: u32) -> GrayImage {
+    GrayImage::from_fn(size[0], size[1], |x, y| Luma([if inside(size, seed, x, y) { 255 } else { 0 }]))
+}
+
+fn assert_same(found: &[ViewFeatures], expected: &[ViewFeatures], settings: &FeatureSettings) {
+    for (view, (found, expected)) in found.iter().zip(expected).enumerate() {
+        assert_eq!(found.foreground, expected.foreground, "view {view}, {settings:?}");
+        assert_eq!(found.silhouette, expected.silhouette, "view {view}, {settings:?}");
+        assert_eq!(found.region, expected.region, "view {view}, {settings:?}");
+        assert_eq!(found.edges, expected.edges, "view {view}, {settings:?}");
+        assert_eq!(found.distance.distances(), expected.distance.distances(), "view {view}, {settings:?}");
+        assert_eq!(found.observation, expected.observation, "view {view}, {settings:?}");
+    }
+}
+
+/// Views with and without plates.
+fn sources() -> Vec<ViewSource> {
+    let plate = |at: usize, size| at.is_multiple_of(2).then(|| room(size, 77));
+    let each = SIZES.iter().enumerate();
+    each.map(|(at, &size)| ViewSource { width: size[0], height: size[1], plate: plate(at, size) }).collect()
+}
+
+fn settings(case: usize) -> FeatureSettings {
     let operators = [
         Operator::Sobel,
         Operator::Prewitt,
@@ -45,52 +74,104 @@ fn the_device_s_features_are_the_processor_s() {
         Operator::LaplaceFour,
         Operator::LaplaceEight,
         Operator::LaplaceProduct,
+        Operator::Canny,
     ];
     let magnitudes = [Magnitude::Exact, Magnitude::Sum, Magnitude::Max];
     let metrics = [Metric::Chessboard, Metric::CityBlock, Metric::Euclidean, Metric::QuasiEuclidean];
     let normalisations = [Normalisation::Proportional, Normalisation::Exponential, Normalisation::Impulse];
-    for case in 0..12 {
-        let settings = FeatureSettings {
-            edges: EdgeSettings {
-                operator: operators[case % 6],
-                magnitude: magnitudes[(case + case / 6) % 3],
-                smooth: case % 5 != 4,
-                // The product of two second differences is small.
-                threshold: if case % 6 == 5 { 8 } else { 10 + 15 * (case as i16 % 4) },
-                dilate: [7, 1, 13, 3][case % 4],
-                ..Default::default()
-            },
-            distance: DistanceSettings { metric: metrics[(case + case / 4) % 4] },
-            proximity: ProximitySettings {
-                normalisation: normalisations[case / 2 % 3],
-                d_max: [16, 255, 40, 3][case / 3],
-                ..Default::default()
-            },
+    FeatureSettings {
+        mixture: MixtureSettings { components: 3 + case % 3, gain: case % 2 == 1, warm_up: 4, ..Default::default() },
+        plate: PlateSettings { gain: case % 3 != 2, bridge: [15, 1, 7][case % 3], ..Default::default() },
+        silhouette: SilhouetteSettings {
+            element: [Shape::Disc, Shape::Square][case % 2],
+            open: [3, 1, 5][case % 3],
+            close: [5, 9, 1][case / 2 % 3],
+            blobs: 1 + case % 4,
+            min_area: 3,
+            max_cover: [0.75, 0.3][case / 3 % 2],
             ..Default::default()
-        };
-        let sources: Vec<_> = SIZES.iter().map(|&[width, height]| ViewSource { width, height, plate: None }).collect();
-        let mut host = Extractor::new(settings.clone(), sources.clone()).unwrap();
-        let mut chain = Extractor::on_device(settings.clone(), sources, &device).unwrap();
-        // Twice: what the first frame left in the buffers must not show.
-        for seed in [1, 2] {
+        },
+        edges: EdgeSettings {
+            operator: operators[case % 7],
+            magnitude: magnitudes[(case + case / 7) % 3],
+            smooth: case % 5 != 4,
+            // The product of two second differences is small.
+            threshold: if case % 7 == 5 { 8 } else { 10 + 15 * (case as i16 % 4) },
+            low: 9,
+            dilate: [7, 1, 13, 3][case % 4],
+        },
+        distance: DistanceSettings { metric: metrics[(case + case / 4) % 4] },
+        proximity: ProximitySettings {
+            normalisation: normalisations[case / 2 % 3],
+            d_max: [16, 255, 40, 3][case / 4],
+            ..Default::default()
+        },
+        ..Default::default()
+    }
+}
+
+#[test]
+fn the_device_s_features_are_the_processor_s() {
+    let Some((device, log)) = device("the_device_s_features_are_the_processor_s", DeviceSettings::default()) else {
+        return;
+    };
+    for case in 0..14 {
+        let settings = settings(case);
+        let mut host = Extractor::new(settings.clone(), sources()).unwrap();
+        let mut chain = Extractor::on_device(settings.clone(), sources(), &device).unwrap();
+        for seed in 0..3 {
+            let empty = SIZES.map(|size| room(size, 10 + seed));
+            host.prime(&empty).unwrap();
+            chain.prime(&empty).unwrap();
+        }
+        let mut found = Vec::new();
+        // Several: what a frame left in the buffers must not show in the next, and masks come and go.
+        for seed in [1, 2, 3, 4] {
             let pictures = SIZES.map(|size| picture(size, seed));
-            let masks = SIZES.map(|size| Some(mask(size, seed)));
+            let masks = [0, 1, 2, 3]
+                .map(|at: usize| (seed == 1 || seed == 3 && at.is_multiple_of(3)).then(|| mask(SIZES[at], seed)));
             let expected = host.extract(&pictures, &masks).unwrap();
             assert!(expected[0].edges.count() > 0, "{settings:?} finds nothing");
-            for (found, expected) in chain.extract(&pictures, &masks).unwrap().iter().zip(&expected) {
-                assert_eq!(found.edges, expected.edges, "{settings:?}");
-                assert_eq!(found.distance.distances(), expected.distance.distances(), "{settings:?}");
-                assert_eq!(found.observation, expected.observation, "{settings:?}");
-            }
+            assert!(expected[3].silhouette.count() > 0, "{settings:?} finds nothing");
+            chain.extract_into(&pictures, &masks, &mut found).unwrap();
+            assert_same(&found, &expected, &settings);
         }
     }
-    let canny = FeatureSettings {
-        edges: EdgeSettings { operator: Operator::Canny, ..Default::default() },
-        ..Default::default()
-    };
-    let source = ViewSource { width: 4, height: 4, plate: None };
-    let refused = Extractor::on_device(canny, vec![source], &device).err().unwrap().to_string();
-    assert!(refused.contains("canny"), "{refused}");
+    drop(device);
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+#[test]
+fn passes_are_timed_when_asked() {
+    let Some((device, _)) = device("passes_are_timed_when_asked", DeviceSettings::default()) else { return };
+    let mut chain = Extractor::on_device(settings(6), sources(), &device).unwrap();
+    let (pictures, masks) = (SIZES.map(|size| picture(size, 1)), [const { None }; 4]);
+    chain.extract(&pictures, &masks).unwrap();
+    assert_eq!(chain.passes().unwrap(), []);
+    chain.measure_passes();
+    chain.extract(&pictures, &masks).unwrap();
+    if device.capabilities().timestamps {
+        let passes = chain.passes().unwrap();
+        for name in ["upload", "difference", "mixture", "components_join", "canny", "pack", "readback"] {
+            assert!(passes.iter().any(|pass| pass.name == name), "{name} is not among the passes");
+        }
+    }
+}
+
+#[test]
+fn a_view_that_does_not_fit_is_one_sentence_and_the_processor_goes_on() {
+    fn little(capabilities: &mut Capabilities) {
+        capabilities.max_storage = 10_000;
+    }
+    let lowered = DeviceSettings { lower: Some(little), ..Default::default() };
+    let Some((device, log)) = device("a_view_that_does_not_fit", lowered) else { return };
+    let mut extractor = Extractor::new(settings(0), sources()).unwrap();
+    let refused = extractor.move_to(&device).unwrap_err().to_string();
+    assert!(refused.contains("bytes, more than the 10000 that this device binds at once"), "{refused}");
+    let (pictures, masks) = (SIZES.map(|size| picture(size, 1)), [const { None }; 4]);
+    let found = extractor.extract(&pictures, &masks).unwrap();
+    let expected = Extractor::new(settings(0), sources()).unwrap().extract(&pictures, &masks).unwrap();
+    assert_same(&found, &expected, extractor.settings());
     drop(device);
     assert_eq!(log.messages(), Vec::<String>::new());
 }

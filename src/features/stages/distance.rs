@@ -6,12 +6,12 @@ use super::generated::{self, distance_comp};
 use super::{record_views, rows};
 use crate::features::Metric;
 use crate::features::device::DeviceView;
-use crate::gpu::{Device, Pipeline, Recorder, Stage};
+use crate::gpu::{ComputeStage, Device, Recorder, Stage};
 
 /// The stage.
 #[derive(Debug)]
 pub(in crate::features) struct DistanceStage {
-    pipeline: Pipeline,
+    stage: ComputeStage,
 }
 
 impl DistanceStage {
@@ -25,12 +25,12 @@ impl DistanceStage {
         };
         let constants = [(distance_comp::constants::METRIC, metric)];
         let stage = Stage { shader: &distance_comp::SHADER, constants: &constants };
-        Ok(Self { pipeline: device.compute_pipeline(stage)? })
+        Ok(Self { stage: ComputeStage::new(device, "distance", stage)? })
     }
 
     /// Records it: `reach` to `codes`.
-    pub(in crate::features) fn record(&self, recorder: &mut Recorder, views: &[DeviceView]) -> Result<()> {
-        record_views(recorder, "distance", &self.pipeline, views, |view| {
+    pub(in crate::features) fn record(&self, recorder: &mut Recorder, views: &[&DeviceView]) -> Result<()> {
+        record_views(recorder, &self.stage, views, |view| {
             let bindings = distance_comp::Bindings { reach: &view.reach, codes: &view.codes };
             (bindings.bound(), view.picture, rows(&view.picture))
         })

@@ -1,25 +1,29 @@
-//! Edges near the silhouette: the twin of [`crate::features::edges::EdgeDetector`], Canny's left out.
+//! Edges near the silhouette, by gradients or zero crossings: the twin of [`crate::features::edges::EdgeDetector`] with those operators.
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 
 use super::generated::{self, edges_comp};
-use super::{Picture, record_views, rows};
-use crate::features::device::DeviceView;
-use crate::features::{EdgeSettings, Magnitude, Operator};
-use crate::gpu::{Device, Pipeline, Recorder, Stage};
+use super::{CannyStage, ComponentsStages, Keep, Picture, magnitude, record_views, rows};
+use crate::features::device::{DeviceView, Plane};
+use crate::features::{EdgeSettings, Operator};
+use crate::gpu::{ComputeStage, Device, Recorder, Stage};
 
-/// The stage.
+/// What finds the edges.
 #[derive(Debug)]
-pub(in crate::features) struct EdgesStage {
-    pipeline: Pipeline,
-    threshold: i32,
+pub(in crate::features) enum EdgesStage {
+    /// One pass.
+    Local {
+        /// The pass.
+        stage: ComputeStage,
+        /// The weakest edge.
+        threshold: i32,
+    },
+    /// Thinning, then hysteresis.
+    Canny(Box<(CannyStage, ComponentsStages)>),
 }
 
 impl EdgesStage {
     /// Compiles it.
-    ///
-    /// # Errors
-    /// When the operator is Canny's, which follows chains of pixels as long as they are.
     pub(in crate::features) fn new(device: &Device, settings: &EdgeSettings) -> Result<Self> {
         let operator = match settings.operator {
             Operator::Sobel => generated::EDGES_SOBEL,
@@ -29,25 +33,32 @@ impl EdgesStage {
             Operator::LaplaceEight => generated::EDGES_LAPLACE_EIGHT,
             Operator::LaplaceProduct => generated::EDGES_LAPLACE_PRODUCT,
             Operator::Canny => {
-                bail!("[features] edges.operator is \"canny\", which a device does not do, expected one of the others")
+                let thinning = CannyStage::new(device, settings)?;
+                return Ok(Self::Canny(Box::new((thinning, ComponentsStages::new(device, Keep::Touched)?))));
             }
         };
-        let magnitude = match settings.magnitude {
-            Magnitude::Exact => generated::MAGNITUDE_EXACT,
-            Magnitude::Sum => generated::MAGNITUDE_SUM,
-            Magnitude::Max => generated::MAGNITUDE_MAX,
-        };
         use edges_comp::constants as id;
-        let constants = [(id::OPERATOR, operator), (id::MAGNITUDE, magnitude)];
+        let constants = [(id::OPERATOR, operator), (id::MAGNITUDE, magnitude(settings.magnitude))];
         let stage = Stage { shader: &edges_comp::SHADER, constants: &constants };
-        Ok(Self { pipeline: device.compute_pipeline(stage)?, threshold: i32::from(settings.threshold) })
+        Ok(Self::Local { stage: ComputeStage::new(device, "edges", stage)?, threshold: i32::from(settings.threshold) })
     }
 
-    /// Records it: `smoothed`, where `near` is set, to `edges`.
-    pub(in crate::features) fn record(&self, recorder: &mut Recorder, views: &[DeviceView]) -> Result<()> {
-        record_views(recorder, "edges", &self.pipeline, views, |view| {
-            let bindings = edges_comp::Bindings { smoothed: &view.smoothed, near: &view.near, edges: &view.edges };
-            (bindings.bound(), Picture { amount: self.threshold, ..view.picture }, rows(&view.picture))
-        })
+    /// Records it: `smoothed`, where the near plane is set, to the edges plane; the work and strong planes are written over.
+    pub(in crate::features) fn record(&self, recorder: &mut Recorder, views: &[&DeviceView]) -> Result<()> {
+        match self {
+            Self::Local { stage, threshold } => record_views(recorder, stage, views, |view| {
+                let bindings = edges_comp::Bindings {
+                    smoothed: &view.smoothed,
+                    near: view.plane(Plane::Near),
+                    edges: view.plane(Plane::Edges),
+                };
+                (bindings.bound(), Picture { amount: *threshold, ..view.picture }, rows(&view.picture))
+            }),
+            Self::Canny(stages) => {
+                let (thinning, hysteresis) = stages.as_ref();
+                thinning.record(recorder, views, [Plane::WorkA, Plane::Strong])?;
+                hysteresis.record(recorder, views, Plane::Strong, [Plane::WorkA, Plane::Edges])
+            }
+        }
     }
 }

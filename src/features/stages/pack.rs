@@ -3,17 +3,14 @@
 use anyhow::Result;
 
 use super::generated::pack_comp;
-use super::{ROW_GROUP, record_views};
-use crate::features::device::DeviceView;
-use crate::gpu::{Buffer, Device, Memory, Pipeline, Recorder, Stage};
-
-/// Most workgroups in one direction that every device runs.
-const MOST_GROUPS: u32 = 65535;
+use super::{flat_groups, record_views};
+use crate::features::device::{DeviceView, Plane};
+use crate::gpu::{Buffer, ComputeStage, Device, Memory, Recorder, Stage};
 
 /// The stage, with the proximity of every distance on the device.
 #[derive(Debug)]
 pub(in crate::features) struct PackStage {
-    pipeline: Pipeline,
+    stage: ComputeStage,
     proximity: Buffer,
 }
 
@@ -23,21 +20,21 @@ impl PackStage {
         let table = device.buffer::<u32>("proximity table", proximity.len().div_ceil(4), Memory::Upload)?;
         table.write(0, proximity)?;
         let stage = Stage { shader: &pack_comp::SHADER, constants: &[] };
-        Ok(Self { pipeline: device.compute_pipeline(stage)?, proximity: table })
+        Ok(Self { stage: ComputeStage::new(device, "pack", stage)?, proximity: table })
     }
 
     /// Records it: `silhouette` and `codes` to `packed`.
-    pub(in crate::features) fn record(&self, recorder: &mut Recorder, views: &[DeviceView]) -> Result<()> {
+    pub(in crate::features) fn record(&self, recorder: &mut Recorder, views: &[&DeviceView]) -> Result<()> {
         let proximity = &self.proximity;
-        record_views(recorder, "pack", &self.pipeline, views, |view| {
+        record_views(recorder, &self.stage, views, |view| {
             let bindings = pack_comp::Bindings {
-                silhouette: &view.silhouette,
+                silhouette: view.plane(Plane::Silhouette),
                 codes: &view.codes,
                 proximity,
                 packed: &view.packed,
             };
-            let groups = (view.picture.width * view.picture.height).div_ceil(4 * ROW_GROUP);
-            (bindings.bound(), view.picture, [groups.min(MOST_GROUPS), groups.div_ceil(MOST_GROUPS), 1])
+            let words = (view.picture.width * view.picture.height).div_ceil(4);
+            (bindings.bound(), view.picture, flat_groups(words))
         })
     }
 }

@@ -1,0 +1,50 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// The colours of the most probable components on the grid that the light is measured on.
+
+#include "features/constants.glsl"
+#include "features/quotient.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430, set = 0, binding = 0) readonly buffer State { float state[]; };
+layout(std430, set = 0, binding = 1) writeonly buffer Background { uint background[]; };
+
+layout(push_constant) uniform Probable {
+    uint width;
+    uint rows;      // of the band
+    uint first_row; // a multiple of the grid
+} push;
+
+layout(constant_id = 0) const uint COMPONENTS = 3u;
+
+// To the nearest whole number, halves up, within 0 to 255.
+uint rounded(float value) {
+    float down = floor(value);
+    float up = value - down >= 0.5 ? down + 1.0 : down;
+    return uint(clamp(up, 0.0, 255.0));
+}
+
+void main() {
+    uint components = COMPONENTS;
+    uint columns = (push.width + RATIO_GRID - 1u) / RATIO_GRID;
+    uint column = gl_GlobalInvocationID.x;
+    uint row = gl_GlobalInvocationID.y * RATIO_GRID;
+    if (column >= columns || row >= push.rows) return;
+    uint pixels = push.width * push.rows;
+    uint pixel = row * push.width + column * RATIO_GRID;
+    float greatest = -1.0;
+    uint colour = 0u;
+    for (uint k = 0u; k < components; k++) {
+        uint at = k * MIXTURE_FIELDS * pixels + pixel;
+        float weight = state[at];
+        precise float squared = weight * weight;
+        float rank = quotient(squared, state[at + 4u * pixels]);
+        if (rank > greatest) {
+            greatest = rank;
+            colour = rounded(state[at + pixels]) | (rounded(state[at + 2u * pixels]) << 8u) | (rounded(state[at + 3u * pixels]) << 16u);
+        }
+    }
+    background[(push.first_row + row) / RATIO_GRID * columns + column] = colour;
+}

@@ -1,0 +1,233 @@
+//! What the device keeps of one view.
+
+use anyhow::Result;
+use bytemuck::Pod;
+use image::RgbImage;
+
+use crate::features::MixtureSettings;
+use crate::features::stages::{MIXTURE_FIELDS, Picture, RATIO_COUNTS, RATIO_GRID, Rates};
+use crate::gpu::{Buffer, Device, Memory, Recorder, Timing};
+
+/// A bit picture of a view; rows are whole 64-bit words, as those of [`crate::features::BitImage`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::features) enum Plane {
+    /// As segmented.
+    Foreground,
+    /// What differs from the plate beyond doubt; then Canny's edges beyond doubt.
+    Strong,
+    /// What differs from the plate at all.
+    Faint,
+    /// Written over by whatever needs room.
+    WorkA,
+    /// Likewise.
+    WorkB,
+    /// Likewise.
+    WorkC,
+    /// The cleaned silhouette.
+    Silhouette,
+    /// That, dilated.
+    Near,
+    /// Edges near the silhouette.
+    Edges,
+}
+
+impl Plane {
+    /// How many there are.
+    const COUNT: usize = Self::Edges as usize + 1;
+}
+
+/// The forest of connected components; most a node for every two pixels.
+#[derive(Debug)]
+pub(in crate::features) struct Forest {
+    /// Of each node, another of its component that comes no later.
+    pub(in crate::features) labels: Buffer,
+    /// Of each root, the pixels of its component and a mark.
+    pub(in crate::features) areas: Buffer,
+    /// The number of roots, and the roots.
+    pub(in crate::features) roots: Buffer,
+}
+
+/// What is known of the light.
+#[derive(Debug)]
+pub(in crate::features) struct Light {
+    /// The background's colours on a grid of pixels, a word each.
+    pub(in crate::features) grid: Buffer,
+    /// Counted ratios of the three channels.
+    pub(in crate::features) counts: Buffer,
+    /// How bright the picture is, channel by channel.
+    pub(in crate::features) gains: Buffer,
+}
+
+/// Rows of a mixture's state: as many as the device binds at once.
+#[derive(Debug)]
+pub(in crate::features) struct Band {
+    /// First row of the picture.
+    pub(in crate::features) first_row: u32,
+    /// Number of rows.
+    pub(in crate::features) rows: u32,
+    /// Single-precision numbers by component, field, pixel.
+    pub(in crate::features) state: Buffer,
+}
+
+#[derive(Debug)]
+enum Background {
+    Plate(Buffer),
+    Mixture(Vec<Band>),
+}
+
+/// The buffers of one view.
+#[derive(Debug)]
+pub(in crate::features) struct DeviceView {
+    /// What passes on it are told.
+    pub(in crate::features) picture: Picture,
+    pub(super) colours_in: Buffer,
+    pub(super) mask_in: Buffer,
+    /// Red, green, blue bytes, row-major.
+    pub(in crate::features) colours: Buffer,
+    planes: Vec<Buffer>,
+    background: Background,
+    /// The rates of a mixture's next step.
+    pub(in crate::features) rates: Buffer,
+    /// How the picture's light differs from the background's.
+    pub(in crate::features) light: Light,
+    /// Room for finding components.
+    pub(in crate::features) forest: Forest,
+    /// The silhouette's bounding box.
+    pub(in crate::features) sides: Buffer,
+    /// Grey values, a word each.
+    pub(in crate::features) smoothed: Buffer,
+    /// Vertical distances, a word each.
+    pub(in crate::features) reach: Buffer,
+    /// Distances as [`crate::features::Metric::code`] writes them, a word each.
+    pub(in crate::features) codes: Buffer,
+    /// Packed bytes, row-major.
+    pub(in crate::features) packed: Buffer,
+    pub(super) foreground_out: Buffer,
+    pub(super) silhouette_out: Buffer,
+    pub(super) sides_out: Buffer,
+    pub(super) edges_out: Buffer,
+    pub(super) codes_out: Buffer,
+    pub(super) packed_out: Buffer,
+}
+
+impl DeviceView {
+    /// Buffers for pictures of that size, with the plate's pixels uploaded where there is one.
+    pub(in crate::features) fn new(
+        device: &Device,
+        [width, height]: [u32; 2],
+        plate: Option<&RgbImage>,
+        mixture: &MixtureSettings,
+        limit: u8,
+    ) -> Result<Self> {
+        let (pixels, rows) = (width as usize * height as usize, height as usize);
+        // As the words of a `BitImage`, whose rows are whole 64-bit words.
+        let stride = 2 * width.div_ceil(64);
+        let words = |name: &str, count: usize, memory: Memory| device.buffer::<u32>(name, count, memory);
+        let (bits, colours) = (stride as usize * rows, (3 * pixels).div_ceil(4));
+        let grid = (width.div_ceil(RATIO_GRID) * height.div_ceil(RATIO_GRID)) as usize;
+        let background = match plate {
+            Some(_) => Background::Plate(words("plate", colours, Memory::Device)?),
+            None => Background::Mixture(bands(device, [width, height], mixture.components as u32)?),
+        };
+        let view = Self {
+            picture: Picture { width, height, stride, limit: u32::from(limit), amount: 0, low: 0 },
+            colours_in: words("colours staging", colours, Memory::Upload)?,
+            mask_in: words("mask staging", bits, Memory::Upload)?,
+            colours: words("colours", colours, Memory::Device)?,
+            planes: (0..Plane::COUNT).map(|_| words("bit picture", bits, Memory::Device)).collect::<Result<_>>()?,
+            background,
+            rates: device.buffer::<Rates>("rates", 1, Memory::Upload)?,
+            light: Light {
+                grid: words("light's grid", grid, Memory::Device)?,
+                counts: words("ratios", 3 * RATIO_COUNTS as usize, Memory::Device)?,
+                gains: words("gains", 3, Memory::Device)?,
+            },
+            forest: Forest {
+                labels: words("labels", 16 * bits, Memory::Device)?,
+                areas: words("areas", 16 * bits, Memory::Device)?,
+                // Two components are a pixel apart in either direction.
+                roots: words("roots", 1 + width.div_ceil(2) as usize * rows.div_ceil(2), Memory::Device)?,
+            },
+            sides: words("bounds", 4, Memory::Device)?,
+            smoothed: words("smoothed", pixels, Memory::Device)?,
+            reach: words("reach", pixels, Memory::Device)?,
+            codes: words("codes", pixels, Memory::Device)?,
+            packed: words("packed", pixels.div_ceil(4), Memory::Device)?,
+            foreground_out: words("foreground readback", bits, Memory::Readback)?,
+            silhouette_out: words("silhouette readback", bits, Memory::Readback)?,
+            sides_out: words("bounds readback", 4, Memory::Readback)?,
+            edges_out: words("edges readback", bits, Memory::Readback)?,
+            codes_out: words("codes readback", pixels, Memory::Readback)?,
+            packed_out: words("packed readback", pixels.div_ceil(4), Memory::Readback)?,
+        };
+        if let (Background::Plate(buffer), Some(plate)) = (&view.background, plate) {
+            let step = RATIO_GRID as usize;
+            let on_grid: Vec<u32> = (0..height)
+                .step_by(step)
+                .flat_map(|y| (0..width).step_by(step).map(move |x| (x, y)))
+                .map(|(x, y)| {
+                    let [red, green, blue] = plate.get_pixel(x, y).0;
+                    u32::from_le_bytes([red, green, blue, 0])
+                })
+                .collect();
+            view.fill(device, buffer, plate.as_raw().as_slice())?;
+            view.fill(device, &view.light.grid, &on_grid)?;
+        }
+        Ok(view)
+    }
+
+    /// Copies values to the device once, through the staging of the colours.
+    fn fill<T: Pod>(&self, device: &Device, to: &Buffer, values: &[T]) -> Result<()> {
+        self.colours_in.write(0, values)?;
+        let mut recorder = device.recorder(Timing::Off)?;
+        recorder.copy("upload", (&self.colours_in, 0), (to, 0), to.size())?;
+        recorder.finish()?.run()
+    }
+
+    /// A bit picture.
+    pub(in crate::features) fn plane(&self, plane: Plane) -> &Buffer {
+        &self.planes[plane as usize]
+    }
+
+    /// Words of a bit picture.
+    pub(in crate::features) fn words(&self) -> u32 {
+        self.picture.stride * self.picture.height
+    }
+
+    /// Red, green, blue bytes of the plate, where there is one.
+    pub(in crate::features) fn plate(&self) -> Option<&Buffer> {
+        match &self.background {
+            Background::Plate(plate) => Some(plate),
+            Background::Mixture(_) => None,
+        }
+    }
+
+    /// The mixture's state; nothing where there is a plate.
+    pub(in crate::features) fn bands(&self) -> &[Band] {
+        match &self.background {
+            Background::Plate(_) => &[],
+            Background::Mixture(bands) => bands,
+        }
+    }
+}
+
+/// Records the copy of a whole buffer into one of the same size.
+pub(super) fn copy_whole(recorder: &mut Recorder, name: &str, from: &Buffer, to: &Buffer) -> Result<()> {
+    recorder.copy(name, (from, 0), (to, 0), from.size())
+}
+
+/// Room for the mixtures of a picture, in bands of rows that the device can bind.
+fn bands(device: &Device, [width, height]: [u32; 2], components: u32) -> Result<Vec<Band>> {
+    let row = u64::from(width * components * MIXTURE_FIELDS);
+    let most = device.capabilities().max_storage / (4 * row);
+    // Whole rows of the grid, so that every band begins on one.
+    let most = (u32::try_from(most).unwrap_or(u32::MAX) / RATIO_GRID).max(1).saturating_mul(RATIO_GRID);
+    (0..height)
+        .step_by(most as usize)
+        .map(|first_row| {
+            let rows = most.min(height - first_row);
+            let state = device.buffer::<f32>("mixtures", row as usize * rows as usize, Memory::Device)?;
+            Ok(Band { first_row, rows, state })
+        })
+        .collect()
+}
