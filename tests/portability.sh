@@ -13,7 +13,7 @@ top=$(cd "$(dirname "$0")/.." && pwd)
 cd "$top"
 work=$top/target/portability
 mkdir -p "$work"
-[ $# -gt 0 ] || set -- gpu:: vulkan search::device
+[ $# -gt 0 ] || set -- gpu:: vulkan search::device features::device features::stages texture::stages synth::device
 
 say() { printf '%s\n' "$*" >&2; }
 
