@@ -6,6 +6,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use pantin::body::Body;
 use pantin::evaluate::vulkan::open_device;
+use pantin::gpu::by_name;
 use pantin::synth::device::DevicePainter;
 use pantin::synth::figure::{Figure, Wardrobe};
 use pantin::synth::render::{Cast, View};
@@ -38,6 +39,9 @@ fn of_frames(criterion: &mut Criterion) {
                     painter.pictures(&cast, &views, &[true; 4]).unwrap()
                 });
             });
+            for (pass, ms, _) in by_name(&painter.timings().unwrap()) {
+                eprintln!("{pass}: {ms:.2} ms by the time stamps around it");
+            }
         }
         Err(error) => eprintln!("no device: {error:#}"),
     }
