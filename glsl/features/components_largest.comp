@@ -64,8 +64,7 @@ void main() {
             least = max(least, uint(ceil(part)));
         }
         if (area_before > 0u && area_before >= least && lane == 0u) areas[root_before] = area_before | MARK;
-        // What is marked is read by the others in the next round.
-        memoryBarrierBuffer();
+        // All have read the best before the next round writes over it; marks are not looked at.
         barrier();
     }
 }
