@@ -142,6 +142,23 @@ fn the_device_s_features_are_the_processor_s() {
 }
 
 #[test]
+fn a_picture_of_3840_by_2160_is_the_processor_s() {
+    let Some((device, log)) = device("a_picture_of_3840_by_2160_is_the_processor_s", DeviceSettings::default()) else {
+        return;
+    };
+    let (size, mut settings) = ([3840, 2160], FeatureSettings::default());
+    settings.edges.operator = Operator::Canny;
+    let source = ViewSource { width: size[0], height: size[1], plate: Some(room(size, 77)) };
+    let (pictures, masks) = ([picture(size, 4)], [None]);
+    let expected = Extractor::new(settings.clone(), vec![source.clone()]).unwrap().extract(&pictures, &masks).unwrap();
+    let mut chain = Extractor::on_device(settings.clone(), vec![source], &device).unwrap();
+    assert!(expected[0].edges.count() > 0 && expected[0].silhouette.count() > 0);
+    assert_same(&chain.extract(&pictures, &masks).unwrap(), &expected, &settings);
+    drop((chain, device));
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+#[test]
 fn passes_are_timed_when_asked() {
     let Some((device, _)) = device("passes_are_timed_when_asked", DeviceSettings::default()) else { return };
     let mut chain = Extractor::on_device(settings(6), sources(), &device).unwrap();
