@@ -64,8 +64,9 @@ impl Default for MixtureSettings {
     }
 }
 
-/// Pixels worked on together: what the inner loops over lanes are unrolled to vector instructions by.
-const LANES: usize = 8;
+/// Pixels worked on together: a few of the widest vectors, and too many for the compiler to unroll the loop over them before
+/// it makes vector code of it.
+const LANES: usize = 32;
 
 /// Values of a component: weight, mean red, green, blue, variance.
 const FIELDS: usize = super::stages::MIXTURE_FIELDS as usize;
@@ -152,38 +153,84 @@ impl Mixture {
             dim: if settings.gain && !first { self.gain::<K>(picture).map(|gain| 1.0 / gain) } else { [1.0; 3] },
         };
         self.frames = self.frames.saturating_add(1);
-        let row_state = self.blocks * K * FIELDS * LANES;
+        let band_state = self.blocks * K * FIELDS * LANES * ROWS;
         let tasks = self
             .state
-            .par_chunks_mut(row_state * ROWS)
+            .par_chunks_mut(band_state)
             .zip(picture.as_raw().par_chunks(width * 3 * ROWS))
             .zip(foreground.par_chunks_mut(width * ROWS));
         tasks.for_each_init(
             || [const { Vec::new() }; 3],
             |planes, ((state, rgb), foreground)| {
-                let rows = state.chunks_exact_mut(row_state).zip(rgb.chunks_exact(width * 3));
-                for ((state, rgb), foreground) in rows.zip(foreground.chunks_exact_mut(width)) {
-                    split_row(rgb, planes);
-                    let blocks = state.as_chunks_mut::<LANES>().0.chunks_exact_mut(K * FIELDS);
-                    for (block, (lanes, flags)) in blocks.zip(foreground.chunks_mut(LANES)).enumerate() {
-                        let at = block * LANES..(block * LANES + flags.len());
-                        let mut seen = [[0.0; LANES]; 3];
-                        for ((seen, plane), dim) in seen.iter_mut().zip(planes.iter()).zip(rates.dim) {
-                            for (seen, value) in seen.iter_mut().zip(&plane[at.clone()]) {
-                                *seen = value * dim;
-                            }
-                        }
-                        let result = if first {
-                            start_block::<K>(lanes, &seen, &settings);
-                            [0; LANES]
-                        } else {
-                            update_block::<K>(lanes, &seen, rates, &settings, shadow)
-                        };
-                        flags.copy_from_slice(&result[..flags.len()]);
-                    }
-                }
+                update_rows(Rows { state, rgb, foreground, width, first }, rates, &settings, shadow, planes);
             },
         );
+    }
+}
+
+/// Some rows of a picture, with their mixtures.
+struct Rows<'a> {
+    state: &'a mut [f32],
+    rgb: &'a [u8],
+    foreground: &'a mut [u8],
+    width: usize,
+    /// Whether nothing was seen before.
+    first: bool,
+}
+
+/// Updates some rows; `planes` is room for one row's channels. Compiled for the wider vectors too: no operation is fused, so that
+/// every version gives the same numbers.
+#[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn update_rows(
+    rows: Rows<'_>,
+    rates: Rates,
+    settings: &MixtureSettings,
+    shadow: &ShadowSettings,
+    planes: &mut [Vec<f32>; 3],
+) {
+    match (settings.components, settings.adaptation) {
+        (3, Adaptation::Weight) => update_rows_k::<3, false>(rows, rates, settings, shadow, planes),
+        (4, Adaptation::Weight) => update_rows_k::<4, false>(rows, rates, settings, shadow, planes),
+        // The settings' check lets no other number through.
+        (_, Adaptation::Weight) => update_rows_k::<5, false>(rows, rates, settings, shadow, planes),
+        (3, Adaptation::Density) => update_rows_k::<3, true>(rows, rates, settings, shadow, planes),
+        (4, Adaptation::Density) => update_rows_k::<4, true>(rows, rates, settings, shadow, planes),
+        (_, Adaptation::Density) => update_rows_k::<5, true>(rows, rates, settings, shadow, planes),
+    }
+}
+
+#[inline(always)]
+fn update_rows_k<const K: usize, const DENSITY: bool>(
+    rows: Rows<'_>,
+    rates: Rates,
+    settings: &MixtureSettings,
+    shadow: &ShadowSettings,
+    planes: &mut [Vec<f32>; 3],
+) {
+    let Rows { state, rgb, foreground, width, first } = rows;
+    let row_state = width.div_ceil(LANES) * K * FIELDS * LANES;
+    let rows = state.chunks_exact_mut(row_state).zip(rgb.chunks_exact(width * 3));
+    for ((state, rgb), foreground) in rows.zip(foreground.chunks_exact_mut(width)) {
+        split_row(rgb, planes);
+        let blocks = state.as_chunks_mut::<LANES>().0.as_chunks_mut::<FIELDS>().0.as_chunks_mut::<K>().0;
+        for (block, (lanes, flags)) in blocks.iter_mut().zip(foreground.chunks_mut(LANES)).enumerate() {
+            let at = block * LANES..(block * LANES + flags.len());
+            let mut seen = [[0.0; LANES]; 3];
+            for ((seen, plane), dim) in seen.iter_mut().zip(planes.iter()).zip(rates.dim) {
+                for (seen, value) in seen.iter_mut().zip(&plane[at.clone()]) {
+                    *seen = value * dim;
+                }
+            }
+            let result = if first {
+                start_block(lanes, &seen, settings);
+                [0; LANES]
+            } else {
+                update_block::<K, DENSITY>(lanes, &seen, rates, settings, shadow)
+            };
+            for (flag, result) in flags.iter_mut().zip(result) {
+                *flag = result as u8;
+            }
+        }
     }
 }
 
@@ -201,8 +248,8 @@ fn most_probable(lanes: &[Lanes], lane: usize) -> [u8; 3] {
 }
 
 /// The first picture: one component at the colour, the others without weight and out of every colour's reach.
-fn start_block<const K: usize>(lanes: &mut [Lanes], seen: &[Lanes; 3], settings: &MixtureSettings) {
-    for (k, component) in lanes.chunks_exact_mut(FIELDS).take(K).enumerate() {
+fn start_block(lanes: &mut [[Lanes; FIELDS]], seen: &[Lanes; 3], settings: &MixtureSettings) {
+    for (k, component) in lanes.iter_mut().enumerate() {
         component[0] = [if k == 0 { 1.0 } else { 0.0 }; LANES];
         for channel in 0..3 {
             component[1 + channel] = if k == 0 { seen[channel] } else { [-1e4; LANES] };
@@ -213,107 +260,88 @@ fn start_block<const K: usize>(lanes: &mut [Lanes], seen: &[Lanes; 3], settings:
 
 /// One picture's step for [`LANES`] pixels; returns their foreground flags.
 ///
-/// Every choice is made by comparing and selecting values, never by a branch, so that the loops over lanes become
-/// vector code.
-#[inline]
-fn update_block<const K: usize>(
-    lanes: &mut [Lanes],
+/// One loop over lanes, long enough not to be unrolled, and every choice made by comparing and selecting values, never by a
+/// branch: so the compiler turns it into vector code.
+#[inline(always)]
+fn update_block<const K: usize, const DENSITY: bool>(
+    lanes: &mut [[Lanes; FIELDS]; K],
     seen: &[Lanes; 3],
     rates: Rates,
     settings: &MixtureSettings,
     shadow: &ShadowSettings,
-) -> [u8; LANES] {
-    let mut component = [[[0.0_f32; LANES]; FIELDS]; K];
-    for (k, component) in component.iter_mut().enumerate() {
-        component.copy_from_slice(&lanes[k * FIELDS..][..FIELDS]);
-    }
-
-    // Squared distance, and the rank (w / sigma)² by which components are more or less probable.
-    let (mut distance, mut rank) = ([[0.0_f32; LANES]; K], [[0.0_f32; LANES]; K]);
-    for k in 0..K {
-        let [weight, red, green, blue, variance] = &component[k];
-        for l in 0..LANES {
-            let (dr, dg, db) = (seen[0][l] - red[l], seen[1][l] - green[l], seen[2][l] - blue[l]);
-            distance[k][l] = dr * dr + dg * dg + db * db;
-            rank[k][l] = weight[l] * weight[l] / variance[l];
-        }
-    }
-
-    // The most probable component that matches, and the least and most probable of all.
-    let (mut best, mut best_rank) = ([K as f32; LANES], [-1.0_f32; LANES]);
-    let (mut least, mut least_rank) = ([0.0_f32; LANES], [f32::INFINITY; LANES]);
-    let (mut top, mut top_rank) = ([[0.0_f32; LANES]; 3], [-1.0_f32; LANES]);
-    for k in 0..K {
-        for l in 0..LANES {
-            let matches = (distance[k][l] <= rates.match_squared * component[k][4][l]) & (rank[k][l] > best_rank[l]);
-            best[l] = if matches { k as f32 } else { best[l] };
-            best_rank[l] = if matches { rank[k][l] } else { best_rank[l] };
-            let lesser = rank[k][l] < least_rank[l];
-            least[l] = if lesser { k as f32 } else { least[l] };
-            least_rank[l] = if lesser { rank[k][l] } else { least_rank[l] };
-            let greater = rank[k][l] > top_rank[l];
-            top_rank[l] = if greater { rank[k][l] } else { top_rank[l] };
-            for channel in 0..3 {
-                top[channel][l] = if greater { component[k][1 + channel][l] } else { top[channel][l] };
-            }
-        }
-    }
-
-    // Background: the weight of everything more probable than the matched component has not yet reached the fraction.
-    let mut before = [0.0_f32; LANES];
-    for k in 0..K {
-        for l in 0..LANES {
-            before[l] += if rank[k][l] > best_rank[l] { component[k][0][l] } else { 0.0 };
-        }
-    }
-    let mut flags = [0; LANES];
-    for l in 0..LANES {
-        let unexplained = (best[l] == K as f32) | (before[l] >= settings.background_weight);
-        let background = [top[0][l], top[1][l], top[2][l]];
-        let in_shadow = shadow.covers([seen[0][l], seen[1][l], seen[2][l]], background);
-        flags[l] = u8::from(unexplained & !in_shadow);
-    }
-
-    // The update. A component that is replaced takes the pixel's colour, a large variance and a small weight.
+) -> [u32; LANES] {
     let (initial_variance, least_variance) =
         (settings.initial_sigma * settings.initial_sigma, settings.min_sigma * settings.min_sigma);
-    let mut total = [0.0_f32; LANES];
-    for k in 0..K {
-        let mut rho = [0.0_f32; LANES];
-        for l in 0..LANES {
-            let matched = best[l] == k as f32;
-            let weight = component[k][0][l] * (1.0 - rates.alpha) + if matched { rates.alpha } else { 0.0 };
-            component[k][0][l] = weight;
-            rho[l] = if matched { (rates.alpha / weight.max(1e-6)).min(1.0) } else { 0.0 };
+    let mut flags = [0; LANES];
+    for l in 0..LANES {
+        let seen = [seen[0][l], seen[1][l], seen[2][l]];
+        let mut weight = [0.0_f32; K];
+        let mut variance = [0.0_f32; K];
+        let mut mean = [[0.0_f32; 3]; K];
+        // Squared distance, and the rank (w / sigma)² by which components are more or less probable.
+        let (mut distance, mut rank) = ([0.0_f32; K], [0.0_f32; K]);
+        for k in 0..K {
+            weight[k] = lanes[k][0][l];
+            mean[k] = [lanes[k][1][l], lanes[k][2][l], lanes[k][3][l]];
+            variance[k] = lanes[k][4][l];
+            let (dr, dg, db) = (seen[0] - mean[k][0], seen[1] - mean[k][1], seen[2] - mean[k][2]);
+            distance[k] = dr * dr + dg * dg + db * db;
+            rank[k] = weight[k] * weight[k] / variance[k];
         }
-        if settings.adaptation == Adaptation::Density {
-            for l in 0..LANES {
-                let density = normal_density(distance[k][l], component[k][4][l]);
-                rho[l] = if best[l] == k as f32 { (rates.alpha * density).min(1.0) } else { 0.0 };
+
+        // The most probable component that matches, and the least and most probable of all.
+        let (mut best, mut best_rank, mut best_weight) = (K as u32, -1.0_f32, 0.0);
+        let (mut least, mut least_rank) = (0, f32::INFINITY);
+        let (mut top, mut top_rank) = ([0.0; 3], -1.0_f32);
+        for k in 0..K {
+            let matches = (distance[k] <= rates.match_squared * variance[k]) & (rank[k] > best_rank);
+            best = if matches { k as u32 } else { best };
+            best_rank = if matches { rank[k] } else { best_rank };
+            best_weight = if matches { weight[k] } else { best_weight };
+            let lesser = rank[k] < least_rank;
+            least = if lesser { k as u32 } else { least };
+            least_rank = if lesser { rank[k] } else { least_rank };
+            let greater = rank[k] > top_rank;
+            top_rank = if greater { rank[k] } else { top_rank };
+            for channel in 0..3 {
+                top[channel] = if greater { mean[k][channel] } else { top[channel] };
             }
         }
-        for l in 0..LANES {
-            let replaced = (best[l] == K as f32) & (least[l] == k as f32);
+
+        // Background: the weight of everything more probable than the matched component has not yet reached the fraction.
+        let mut before = 0.0_f32;
+        for k in 0..K {
+            before += if rank[k] > best_rank { weight[k] } else { 0.0 };
+        }
+        let unmatched = best == K as u32;
+        let unexplained = unmatched | (before >= settings.background_weight);
+        flags[l] = u32::from(unexplained & !shadow.covers(seen, top));
+
+        // The update. A component that is replaced takes the pixel's colour, a large variance and a small weight.
+        let followed = best_weight * (1.0 - rates.alpha) + rates.alpha;
+        let follow = (rates.alpha / followed.max(1e-6)).min(1.0);
+        let mut total = 0.0;
+        for k in 0..K {
+            let matched = best == k as u32;
+            let new_weight = weight[k] * (1.0 - rates.alpha) + if matched { rates.alpha } else { 0.0 };
+            let rate = if DENSITY { (rates.alpha * normal_density(distance[k], variance[k])).min(1.0) } else { follow };
+            let rho = if matched { rate } else { 0.0 };
+            let replaced = unmatched & (least == k as u32);
             for channel in 0..3 {
-                let mean = component[k][1 + channel][l];
-                let moved = mean + rho[l] * (seen[channel][l] - mean);
-                component[k][1 + channel][l] = if replaced { seen[channel][l] } else { moved };
+                let moved = mean[k][channel] + rho * (seen[channel] - mean[k][channel]);
+                lanes[k][1 + channel][l] = if replaced { seen[channel] } else { moved };
             }
             // The distance from the mean as it is after the move.
-            let left = (1.0 - rho[l]) * (1.0 - rho[l]) * distance[k][l];
-            let variance = component[k][4][l];
-            let spread = (variance + rho[l] * (left - variance)).max(least_variance);
-            component[k][4][l] = if replaced { initial_variance } else { spread };
-            let weight = if replaced { settings.initial_weight } else { component[k][0][l] };
-            component[k][0][l] = weight;
-            total[l] += weight;
+            let left = (1.0 - rho) * (1.0 - rho) * distance[k];
+            let spread = variance[k] + rho * (left - variance[k]);
+            let spread = if spread > least_variance { spread } else { least_variance };
+            lanes[k][4][l] = if replaced { initial_variance } else { spread };
+            weight[k] = if replaced { settings.initial_weight } else { new_weight };
+            total += weight[k];
         }
-    }
-    for (k, component) in component.iter_mut().enumerate() {
-        for l in 0..LANES {
-            component[0][l] /= total[l];
+        for k in 0..K {
+            lanes[k][0][l] = weight[k] / total;
         }
-        lanes[k * FIELDS..][..FIELDS].copy_from_slice(component);
     }
     flags
 }
