@@ -18,15 +18,19 @@ float pose_value(uint candidate, int slot) {
     return slot < 0 ? 0.0 : poses[candidate * batch.dofs + uint(slot)];
 }
 
+// The component of an axis. By comparing, here and below: an index that is not known when the stage is compiled costs some
+// drivers a branch for every possible value, and much time to compile.
+float in_order(vec3 values, uint axis) {
+    return axis == 0u ? values.x : axis == 1u ? values.y : values.z;
+}
+
 void main() {
     uint candidate = gl_GlobalInvocationID.x;
     if (candidate >= batch.candidates) return;
     uint own = candidate * batch.bones;
     for (uint bone = 0u; bone < batch.bones; bone++) {
         Bone b = bones[bone];
-        precise float m[12];
-        float sine[3];
-        float cosine[3];
+        vec3 sine, cosine;
         for (uint axis = 0u; axis < 3u; axis++) {
             int slot = b.slots[3u + axis];
             vec2 both = slot < 0 ? vec2(0.0, 1.0) : sin_cos(pose_value(batch.first + candidate, slot));
@@ -35,20 +39,20 @@ void main() {
         }
         uint i = b.axes & 3u;
         uint j = (b.axes >> 2) & 3u;
-        uint k = (b.axes >> 4) & 3u;
-        float si = b.parity * sine[i], sj = b.parity * sine[j], sk = b.parity * sine[k];
-        float ci = cosine[i], cj = cosine[j], ck = cosine[k];
-        m[4u * i + i] = cj * ck;
-        m[4u * i + j] = -(cj * sk);
-        m[4u * i + k] = sj;
-        m[4u * j + i] = ci * sk + si * sj * ck;
-        m[4u * j + j] = ci * ck - si * sj * sk;
-        m[4u * j + k] = -(si * cj);
-        m[4u * k + i] = si * sk - ci * sj * ck;
-        m[4u * k + j] = si * ck + ci * sj * sk;
-        m[4u * k + k] = ci * cj;
-        for (uint axis = 0u; axis < 3u; axis++) {
-            m[4u * axis + 3u] = b.offset[axis] + pose_value(batch.first + candidate, b.slots[axis]);
+        float si = b.parity * in_order(sine, i), sj = b.parity * in_order(sine, j);
+        float sk = b.parity * in_order(sine, 3u - i - j);
+        float ci = in_order(cosine, i), cj = in_order(cosine, j), ck = in_order(cosine, 3u - i - j);
+        // Rows and columns in the order of turning, i, j, k.
+        precise vec3 turned_i = vec3(cj * ck, -(cj * sk), sj);
+        precise vec3 turned_j = vec3(ci * sk + si * sj * ck, ci * ck - si * sj * sk, -(si * cj));
+        precise vec3 turned_k = vec3(si * sk - ci * sj * ck, si * ck + ci * sj * sk, ci * cj);
+        precise float m[12];
+        for (uint row = 0u; row < 3u; row++) {
+            vec3 turned = row == i ? turned_i : row == j ? turned_j : turned_k;
+            for (uint column = 0u; column < 3u; column++) {
+                m[4u * row + column] = column == i ? turned.x : column == j ? turned.y : turned.z;
+            }
+            m[4u * row + 3u] = b.offset[row] + pose_value(batch.first + candidate, b.slots[row]);
         }
         for (uint row = 0u; row < 3u; row++) {
             precise vec4 placed;
