@@ -1,18 +1,19 @@
-//! A frame searched in one submission over the compute backend is the frame that the host drives over the same backend, to the
-//! bit: what differs between devices, their evaluation, is the same device's here.
+//! A frame searched in one submission over a backend of the device is the frame that the host drives over the same backend, to
+//! the bit: what differs between devices, their evaluation, is the same device's here.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod device;
 #[allow(dead_code, reason = "poses are the search's own here")]
 mod scene;
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use device::{device, device_under};
-use pantin::body::Body;
-use pantin::evaluate::vulkan::Compute;
+use pantin::body::{Body, Mesh};
+use pantin::evaluate::vulkan::{Comparison, Compute, Gathering, Graphics, GraphicsSettings, Packing};
 use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind};
-use pantin::features::Observation;
+use pantin::features::{Observation, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;
 use pantin::gpu::{DeviceSettings, Timing, Validation, by_name};
 use pantin::search::{DeviceFound, DeviceSearch, Estimate, Search, SearchKind, SearchSettings, SearchSpace};
@@ -25,17 +26,17 @@ fn standing(body: &Body) -> Vec<f32> {
 /// One frame driven by the host.
 fn driven(
     search: &mut dyn Search,
-    compute: &mut Compute,
+    evaluator: &mut dyn Evaluator,
     objective: &Objective,
     frame: u32,
     centre: &[f32],
     spread: &[f32],
 ) -> (Estimate, Vec<Components>) {
     let estimate = search
-        .search_frame(frame, centre, spread, &mut |poses, fitness| compute.fitness(poses, objective, fitness))
+        .search_frame(frame, centre, spread, &mut |poses, fitness| evaluator.fitness(poses, objective, fitness))
         .unwrap();
-    let mut components = vec![Components::default(); compute.view_count()];
-    compute.components(&estimate.pose, &mut components).unwrap();
+    let mut components = vec![Components::default(); evaluator.view_count()];
+    evaluator.components(&estimate.pose, &mut components).unwrap();
     (estimate, components)
 }
 
@@ -84,6 +85,98 @@ fn one_submission_finds_what_the_host_finds_batch_by_batch() {
         }
         assert_eq!(device.validation_log().messages(), Vec::<String>::new());
     }
+}
+
+/// Observations whose silhouettes are of any of three segments.
+fn in_segments(seen: Vec<Observation>, random: &mut Random) -> Vec<Observation> {
+    let segment = |name: &str, labels: Vec<u8>, weight| Segment { name: name.into(), labels, weight };
+    let list = vec![
+        segment("one", (2..6).collect(), 0.5),
+        segment("two", (6..11).collect(), 0.2),
+        segment("three", (11..17).collect(), 0.3),
+    ];
+    let segments = Arc::new(Segments::new(list).unwrap());
+    seen.into_iter()
+        .map(|observation| {
+            let number = |byte: &u8| if byte & Observation::SILHOUETTE == 0 { 0 } else { (random.next() % 4) as u8 };
+            let numbers = observation.bytes.iter().map(number).collect();
+            let (width, height) = (observation.width, observation.height);
+            let segmentation = Segmentation::new(Arc::clone(&segments), width, height, numbers).unwrap();
+            observation.with_segmentation(segmentation).unwrap()
+        })
+        .collect()
+}
+
+#[test]
+fn a_search_by_segments_runs_on_the_device_over_every_backend() {
+    let name = "a_search_by_segments_runs_on_the_device_over_every_backend";
+    let Some((device, _)) = device(name, DeviceSettings::default()) else { return };
+    let (body, cameras) = (Body::adult(1750.0).unwrap(), cameras());
+    let space = SearchSpace::of(&body).unwrap();
+    let spread = space.spread(0.04).unwrap();
+    let mut random = Random(6);
+    let frames: Vec<Vec<Observation>> = (0..2)
+        .map(|_| {
+            let seen = observations(&cameras, &mut random);
+            in_segments(seen, &mut random)
+        })
+        .collect();
+    let objective = Objective { kind: ObjectiveKind::Sp, beta: 0.4, w1: 0.7, w2: 0.3 };
+    let mesh = Mesh::of_body(&body).unwrap();
+    let usual = GraphicsSettings::default();
+    let depth = GraphicsSettings { packing: Packing::Depth, ..usual };
+    let subgroup = GraphicsSettings { comparison: Comparison::Device(Gathering::Subgroup), ..usual };
+    let graphics = |settings| Box::new(Graphics::on(&device, &body, &cameras, settings).unwrap());
+    let evaluators: Vec<(&str, Box<dyn Evaluator>)> = vec![
+        ("compute", Box::new(Compute::on(&device, &body, &cameras).unwrap())),
+        ("graphics", graphics(usual)),
+        ("graphics, depth", graphics(depth)),
+        ("graphics, subgroup", graphics(subgroup)),
+        ("mesh", Box::new(Graphics::of_mesh(&device, &body, mesh, &cameras, usual).unwrap())),
+    ];
+    let mut by_segments = None;
+    for (name, mut evaluator) in evaluators {
+        for kind in on_devices() {
+            let settings = SearchSettings { kind, particles: 23, iterations: 3, seed: 3, ..SearchSettings::default() };
+            // As the tracker does: recorded when the first observations are there.
+            evaluator.observe(&frames[0]).unwrap();
+            let on_device = evaluator.on_device().unwrap();
+            let mut there = DeviceSearch::new(on_device, &objective, &settings, &space, Timing::Off).unwrap();
+            let mut here = settings.build(&space).unwrap();
+            let mut centre = standing(&body);
+            for (frame, seen) in frames.iter().enumerate() {
+                evaluator.observe(seen).unwrap();
+                let found = there.search_frame(frame as u32, &centre, &spread).unwrap();
+                let expected = driven(here.as_mut(), &mut *evaluator, &objective, frame as u32, &centre, &spread);
+                same(&found, &expected);
+                centre = expected.0.pose;
+            }
+            println!("{name}, {kind:?}: the same poses");
+            if name == "graphics" && kind == SearchKind::Pso {
+                by_segments = Some(centre);
+            }
+        }
+        if name == "graphics" {
+            // Whole silhouettes have another best pose: the segments did count.
+            let settings = SearchSettings {
+                kind: SearchKind::Pso,
+                particles: 23,
+                iterations: 3,
+                seed: 3,
+                ..SearchSettings::default()
+            };
+            let mut here = settings.build(&space).unwrap();
+            let mut centre = standing(&body);
+            for (frame, seen) in frames.iter().enumerate() {
+                let whole: Vec<Observation> =
+                    seen.iter().map(|o| Observation { segmentation: None, ..o.clone() }).collect();
+                evaluator.observe(&whole).unwrap();
+                centre = driven(here.as_mut(), &mut *evaluator, &objective, frame as u32, &centre, &spread).0.pose;
+            }
+            assert!(by_segments.as_ref().is_some_and(|segmented| *segmented != centre), "segments made no difference");
+        }
+    }
+    assert_eq!(device.validation_log().messages(), Vec::<String>::new());
 }
 
 /// Four cameras of 640x480 in the places of the small ones.

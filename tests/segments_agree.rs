@@ -1,5 +1,5 @@
-//! Silhouettes compared segment by segment: every evaluator that can gives the reference's integers and fitness, the others say
-//! that they cannot; and the comparison that says so can fail.
+//! Silhouettes compared segment by segment: every evaluator gives the reference's integers and fitness; and the comparison that
+//! says so can fail.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod device;
@@ -11,7 +11,9 @@ use std::sync::Arc;
 use device::device;
 use pantin::body::Body;
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
-use pantin::evaluate::vulkan::{Compute, Graphics, GraphicsSettings};
+use pantin::evaluate::vulkan::{
+    Comparison, Compute, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
+};
 use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind, Reference, SegmentSums};
 use pantin::features::{Observation, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;
@@ -140,6 +142,45 @@ fn compute_gives_the_reference_s_segments() {
     }
 }
 
+/// With every packing, and every way to compare, on the device and on the host.
+#[test]
+fn graphics_gives_the_reference_s_segments() {
+    const NAME: &str = "graphics_gives_the_reference_s_segments";
+    let Some((device, log)) = device(NAME, DeviceSettings::default()) else { return };
+    let (body, cameras, segments) = (Body::adult(1750.0).unwrap(), cameras(), three_segments());
+    let mut random = Random(36);
+    let seen = seen(&body, &cameras, &segments, &mut random);
+    let poses = poses(&body, 200, &mut random);
+    let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
+    let usual = GraphicsSettings::default();
+    for settings in [
+        usual,
+        GraphicsSettings { comparison: Comparison::Device(Gathering::Subgroup), ..usual },
+        GraphicsSettings { comparison: Comparison::Device(Gathering::Shared), ..usual },
+        GraphicsSettings { packing: Packing::Depth, projection: Projection::Feedback, ..usual },
+        GraphicsSettings { tiling: Tiling::Pictures, ..usual },
+        GraphicsSettings { comparison: Comparison::Host(HostComparison::Scalar), packing: Packing::Depth, ..usual },
+        GraphicsSettings { comparison: Comparison::Host(HostComparison::Simd), ..usual },
+    ] {
+        let mut graphics = Graphics::on(&device, &body, &cameras, settings).unwrap();
+        for tiles in ["guessed", "fitted"] {
+            let found = found(&mut graphics, &seen, &poses);
+            let differs = expected.sums.iter().zip(&found.sums).position(|(expected, found)| expected != found);
+            assert_eq!(differs, None, "{settings:?}, {tiles} tiles");
+            assert!(expected.components == found.components, "{settings:?}, {tiles} tiles: components");
+            for (expected, found) in expected.fitness.iter().flatten().zip(found.fitness.iter().flatten()) {
+                assert!((expected - found).abs() <= 1e-5, "{settings:?}, {tiles} tiles: {found} is not {expected}");
+            }
+        }
+        // A moved pose or another segment would show.
+        let mut moved = poses.clone();
+        moved[0] += 40.0;
+        assert!(found(&mut graphics, &seen, &moved).sums != expected.sums, "{settings:?}: a moved pose passed");
+    }
+    drop(device);
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
+
 #[test]
 fn a_changed_segment_is_caught_and_segments_come_and_go() {
     let (body, cameras, segments) = (Body::adult(1750.0).unwrap(), cameras(), three_segments());
@@ -217,25 +258,23 @@ fn one_segment_of_everything_is_the_whole_silhouette() {
 }
 
 #[test]
-fn mixed_observations_and_backends_of_whole_silhouettes_say_so() {
+fn mixed_observations_say_so() {
     let (body, cameras, segments) = (Body::adult(1750.0).unwrap(), cameras(), three_segments());
     let mut seen = seen(&body, &cameras, &segments, &mut Random(34));
-    let name = "mixed_observations_and_backends_of_whole_silhouettes_say_so";
-    if let Some((device, log)) = device(name, DeviceSettings::default()) {
-        let mut graphics = Graphics::on(&device, &body, &cameras, GraphicsSettings::default()).unwrap();
-        let error = graphics.observe(&seen).unwrap_err().to_string();
-        assert!(error.contains("backend graphics compares whole silhouettes alone"), "{error}");
-        drop((graphics, device));
-        assert_eq!(log.messages(), Vec::<String>::new());
-    }
     seen[2].segmentation = None;
-    for evaluator in
-        [&mut Reference::new(&body, &cameras) as &mut dyn Evaluator, &mut Cpu::new(&body, &cameras).unwrap()]
-    {
+    let mut evaluators: Vec<Box<dyn Evaluator>> =
+        vec![Box::new(Reference::new(&body, &cameras)), Box::new(Cpu::new(&body, &cameras).unwrap())];
+    if let Some((device, _)) = device("mixed_observations_say_so", DeviceSettings::default()) {
+        evaluators.push(Box::new(Compute::on(&device, &body, &cameras).unwrap()));
+        evaluators.push(Box::new(Graphics::on(&device, &body, &cameras, GraphicsSettings::default()).unwrap()));
+    }
+    for evaluator in &mut evaluators {
         let error = evaluator.observe(&seen).unwrap_err().to_string();
-        assert!(error.contains("view 0 and view 2 have different segments"), "{error}");
+        assert!(error.contains("view 0 and view 2 have different segments"), "{}: {error}", evaluator.name());
     }
     seen[2].segmentation = Some(Segmentation::new(segments, 1, 1, vec![0]).unwrap());
-    let error = Cpu::new(&body, &cameras).unwrap().observe(&seen).unwrap_err().to_string();
-    assert!(error.contains("segmentation of view 2 is 1x1"), "{error}");
+    for evaluator in &mut evaluators {
+        let error = evaluator.observe(&seen).unwrap_err().to_string();
+        assert!(error.contains("segmentation of view 2 is 1x1"), "{}: {error}", evaluator.name());
+    }
 }

@@ -19,8 +19,53 @@ layout(std430, set = 0, binding = 3) readonly buffer Pixels { uint pixels[]; };
 layout(std430, set = 0, binding = 4) buffer AllSums { Sums sums[]; };
 layout(set = 0, binding = 5) uniform utexture2D framebuffer;
 
-// The bit of a drawn byte that says edge.
+// The bit of a drawn byte that says edge. Below or above it lies the code of the part: the rank, 1 the farthest, or the label.
 layout(constant_id = 0) const uint EDGE_BIT = 0u;
+
+#ifdef SEGMENTED
+#include "evaluate/segments.glsl"
+
+layout(std430, set = 0, binding = 6) readonly buffer SegmentTable {
+    float weights[MOST_SEGMENTS];
+    uint numbers[LABELS]; // of each label, 0 for none
+    uint areas[];
+} table;
+// Read where codes are ranks.
+layout(std430, set = 0, binding = 7) readonly buffer Quads { Quad quads[]; };
+// The number of every observed pixel's segment, packed and placed as `pixels`.
+layout(std430, set = 0, binding = 8) readonly buffer SegmentPixels { uint segment_pixels[]; };
+// [candidate][view][segment]
+layout(std430, set = 0, binding = 9) buffer AllSegmentSums { SegmentSum segment_sums[]; };
+
+// Codes that there may be: SHORT_CODES or LABELS.
+layout(constant_id = 1) const uint CODES = 128u;
+layout(constant_id = 2) const uint SEGMENTS = 8u;
+
+// The number of each code of each channel; of short codes as one word of bits for each bit of the number.
+shared uint code_numbers[CANDIDATES_A_TILE * LABELS];
+shared uint code_bits[CANDIDATES_A_TILE * 4u];
+#endif
+
+// What an invocation counts of one candidate.
+struct Total {
+    uvec4 whole; // as Sums
+#ifdef SEGMENTED
+    // Of the first four segments, and of the others.
+    uvec4 areas;
+    uvec4 overlaps;
+    uvec4 more_areas;
+    uvec4 more_overlaps;
+#endif
+};
+
+// Whose pixels an invocation compares.
+struct Source {
+    int from; // where the observation begins for the tile's origin, in words
+#ifdef SEGMENTED
+    uint channel;
+    uvec4 bits; // of `code_bits`
+#endif
+};
 
 // The tile of a workgroup: what of it is in use, and what of that the workgroup takes - every nth row.
 struct Tile {
@@ -73,26 +118,136 @@ uint observed(int place) {
     return pixels[clamp(place, 0, int(pixels.length()) - 1)];
 }
 
-// Adds four pixels of one candidate: their drawn bytes and their observed ones.
-void add_word(uint drawn, uint seen, inout uvec4 total) {
+#ifdef SEGMENTED
+// Finds the number of every code in the tile; all invocations call it.
+void load_numbers(Tile tile) {
+    uint codes = CODES;
+    uint edge_bit = EDGE_BIT;
+    if (gl_LocalInvocationID.x < CANDIDATES_A_TILE * 4u) code_bits[gl_LocalInvocationID.x] = 0u;
+    barrier();
+    for (uint i = gl_LocalInvocationID.x; i < CANDIDATES_A_TILE * codes; i += COMPARE_GROUP) {
+        uint channel = i / codes;
+        uint code = i % codes;
+        uint number = 0u;
+        if (edge_bit != 0u) {
+            number = code == 0u ? 0u : table.numbers[code];
+        } else if (code > 0u && code <= batch.parts && channel < tile.candidates) {
+            uint image = (tile.first_candidate + channel) * batch.views + tile.view;
+            number = table.numbers[quads[image * batch.parts + batch.parts - code].label & (LABELS - 1u)];
+        }
+        if (codes > SHORT_CODES) {
+            code_numbers[i] = number;
+        } else {
+            for (uint bit = 0u; bit < 4u; bit++) {
+                if ((number >> bit & 1u) == 1u) atomicOr(code_bits[4u * channel + bit], 1u << code);
+            }
+        }
+    }
+    barrier();
+}
+
+// 0x80 in every byte that is 0, of bytes below 0x80.
+uint zero_bytes(uint word) {
+    return ~(word + 0x7f7f7f7fu) & 0x80808080u;
+}
+
+uvec4 zero_bytes(uvec4 words) {
+    return ~(words + 0x7f7f7f7fu) & 0x80808080u;
+}
+
+// Adds four pixels of one candidate segment by segment: their drawn bytes and the observed numbers.
+void add_segments(uint drawn, uint seen, Source source, inout Total total) {
+    uint codes = CODES;
+    uint segments = SEGMENTS;
+    uint edge_bit = EDGE_BIT;
+    uvec4 code = (uvec4(drawn) >> (uvec4(0u, 8u, 16u, 24u) + (edge_bit == 0u ? 1u : 0u))) & (codes - 1u);
+    uvec4 number;
+    if (codes > SHORT_CODES) {
+        uvec4 at = source.channel * codes + code;
+        number = uvec4(code_numbers[at.x], code_numbers[at.y], code_numbers[at.z], code_numbers[at.w]);
+    } else {
+        number = (uvec4(source.bits.x) >> code) & 1u;
+        number |= ((uvec4(source.bits.y) >> code) & 1u) << 1;
+        if (segments > 3u) {
+            number |= ((uvec4(source.bits.z) >> code) & 1u) << 2;
+            number |= ((uvec4(source.bits.w) >> code) & 1u) << 3;
+        }
+    }
+    uint shown = number.x | number.y << 8 | number.z << 16 | number.w << 24;
+    uint same = zero_bytes(shown ^ seen);
+    uvec4 own = zero_bytes(uvec4(shown) ^ uvec4(0x01010101u, 0x02020202u, 0x03030303u, 0x04040404u));
+    total.areas += uvec4(bitCount(own));
+    total.overlaps += uvec4(bitCount(own & same));
+    if (segments > 4u) {
+        own = zero_bytes(uvec4(shown) ^ uvec4(0x05050505u, 0x06060606u, 0x07070707u, 0x08080808u));
+        total.more_areas += uvec4(bitCount(own));
+        total.more_overlaps += uvec4(bitCount(own & same));
+    }
+}
+#endif
+
+// Channel `channel` of the tile; with segments after `load_numbers`.
+Source source_of(Tile tile, uint channel) {
+    Source source;
+    source.from = observed_from(tile, channel);
+#ifdef SEGMENTED
+    uint first = 4u * channel;
+    source.channel = channel;
+    source.bits = uvec4(code_bits[first], code_bits[first + 1u], code_bits[first + 2u], code_bits[first + 3u]);
+#endif
+    return source;
+}
+
+Total nothing() {
+    Total total;
+    total.whole = uvec4(0u);
+#ifdef SEGMENTED
+    total.areas = uvec4(0u);
+    total.overlaps = uvec4(0u);
+    total.more_areas = uvec4(0u);
+    total.more_overlaps = uvec4(0u);
+#endif
+    return total;
+}
+
+// Adds four pixels of one candidate: their drawn bytes, and the word that they are of the tile as if it were the picture.
+void add_word(uint drawn, int place, Source source, inout Total total) {
+    uint seen = observed(source.from + place);
     uint edge_bit = EDGE_BIT;
     uint filled = (((drawn & 0x7f7f7f7fu) + 0x7f7f7f7fu) | drawn) & 0x80808080u;
     uint edges = (drawn >> edge_bit) & 0x01010101u;
     uint near = seen & (edges * 0x7fu);
-    total.x += uint(bitCount(filled));
-    total.y += uint(bitCount(filled & seen));
-    total.z += uint(bitCount(edges));
+    total.whole.x += uint(bitCount(filled));
+    total.whole.y += uint(bitCount(filled & seen));
+    total.whole.z += uint(bitCount(edges));
     uint pairs = (near & 0x00ff00ffu) + ((near >> 8) & 0x00ff00ffu);
-    total.w += (pairs & 0xffffu) + (pairs >> 16);
+    total.whole.w += (pairs & 0xffffu) + (pairs >> 16);
+#ifdef SEGMENTED
+    if (drawn != 0u) {
+        int at = clamp(source.from + place, 0, int(segment_pixels.length()) - 1);
+        add_segments(drawn, segment_pixels[at], source, total);
+    }
+#endif
 }
 
-void add_to_sums(Tile tile, uint channel, uvec4 total) {
-    if (channel >= tile.candidates || total.x == 0u) return;
+void add_to_sums(Tile tile, uint channel, Total total) {
+    if (channel >= tile.candidates || total.whole.x == 0u) return;
     uint image = (batch.first + tile.first_candidate + channel) * batch.views + tile.view;
-    atomicAdd(sums[image].area_model, total.x);
-    atomicAdd(sums[image].overlap, total.y);
-    atomicAdd(sums[image].edges, total.z);
-    atomicAdd(sums[image].proximity, total.w);
+    atomicAdd(sums[image].area_model, total.whole.x);
+    atomicAdd(sums[image].overlap, total.whole.y);
+    atomicAdd(sums[image].edges, total.whole.z);
+    atomicAdd(sums[image].proximity, total.whole.w);
+#ifdef SEGMENTED
+    uint segments = SEGMENTS;
+    for (uint segment = 0u; segment < segments; segment++) {
+        uint own = segment & 3u;
+        uint area = segment < 4u ? total.areas[own] : total.more_areas[own];
+        uint overlap = segment < 4u ? total.overlaps[own] : total.more_overlaps[own];
+        if (area == 0u) continue;
+        atomicAdd(segment_sums[image * MOST_SEGMENTS + segment].area_model, area);
+        atomicAdd(segment_sums[image * MOST_SEGMENTS + segment].overlap, overlap);
+    }
+#endif
 }
 
 #endif

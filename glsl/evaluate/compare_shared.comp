@@ -2,51 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 
-// Compares a tile through shared memory, for devices without shuffles: texels are laid down, and every invocation takes up four
-// pixels of one candidate.
+// Compares whole silhouettes through shared memory.
 
-#include "evaluate/compare.glsl"
-
-layout(local_size_x = COMPARE_GROUP) in;
-
-shared uint words[COMPARE_GROUP];
-shared uvec4 totals[COMPARE_GROUP];
-
-void main() {
-    Tile tile = own_tile();
-    uint rows = own_rows(tile);
-    uint unit = gl_LocalInvocationID.x;
-    uint channel = unit & 3u;
-    uint texels = rows * tile.width;
-    uint steps = (texels + COMPARE_GROUP - 1u) / COMPARE_GROUP;
-    uint width = max(tile.width, 1u);
-    uint x = unit % width;
-    uint row = unit / width;
-    uint step_x = COMPARE_GROUP % width;
-    uint step_rows = COMPARE_GROUP / width;
-    int from = observed_from(tile, channel);
-    uvec4 total = uvec4(0u);
-    for (uint i = 0u; i < steps; i++) {
-        uint y = gl_WorkGroupID.y + row * gl_NumWorkGroups.y;
-        words[unit] = row < rows ? texelFetch(framebuffer, tile.origin + ivec2(x, y), 0).x : 0u;
-        barrier();
-        uint drawn = 0u;
-        for (uint pixel = 0u; pixel < 4u; pixel++) {
-            drawn |= ((words[(unit & ~3u) + pixel] >> (8u * channel)) & 0xffu) << (8u * pixel);
-        }
-        barrier();
-        if (drawn != 0u) add_word(drawn, observed(from + int(y * tile.row_words + (x >> 2))), total);
-        x += step_x;
-        row += step_rows;
-        if (x >= width) {
-            x -= width;
-            row++;
-        }
-    }
-    totals[unit] = total;
-    for (uint half_way = COMPARE_GROUP / 2u; half_way >= 4u; half_way >>= 1) {
-        barrier();
-        if (unit < half_way) totals[unit] += totals[unit + half_way];
-    }
-    if (unit < 4u) add_to_sums(tile, channel, totals[unit]);
-}
+#include "evaluate/compare_shared.glsl"

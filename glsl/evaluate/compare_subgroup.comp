@@ -4,51 +4,6 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
-// Compares a tile by subgroups: an invocation reads a texel, four candidates' pixels; four invocations exchange bytes until
-// each holds four pixels of one candidate. Sums are reduced over the subgroup, whatever its size from 4 on.
+// Compares whole silhouettes by subgroups.
 
-#include "evaluate/compare.glsl"
-
-layout(local_size_x = COMPARE_GROUP) in;
-
-void main() {
-    Tile tile = own_tile();
-    uint rows = own_rows(tile);
-    uint unit = gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
-    uint channel = gl_SubgroupInvocationID & 3u;
-    uint texels = rows * tile.width;
-    uint steps = (texels + COMPARE_GROUP - 1u) / COMPARE_GROUP;
-    uint width = max(tile.width, 1u);
-    uint x = unit % width;
-    uint row = unit / width;
-    uint step_x = COMPARE_GROUP % width;
-    uint step_rows = COMPARE_GROUP / width;
-    int from = observed_from(tile, channel);
-    uvec4 total = uvec4(0u);
-    // The same number of steps for all, since all take part in the exchange.
-    for (uint i = 0u; i < steps; i++) {
-        uint y = gl_WorkGroupID.y + row * gl_NumWorkGroups.y;
-        bool inside = row < rows;
-        uint own = inside ? texelFetch(framebuffer, tile.origin + ivec2(x, y), 0).x : 0u;
-        // Transposes 4 x 4 bytes: halves with the invocation two away, then bytes with the neighbour.
-        uint other = subgroupShuffleXor(own, 2u);
-        own = (channel & 2u) == 0u ? (own & 0xffffu) | (other << 16) : (other >> 16) | (own & 0xffff0000u);
-        other = subgroupShuffleXor(own, 1u);
-        own = (channel & 1u) == 0u ? (own & 0x00ff00ffu) | ((other & 0x00ff00ffu) << 8)
-                                   : ((other >> 8) & 0x00ff00ffu) | (own & 0xff00ff00u);
-        if (own != 0u) add_word(own, observed(from + int(y * tile.row_words + (x >> 2))), total);
-        x += step_x;
-        row += step_rows;
-        if (x >= width) {
-            x -= width;
-            row++;
-        }
-    }
-    for (uint distance = 4u; distance < gl_SubgroupSize; distance <<= 1) {
-        total.x += subgroupShuffleXor(total.x, distance);
-        total.y += subgroupShuffleXor(total.y, distance);
-        total.z += subgroupShuffleXor(total.z, distance);
-        total.w += subgroupShuffleXor(total.w, distance);
-    }
-    if (gl_SubgroupInvocationID < 4u) add_to_sums(tile, channel, total);
-}
+#include "evaluate/compare_subgroup.glsl"

@@ -22,6 +22,8 @@ const uint RASTER_WORDS = 3u;
 const uint MOST_SEGMENTS = 8u;
 // Labels of parts, 0 for nothing.
 const uint LABELS = 128u;
+// Codes of a framebuffer's parts that the comparison by segments keeps in registers: a word holds a bit of each.
+const uint SHORT_CODES = 32u;
 
 // Invocations of a workgroup of the objective.
 const uint OBJECTIVE_GROUP = 64u;

@@ -53,8 +53,7 @@ pub trait Evaluator: Send {
     /// Takes the observations of a frame, one a view, in the order of the cameras.
     ///
     /// # Errors
-    /// When there are not as many as views, or one's size is not its camera's; when some tell body parts apart and others do not, or
-    /// any does and this evaluator compares whole silhouettes alone.
+    /// When there are not as many as views, or one's size is not its camera's; when some tell body parts apart and others do not.
     fn observe(&mut self, observations: &[Observation]) -> Result<()>;
 
     /// The components of every candidate in every view: `components[candidate * views + view]`.

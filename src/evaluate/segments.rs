@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use anyhow::{Error, Result, anyhow, bail, ensure};
+use anyhow::{Error, Result, anyhow, ensure};
 
 use super::Evaluator;
 use super::batch::check_batch;
@@ -43,17 +43,6 @@ pub(crate) fn segments_of(observations: &[Observation]) -> Result<Option<Arc<Seg
         );
     }
     Ok(expected)
-}
-
-/// Holds observations to be without segments, for a backend that compares whole silhouettes alone.
-pub(crate) fn refuse_segments(backend: &str, observations: &[Observation]) -> Result<()> {
-    match segments_of(observations)? {
-        Some(_) => bail!(
-            "the backend {backend} compares whole silhouettes alone, and the observations tell body parts apart: expected one of \
-             compute, cpu, reference"
-        ),
-        None => Ok(()),
-    }
 }
 
 /// What is said where sums of segments are asked for and there are none.

@@ -25,6 +25,7 @@ impl Gathering {
         self != Self::Subgroup || (capabilities.subgroup_shuffle && capabilities.subgroup_size >= 4)
     }
 
+    /// The stage that compares whole silhouettes.
     fn shader(self) -> &'static Shader {
         match self {
             Self::Texels => &compare_texels_comp::SHADER,

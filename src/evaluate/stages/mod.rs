@@ -2,6 +2,7 @@
 //! `glsl/evaluate/`; the name is its debug label and its row of timings too.
 
 mod compare;
+mod compare_segments;
 mod draw;
 mod draw_mesh;
 mod objective;
@@ -26,6 +27,7 @@ mod generated {
 
 pub(crate) use compare::CompareStage;
 pub use compare::Gathering;
+pub(crate) use compare_segments::{CompareSegmentsStage, ObservedSegments};
 pub(crate) use draw::DrawStage;
 pub use draw::{Coverage, Packing};
 pub(crate) use draw_mesh::DrawMeshStage;

@@ -9,7 +9,7 @@ use crate::body::Body;
 use crate::evaluate::batch::{check_batch, check_scene};
 use crate::evaluate::rig::Rig;
 use crate::evaluate::segments::{check_segment_batch, segments_of};
-use crate::evaluate::stages::{ObjectiveStage, PoseStage, ProjectStage, RasterStage, Share};
+use crate::evaluate::stages::{ObjectiveStage, PoseStage, ProjectStage, RasterSegmentsStage, RasterStage, Share};
 use crate::evaluate::{Components, Evaluator, Footprint, Objective, Projector, SegmentSums};
 use crate::features::{Observation, Segments};
 use crate::geometry::Camera;
@@ -30,6 +30,8 @@ pub struct Compute {
     objective: ObjectiveStage,
     /// Where the newest observations have them.
     segments: Option<DeviceSegments>,
+    /// Compiled when the first segments are seen.
+    raster_segments: Option<RasterSegmentsStage>,
     room: Room,
     runs: Runs,
     /// Whether a search has recorded itself with these segments, and whether they are others since.
@@ -83,6 +85,7 @@ impl Compute {
             objective,
             room: Room::new(&model, 1)?,
             segments: None,
+            raster_segments: None,
             runs: Runs::new(recorder.finish()?),
             is_recorded: false,
             is_outgrown: false,
@@ -130,9 +133,13 @@ impl Compute {
             let share = Share { first, candidates: workspace.batch.min(candidates - first) };
             self.pose.record(recorder, &self.model, workspace, share)?;
             self.project.record(recorder, &self.model, workspace, share)?;
-            match &self.segments {
+            match self.segments.as_ref().zip(self.raster_segments.as_ref()) {
                 None => self.raster.record(recorder, &self.model, workspace, share)?,
-                Some(segments) => segments.record_sums(recorder, (&self.model, workspace), share)?,
+                Some((segments, raster)) => {
+                    // The list is not read.
+                    let list = &self.model.cameras;
+                    segments.record_sums(recorder, raster, (&self.model, workspace), list, share)?;
+                }
             }
         }
         Ok(())
@@ -178,6 +185,9 @@ impl Compute {
         }
         self.runs.forget();
         let candidates = self.room.workspace.candidates;
+        if segments.is_some() && self.raster_segments.is_none() {
+            self.raster_segments = Some(RasterSegmentsStage::new(&self.model.device, false)?);
+        }
         self.segments = segments.map(|segments| DeviceSegments::new(&self.model, segments, candidates)).transpose()?;
         let mut recorder = self.model.device.recorder(Timing::Off)?;
         self.record_upload(&mut recorder)?;

@@ -69,6 +69,14 @@ impl Drawn {
         matches!(self, Self::Flat { .. })
     }
 
+    /// The largest label of what is drawn.
+    pub(super) fn largest_label(&self, model: &DeviceModel) -> u32 {
+        match self {
+            Self::Flat { .. } => model.labels.iter().copied().max().map_or(0, u32::from),
+            Self::Mesh(drawn) => drawn.mesh.largest_label,
+        }
+    }
+
     /// Records the copies that bring what is drawn to the device.
     pub(super) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
         match self {

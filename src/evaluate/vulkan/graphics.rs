@@ -1,24 +1,29 @@
 //! The backend that draws with the graphics pipeline: four candidates of a view a tile of one large framebuffer, compared there
 //! with the observations (SPEC A9).
 
+use std::sync::Arc;
+
 use anyhow::{Result, ensure};
 
 use crate::body::{Body, Mesh};
 use crate::evaluate::batch::{check_batch, check_scene};
 use crate::evaluate::rig::Rig;
-use crate::evaluate::segments::refuse_segments;
+use crate::evaluate::segments::{check_segment_batch, segments_of};
 use crate::evaluate::stages::{
     CompareStage, Coverage, Gathering, ObjectiveStage, Packing, PlaceStage, PoseStage, ProjectFeedbackStage, Share,
     layout,
 };
-use crate::evaluate::{CandidateImage, Components, Evaluator, Footprint, MeshProjector, Objective, Projector};
-use crate::features::Observation;
+use crate::evaluate::{
+    CandidateImage, Components, Evaluator, Footprint, MeshProjector, Objective, Projector, SegmentSums,
+};
+use crate::features::{Observation, Segments};
 use crate::geometry::Camera;
 use crate::gpu::{
     Buffer, Device, DeviceFacts, DeviceKind, DevicePass, Memory, OutOfMemory, PassTiming, Recorder, Recording, Timing,
 };
 
 use super::drawn::Drawn;
+use super::graphics_segments::{Comparing, GraphicsSegments};
 use super::host_ends::HostEnds;
 use super::readback::{FramebufferCopy, HostComparison};
 use super::runs::Runs;
@@ -34,6 +39,8 @@ pub struct Graphics {
     model: DeviceModel,
     drawn: Drawn,
     stages: Stages,
+    /// Where the newest observations have them.
+    segments: Option<GraphicsSegments>,
     room: Room,
     /// Tile sizes of the views, pixels.
     tiles: Vec<[u32; 2]>,
@@ -44,7 +51,8 @@ pub struct Graphics {
     /// Kept for the comparison on the host.
     observations: Vec<Observation>,
     runs: Runs,
-    /// Whether a search has recorded itself with these tiles, and whether the newest observations have outgrown them since.
+    /// Whether a search has recorded itself with these tiles and segments, and whether the newest observations have outgrown the
+    /// ones or have others since.
     is_recorded: bool,
     is_outgrown: bool,
 }
@@ -56,6 +64,18 @@ struct Stages {
     place: PlaceStage,
     compare: CompareStage,
     objective: ObjectiveStage,
+    gathering: Gathering,
+    /// Workgroups that compare a tile.
+    bands: u32,
+}
+
+/// What the host compared of a run.
+#[derive(Debug, Default)]
+struct Counted {
+    /// `[candidate][view]`, none for images that the device scored.
+    sums: Vec<Option<layout::Sums>>,
+    /// `[candidate][view][segment]`, where there are segments.
+    segments: Vec<SegmentSums>,
 }
 
 /// Buffers for a number of candidates.
@@ -222,6 +242,8 @@ impl Graphics {
             place: PlaceStage::new(device)?,
             compare: CompareStage::new(device, gathering, settings.packing.edge_bit(), bands)?,
             objective: ObjectiveStage::new(device)?,
+            gathering,
+            bands,
         };
         let tiles = model.sizes.clone();
         Ok(Self {
@@ -229,6 +251,7 @@ impl Graphics {
             drawn,
             settings,
             stages,
+            segments: None,
             tiles,
             is_measured: false,
             is_fixed: settings.tiling == Tiling::Pictures,
@@ -353,13 +376,29 @@ impl Graphics {
     /// of the images that fit no tile.
     fn record_share(&self, recorder: &mut Recorder, share: Share, copy: Option<&FramebufferCopy>) -> Result<()> {
         let Room { workspace, framebuffer, .. } = &self.room;
+        let scene = (&self.model, workspace);
         self.record_drawing(recorder, workspace, framebuffer, share)?;
-        match copy {
-            Some(copy) => copy.record(recorder, framebuffer)?,
-            None => self.stages.compare.record(recorder, &self.model, workspace, framebuffer, share)?,
-        }
         // What fits no tile is scored without a framebuffer.
-        self.drawn.record_unplaced(recorder, (&self.model, workspace), framebuffer, share)
+        let Some(segments) = &self.segments else {
+            match copy {
+                Some(copy) => copy.record(recorder, framebuffer)?,
+                None => self.stages.compare.record(recorder, &self.model, workspace, framebuffer, share)?,
+            }
+            return self.drawn.record_unplaced(recorder, scene, framebuffer, share);
+        };
+        match copy {
+            Some(copy) => {
+                copy.record(recorder, framebuffer)?;
+                segments.record_orders(recorder, scene, share)?;
+            }
+            None => segments.record_comparison(recorder, scene, framebuffer, share)?,
+        }
+        segments.record_unplaced(recorder, scene, framebuffer, share)
+    }
+
+    /// What comes before the first share.
+    fn record_start(&self, recorder: &mut Recorder) -> Result<()> {
+        self.segments.as_ref().map_or(Ok(()), |segments| segments.record_start(recorder))
     }
 
     fn shares(&self, candidates: u32) -> Result<Vec<Share>> {
@@ -380,6 +419,7 @@ impl Graphics {
         let views = u64::from(self.model.counts.views);
         let mut recorder = self.model.device.recorder(self.runs.timing())?;
         ends.record_poses(&mut recorder, (&self.model, workspace), candidates)?;
+        self.record_start(&mut recorder)?;
         let mut recordings = Vec::new();
         let shares = self.shares(candidates)?;
         for (place, share) in shares.iter().enumerate() {
@@ -397,7 +437,12 @@ impl Graphics {
                 self.record_objective(&mut recorder, objective, candidates)?;
                 ends.record_fitness(&mut recorder, candidates)?;
             }
-            None => ends.record_sums(&mut recorder, (&self.model, workspace), candidates)?,
+            None => {
+                ends.record_sums(&mut recorder, (&self.model, workspace), candidates)?;
+                if let Some(segments) = &self.segments {
+                    segments.record_readback(&mut recorder)?;
+                }
+            }
         }
         recordings.push(recorder);
         recordings.into_iter().map(Recorder::finish).collect()
@@ -405,12 +450,55 @@ impl Graphics {
 
     fn record_objective(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
         let Room { workspace, ends, .. } = &self.room;
-        self.stages.objective.record(recorder, &self.model, workspace, objective, candidates, &ends.fitness)
+        let fitness = &ends.fitness;
+        match &self.segments {
+            None => self.stages.objective.record(recorder, &self.model, workspace, objective, candidates, fitness),
+            Some(segments) => {
+                segments.record_objective(recorder, (&self.model, workspace), (objective, candidates), fitness)
+            }
+        }
+    }
+
+    /// Compares by these segments from now on; by whole silhouettes without.
+    fn set_segments(&mut self, segments: Option<&Arc<Segments>>) -> Result<()> {
+        if self.segments.as_ref().map(GraphicsSegments::segments) == segments {
+            return Ok(());
+        }
+        // Recordings hold the old ones.
+        self.runs.forget();
+        let how = Comparing {
+            packing: self.settings.packing,
+            gathering: self.stages.gathering,
+            bands: self.stages.bands,
+            on_host: matches!(self.settings.comparison, Comparison::Host(_)),
+        };
+        let scene = (&self.model, &self.room.workspace);
+        self.segments =
+            segments.map(|segments| GraphicsSegments::new(scene, &self.drawn, segments, how)).transpose()?;
+        let mut recorder = self.model.device.recorder(Timing::Off)?;
+        self.record_upload(&mut recorder)?;
+        self.runs.set_upload(recorder.finish()?);
+        self.is_outgrown = self.is_recorded;
+        Ok(())
+    }
+
+    /// The sums of the segments of a finished run.
+    fn read_segments(&self, counted: &Counted, sums: &mut [SegmentSums]) -> Result<()> {
+        let Some(segments) = &self.segments else { return Ok(()) };
+        segments.read(sums)?;
+        let count = segments.segments().as_slice().len();
+        let rows = sums.chunks_exact_mut(count).zip(counted.segments.chunks_exact(count));
+        for (_, (sums, found)) in counted.sums.iter().zip(rows).filter(|(whole, _)| whole.is_some()) {
+            for (sums, found) in sums.iter_mut().zip(found) {
+                *sums = SegmentSums { area_obs: sums.area_obs, ..*found };
+            }
+        }
+        Ok(())
     }
 
     /// Runs poses through the device. The results then lie in the readback buffers; with the comparison on the host, what it
-    /// counted comes back, `[candidate][view]`, none for images that the device scored.
-    fn run(&mut self, poses: &[f32], objective: Option<&Objective>) -> Result<Vec<Option<layout::Sums>>> {
+    /// counted comes back.
+    fn run(&mut self, poses: &[f32], objective: Option<&Objective>) -> Result<Counted> {
         let candidates = u32::try_from(poses.len() / self.dof_count())?;
         self.make_room(candidates)?;
         self.room.ends.poses_in.write(0, poses)?;
@@ -423,11 +511,14 @@ impl Graphics {
             self.runs.add(key, recorded?);
         }
         let shares = self.shares(candidates)?;
-        let mut counted = Vec::new();
+        let mut counted = Counted::default();
         self.runs.run(&self.model, |batch| {
             if let (Some(copy), Comparison::Host(how)) = (&self.room.copy, self.settings.comparison) {
                 let pictures = copy.read(&self.room.framebuffer, shares[batch].candidates)?;
-                counted.extend(pictures.compare(&self.observations, self.settings.packing.edge_bit(), how));
+                counted.sums.extend(pictures.compare(&self.observations, self.settings.packing.edge_bit(), how));
+                if let Some(segments) = &self.segments {
+                    counted.segments.extend(segments.count(&self.model, &pictures, &self.observations, how)?);
+                }
             }
             Ok(())
         })?;
@@ -476,6 +567,9 @@ impl Graphics {
             // Recordings hold the old room; without them it is free before the new one is taken.
             self.runs.forget();
             self.room = Room::new(&self.model, &mut self.drawn, &self.settings, &self.tiles, candidates)?;
+            if let Some(segments) = &mut self.segments {
+                segments.reserve(&self.model, &self.room.workspace)?;
+            }
         }
         Ok(())
     }
@@ -514,8 +608,12 @@ impl Evaluator for Graphics {
     }
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
-        refuse_segments(self.name(), observations)?;
+        let segments = segments_of(observations)?;
         self.model.observe(observations)?;
+        self.set_segments(segments.as_ref())?;
+        if let Some(segments) = &mut self.segments {
+            segments.observe(&self.model, observations)?;
+        }
         self.runs.outdate_upload();
         if matches!(self.settings.comparison, Comparison::Host(_)) {
             self.observations = observations.to_vec();
@@ -545,7 +643,20 @@ impl Evaluator for Graphics {
             return Ok(());
         }
         let counted = self.run(poses, None)?;
-        self.room.ends.read_components(&self.model, &counted, components)
+        self.room.ends.read_components(&self.model, &counted.sums, components)
+    }
+
+    fn segments(&self) -> Option<&Arc<Segments>> {
+        self.segments.as_ref().map(GraphicsSegments::segments)
+    }
+
+    fn segment_sums(&mut self, poses: &[f32], sums: &mut [SegmentSums]) -> Result<()> {
+        check_segment_batch(self, poses, sums.len())?;
+        if sums.is_empty() {
+            return Ok(());
+        }
+        let counted = self.run(poses, None)?;
+        self.read_segments(&counted, sums)
     }
 
     fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
@@ -556,9 +667,18 @@ impl Evaluator for Graphics {
         if let Comparison::Host(_) = self.settings.comparison {
             let views = self.view_count();
             let mut components = vec![Components::default(); fitness.len() * views];
-            self.components(poses, &mut components)?;
-            for (value, row) in fitness.iter_mut().zip(components.chunks_exact(views)) {
-                *value = objective.fitness(row);
+            let counted = self.run(poses, None)?;
+            self.room.ends.read_components(&self.model, &counted.sums, &mut components)?;
+            let rows = components.chunks_exact(views);
+            let Some(segments) = &self.segments else {
+                fitness.iter_mut().zip(rows).for_each(|(value, row)| *value = objective.fitness(row));
+                return Ok(());
+            };
+            let a_pose = views * segments.segments().as_slice().len();
+            let mut sums = vec![SegmentSums::default(); fitness.len() * a_pose];
+            self.read_segments(&counted, &mut sums)?;
+            for ((value, row), sums) in fitness.iter_mut().zip(rows).zip(sums.chunks_exact(a_pose)) {
+                *value = objective.segmented_fitness(row, segments.segments(), sums);
             }
             return Ok(());
         }
@@ -641,12 +761,14 @@ impl DeviceEvaluator for Graphics {
 
     fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
         self.model.record_upload(recorder)?;
+        self.segments.as_ref().map_or(Ok(()), |segments| segments.record_upload(recorder))?;
         self.drawn.record_upload(recorder)
     }
 
     /// With tiles of the size that the newest observations or candidates told; images that outgrow them later are still scored,
     /// the slower way. The comparison is on the device, whatever the settings say.
     fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
+        self.record_start(recorder)?;
         for share in self.shares(candidates)? {
             self.record_share(recorder, share, None)?;
         }

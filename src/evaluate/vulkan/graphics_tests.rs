@@ -43,7 +43,7 @@ fn reference(body: &Body, cameras: &[Camera], seen: &[Observation], poses: &[f32
 }
 
 /// Every way of the exact rule, and every way to compare.
-fn exact_settings() -> Vec<GraphicsSettings> {
+pub(super) fn exact_settings() -> Vec<GraphicsSettings> {
     let mut all = Vec::new();
     for packing in [Packing::Max, Packing::Depth] {
         for comparison in [
@@ -61,7 +61,7 @@ fn exact_settings() -> Vec<GraphicsSettings> {
     all
 }
 
-fn lowered(lower: fn(&mut Capabilities)) -> DeviceSettings {
+pub(super) fn lowered(lower: fn(&mut Capabilities)) -> DeviceSettings {
     DeviceSettings { lower: Some(lower), ..DeviceSettings::default() }
 }
 
@@ -138,7 +138,7 @@ fn what_a_device_lacks_is_replaced() {
 }
 
 /// A layout with tiles as large as the pictures.
-fn pictures(sizes: &[[u32; 2]], candidates: u32) -> TileLayout {
+pub(super) fn pictures(sizes: &[[u32; 2]], candidates: u32) -> TileLayout {
     TileLayout::new(sizes, candidates, 16384, u64::MAX).unwrap()
 }
 

@@ -20,6 +20,7 @@ pub(crate) struct DeviceMesh {
     pub(crate) vertex_count: u32,
     pub(crate) triangle_count: u32,
     pub(crate) edge_count: u32,
+    pub(crate) largest_label: u32,
     pub(crate) skinning: Skinning,
     pub(crate) vertices: Buffer,
     /// Three indices a triangle.
@@ -59,6 +60,7 @@ impl DeviceMesh {
             vertex_count: vertices.len() as u32,
             triangle_count: mesh.triangles.len() as u32,
             edge_count: edges.len() as u32,
+            largest_label: vertices.iter().map(|vertex| vertex.label).max().unwrap_or(0),
             skinning: mesh.skinning,
             vertices: uploads[0].target.clone(),
             triangles: uploads[1].target.clone(),

@@ -25,7 +25,7 @@ use crate::geometry::{BrownConrady, Camera, Lens, Tsai};
 use crate::gpu::{Capabilities, Device, DeviceSettings, Memory, Timing};
 
 /// Two cameras, one of each lens, that see a person 200 pixels tall.
-fn cameras() -> Vec<Camera> {
+pub(super) fn cameras() -> Vec<Camera> {
     let tsai = Tsai { f: 8.0, kappa: -4e-4, centre: DVec2::new(140.0, 104.0), sx: 1.01, pitch: DVec2::splat(0.02) };
     let brown = BrownConrady {
         focal: DVec2::splat(450.0),
@@ -60,7 +60,7 @@ fn ladder(body: &Body) -> Vec<(String, Mesh)> {
 }
 
 /// The glTF person, rigid and smooth; none where the shared data are absent.
-fn person(test: &str, body: &Body) -> Vec<(String, Mesh)> {
+pub(super) fn person(test: &str, body: &Body) -> Vec<(String, Mesh)> {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/mesh/human_male.glb"));
     if !path.exists() {
         println!("SKIPPED the glTF person of {test}: ../shared/data is absent");
@@ -209,22 +209,22 @@ fn vertices_are_the_reference_s() {
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 
-fn off(found: u32, expected: u32) -> f64 {
+pub(super) fn off(found: u32, expected: u32) -> f64 {
     f64::from(found.abs_diff(expected)) / f64::from(expected.max(1))
 }
 
 /// What is allowed of a device: one that snaps to less than 1/256 pixel moves every border a little. SwiftShader, at 1/16, is off by
 /// up to 13 of 361 edge pixels, and by 0.0024 in fitness.
 #[derive(Clone, Copy)]
-struct Tolerance {
+pub(super) struct Tolerance {
     /// Pixels that small pictures may differ by.
-    pixels: u32,
-    fitness: f32,
+    pub(super) pixels: u32,
+    pub(super) fitness: f32,
     is_exact: bool,
 }
 
 impl Tolerance {
-    fn of(device: &Device) -> Self {
+    pub(super) fn of(device: &Device) -> Self {
         if device.capabilities().sub_pixel_bits >= 8 {
             Self { pixels: 2, fitness: 1e-3, is_exact: true }
         } else {
@@ -275,7 +275,7 @@ impl Worst {
 }
 
 /// What the reference draws of a pose, as an observation with some proximity.
-fn observed(image: &CandidateImage) -> Observation {
+pub(super) fn observed(image: &CandidateImage) -> Observation {
     let bytes = image.bytes.iter().enumerate().map(|(index, &drawn)| {
         let silhouette = if drawn != 0 { Observation::SILHOUETTE } else { 0 };
         silhouette | (index as u32).wrapping_mul(2_654_435_761).to_be_bytes()[0] & Observation::PROXIMITY
@@ -359,7 +359,7 @@ fn differences(a: &CandidateImage, b: &CandidateImage) -> [usize; 3] {
 }
 
 /// The standing pose, moved by so many mm along x and y.
-fn standing(body: &Body, x: f32, y: f32) -> Vec<f32> {
+pub(super) fn standing(body: &Body, x: f32, y: f32) -> Vec<f32> {
     let names = body.dof_names();
     let mut pose: Vec<f32> = body.standing_pose().iter().map(|value| *value as f32).collect();
     for (name, by) in [("pelvis.tx", x), ("pelvis.ty", y)] {

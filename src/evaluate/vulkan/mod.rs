@@ -6,6 +6,9 @@ mod device_evaluator;
 mod drawn;
 mod framebuffer;
 mod graphics;
+mod graphics_segments;
+#[cfg(test)]
+mod graphics_segments_tests;
 mod graphics_settings;
 #[cfg(test)]
 mod graphics_tests;

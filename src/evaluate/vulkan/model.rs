@@ -145,11 +145,7 @@ impl DeviceModel {
             let (mut planes, mut pixels) = (Vec::new(), Vec::new());
             for row in observation.bytes.chunks_exact(width) {
                 planes.extend(row.chunks(WORD_PIXELS).flat_map(bit_planes));
-                for chunk in row.chunks(4) {
-                    let mut bytes = [0; 4];
-                    bytes[..chunk.len()].copy_from_slice(chunk);
-                    pixels.push(u32::from_le_bytes(bytes));
-                }
+                pixels.extend(packed(row));
             }
             self.uploads[PLANES].staging.write(8 * camera.first_plane_word as usize, &planes)?;
             self.uploads[PIXELS].staging.write(camera.first_pixel_word as usize, &pixels)?;
@@ -167,6 +163,11 @@ impl DeviceModel {
         self.camera_rows.iter().map(|camera| camera.first_plane_word)
     }
 
+    /// Where the views' packed bytes begin, in words.
+    pub(super) fn first_pixel_words(&self) -> impl Iterator<Item = u32> + '_ {
+        self.camera_rows.iter().map(|camera| camera.first_pixel_word)
+    }
+
     /// Records the copies of everything to the device's own memory.
     pub(crate) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
         self.uploads.iter().try_for_each(|upload| upload.record(recorder))
@@ -177,6 +178,15 @@ impl DeviceModel {
         let Counts { views, bones, parts, dofs } = self.counts;
         layout::Batch { candidates: share.candidates, views, bones, parts, dofs, first: share.first }
     }
+}
+
+/// The bytes of a row of pixels, four a word, the last one filled up with nothing.
+pub(super) fn packed(row: &[u8]) -> impl Iterator<Item = u32> + '_ {
+    row.chunks(4).map(|chunk| {
+        let mut bytes = [0; 4];
+        bytes[..chunk.len()].copy_from_slice(chunk);
+        u32::from_le_bytes(bytes)
+    })
 }
 
 fn bone_rows(rig: &Rig) -> Vec<layout::Bone> {

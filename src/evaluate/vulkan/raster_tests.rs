@@ -155,7 +155,7 @@ fn found(sums: &[layout::Sums]) -> Vec<[u32; 4]> {
 }
 
 /// A body of as many parts as wanted.
-fn body_of(parts: usize) -> Body {
+pub(super) fn body_of(parts: usize) -> Body {
     let mut body = Body::adult(1750.0).unwrap();
     while body.parts.len() < parts {
         let mut part = body.parts[body.parts.len() % 7].clone();

@@ -3,8 +3,9 @@
 
 use anyhow::Result;
 
+use crate::evaluate::SegmentSums;
 use crate::evaluate::stages::layout;
-use crate::features::Observation;
+use crate::features::{Observation, Segments};
 use crate::gpu::{Buffer, Device, Memory, Recorder};
 
 use super::tiles::CANDIDATES_A_TILE;
@@ -68,6 +69,9 @@ impl FramebufferCopy {
     }
 }
 
+/// The segment number of each byte that a picture may hold.
+pub(crate) type ByteNumbers = [u8; 256];
+
 /// Rows of one candidate's picture and of the observation behind them.
 struct Window<'a> {
     texels: &'a [u32],
@@ -79,7 +83,6 @@ struct Window<'a> {
     height: usize,
     /// Bits that bring the candidate's byte down.
     shift: u32,
-    edge_bit: u32,
 }
 
 impl Pictures<'_> {
@@ -90,39 +93,70 @@ impl Pictures<'_> {
         edge_bit: u32,
         how: HostComparison,
     ) -> Vec<Option<layout::Sums>> {
-        let views = self.layout.views.len();
-        let pitch = self.layout.size[0] as usize;
-        self.placements
-            .iter()
-            .enumerate()
-            .map(|(image, placement)| {
-                if placement.low == placement.high {
-                    return None;
-                }
-                let [left, top] = place(placement.low);
-                let [right, bottom] = place(placement.high);
-                let observation = &observations[image % views];
-                let seen_pitch = observation.width as usize;
-                // The shift leads from the picture to the framebuffer; what is drawn lies in both.
-                let seen_left = left.wrapping_add_signed(-placement.shift[0] as isize);
-                let seen_top = top.wrapping_add_signed(-placement.shift[1] as isize);
-                let window = Window {
-                    texels: self.texels.get(top * pitch + left..)?,
-                    pitch,
-                    seen: observation.bytes.get(seen_top * seen_pitch + seen_left..)?,
-                    seen_pitch,
-                    width: right - left,
-                    height: bottom - top,
-                    shift: 8 * ((image / views) as u32 % CANDIDATES_A_TILE),
-                    edge_bit,
-                };
+        (0..self.placements.len())
+            .map(|image| {
+                let observation = &observations[image % self.layout.views.len()];
+                let window = self.window(image, &observation.bytes, observation.width as usize)?;
                 let [area_model, overlap, edges, proximity] = match how {
-                    HostComparison::Scalar => compare_scalar(&window),
-                    HostComparison::Simd => compare_simd(&window),
+                    HostComparison::Scalar => compare_scalar(&window, edge_bit),
+                    HostComparison::Simd => compare_simd(&window, edge_bit),
                 };
                 Some(layout::Sums { area_model, overlap, edges, proximity })
             })
             .collect()
+    }
+
+    /// How many images there are.
+    pub(crate) fn count(&self) -> usize {
+        self.placements.len()
+    }
+
+    /// The sums of the `segments` segments of every image, `[candidate][view][segment]`, without the observed areas; nothing for an
+    /// image that is not drawn here. `numbers` tells an image's bytes apart.
+    pub(crate) fn compare_segments(
+        &self,
+        observations: &[Observation],
+        segments: usize,
+        numbers: impl Fn(usize) -> ByteNumbers,
+        how: HostComparison,
+    ) -> Vec<SegmentSums> {
+        let mut all = vec![SegmentSums::default(); self.placements.len() * segments];
+        for (image, sums) in all.chunks_exact_mut(segments).enumerate() {
+            let observation = &observations[image % self.layout.views.len()];
+            let Some(seen) = &observation.segmentation else { continue };
+            let Some(window) = self.window(image, seen.numbers(), observation.width as usize) else { continue };
+            let found = match how {
+                HostComparison::Scalar => count_segments(&window, &numbers(image)),
+                HostComparison::Simd => count_segments_simd(&window, &numbers(image), segments),
+            };
+            for (sums, [area_model, overlap]) in sums.iter_mut().zip(found) {
+                *sums = SegmentSums { area_obs: 0, area_model, overlap };
+            }
+        }
+        all
+    }
+
+    /// An image and the rows of `seen_pitch` values a pixel that were observed behind it; none of an image that is not drawn here.
+    fn window<'a>(&'a self, image: usize, seen: &'a [u8], seen_pitch: usize) -> Option<Window<'a>> {
+        let placement = &self.placements[image];
+        if placement.low == placement.high {
+            return None;
+        }
+        let pitch = self.layout.size[0] as usize;
+        let [left, top] = place(placement.low);
+        let [right, bottom] = place(placement.high);
+        // The shift leads from the picture to the framebuffer; what is drawn lies in both.
+        let seen_left = left.wrapping_add_signed(-placement.shift[0] as isize);
+        let seen_top = top.wrapping_add_signed(-placement.shift[1] as isize);
+        Some(Window {
+            texels: self.texels.get(top * pitch + left..)?,
+            pitch,
+            seen: seen.get(seen_top * seen_pitch + seen_left..)?,
+            seen_pitch,
+            width: right - left,
+            height: bottom - top,
+            shift: 8 * ((image / self.layout.views.len()) as u32 % CANDIDATES_A_TILE),
+        })
     }
 
     /// The bytes of one image in its picture of `size` pixels.
@@ -150,7 +184,7 @@ fn place(word: u32) -> [usize; 2] {
 }
 
 /// A pixel after the other, branch by branch.
-fn compare_scalar(window: &Window<'_>) -> [u32; 4] {
+fn compare_scalar(window: &Window<'_>, edge_bit: u32) -> [u32; 4] {
     let mut sums = [0; 4];
     for y in 0..window.height {
         for x in 0..window.width {
@@ -161,7 +195,7 @@ fn compare_scalar(window: &Window<'_>) -> [u32; 4] {
                 if seen & Observation::SILHOUETTE != 0 {
                     sums[1] += 1;
                 }
-                if drawn >> window.edge_bit & 1 != 0 {
+                if drawn >> edge_bit & 1 != 0 {
                     sums[2] += 1;
                     sums[3] += u32::from(seen & Observation::PROXIMITY);
                 }
@@ -173,9 +207,9 @@ fn compare_scalar(window: &Window<'_>) -> [u32; 4] {
 
 /// The same without branches, in words for the compiler to take many at a time.
 #[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
-fn compare_simd(window: &Window<'_>) -> [u32; 4] {
+fn compare_simd(window: &Window<'_>, edge_bit: u32) -> [u32; 4] {
     let mut sums = [0; 4];
-    let (shift, edge_bit) = (window.shift, window.edge_bit);
+    let shift = window.shift;
     for y in 0..window.height {
         let texels = &window.texels[y * window.pitch..][..window.width];
         let seen = &window.seen[y * window.seen_pitch..][..window.width];
@@ -196,21 +230,57 @@ fn compare_simd(window: &Window<'_>) -> [u32; 4] {
     sums
 }
 
+/// Drawn pixels and common pixels of each segment, a pixel after the other.
+fn count_segments(window: &Window<'_>, numbers: &ByteNumbers) -> [[u32; 2]; Segments::MOST] {
+    let mut sums = [[0; 2]; Segments::MOST];
+    for y in 0..window.height {
+        for x in 0..window.width {
+            let drawn = numbers[(window.texels[y * window.pitch + x] >> window.shift) as usize & 0xff];
+            if let Some(segment) = usize::from(drawn).checked_sub(1) {
+                sums[segment][0] += 1;
+                if window.seen[y * window.seen_pitch + x] == drawn {
+                    sums[segment][1] += 1;
+                }
+            }
+        }
+    }
+    sums
+}
+
+/// The same, the counts of a row without branches, for the compiler to take many pixels at a time.
+#[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn count_segments_simd(window: &Window<'_>, numbers: &ByteNumbers, segments: usize) -> [[u32; 2]; Segments::MOST] {
+    let mut sums = [[0; 2]; Segments::MOST];
+    let mut shown = vec![0_u8; window.width];
+    for y in 0..window.height {
+        let texels = &window.texels[y * window.pitch..][..window.width];
+        let seen = &window.seen[y * window.seen_pitch..][..window.width];
+        for (shown, texel) in shown.iter_mut().zip(texels) {
+            *shown = numbers[(texel >> window.shift) as usize & 0xff];
+        }
+        for (number, sums) in (1..).zip(&mut sums[..segments]) {
+            for (&shown, &seen) in shown.iter().zip(seen) {
+                let own = u32::from(shown == number);
+                sums[0] += own;
+                sums[1] += own & u32::from(seen == number);
+            }
+        }
+    }
+    sums
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn window<'a>(
-        texels: &'a [u32],
-        seen: &'a [u8],
-        [width, height]: [usize; 2],
-        [shift, edge_bit]: [u32; 2],
-    ) -> Window<'a> {
-        Window { texels, pitch: 200, seen, seen_pitch: 150, width, height, shift, edge_bit }
+    fn window<'a>(texels: &'a [u32], seen: &'a [u8], [width, height]: [usize; 2], shift: u32) -> Window<'a> {
+        Window { texels, pitch: 200, seen, seen_pitch: 150, width, height, shift }
     }
 
     #[test]
     fn both_ways_count_the_same_and_a_changed_pixel_shows() {
+        // Five segments, of which every byte but that of nothing has one.
+        let numbers: ByteNumbers = std::array::from_fn(|byte| if byte == 0 { 0 } else { byte as u8 % 5 + 1 });
         let mut state = 3_u64;
         let mut random = move || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -219,13 +289,21 @@ mod tests {
         for (width, height, edge_bit) in [(1, 1, 0), (37, 5, 7), (64, 9, 0), (130, 3, 7)] {
             let mut texels: Vec<u32> = (0..200 * height).map(|_| random() & random()).collect();
             let seen: Vec<u8> = (0..150 * height).map(|_| random() as u8).collect();
+            let numbered: Vec<u8> = seen.iter().map(|byte| byte % 6).collect();
             for shift in [0, 8, 16, 24] {
-                let expected = compare_scalar(&window(&texels, &seen, [width, height], [shift, edge_bit]));
-                assert_eq!(compare_simd(&window(&texels, &seen, [width, height], [shift, edge_bit])), expected);
+                let whole = |texels: &[u32]| compare_simd(&window(texels, &seen, [width, height], shift), edge_bit);
+                let parts = |texels: &[u32]| {
+                    count_segments_simd(&window(texels, &numbered, [width, height], shift), &numbers, 5)
+                };
+                let expected = compare_scalar(&window(&texels, &seen, [width, height], shift), edge_bit);
+                assert_eq!(whole(&texels), expected);
+                let in_parts = count_segments(&window(&texels, &numbered, [width, height], shift), &numbers);
+                assert_eq!(parts(&texels), in_parts);
                 let place = 200 * (height - 1) + width - 1;
                 let before = texels[place];
                 texels[place] ^= if before >> shift & 0xff == 0 { 1 << shift } else { before & 0xff << shift };
-                assert_ne!(compare_simd(&window(&texels, &seen, [width, height], [shift, edge_bit])), expected);
+                assert_ne!(whole(&texels), expected);
+                assert_ne!(parts(&texels), in_parts);
                 texels[place] = before;
             }
         }

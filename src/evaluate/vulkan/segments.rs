@@ -14,20 +14,19 @@ use super::{DeviceModel, Workspace};
 
 const _: () = assert!(Segments::MOST == MOST_SEGMENTS as usize, "the stages have as many segments as observations may");
 
-/// The segments of a frame's observations, the stages that compare by them, and the sums of a run.
+/// The segments of a frame's observations, what scores by them, and the sums of a run.
 #[derive(Debug)]
 pub(super) struct DeviceSegments {
     segments: Arc<Segments>,
-    raster: RasterSegmentsStage,
     objective: ObjectiveSegmentsStage,
     /// Weights, the number of each label, observed areas.
-    table: Uploaded,
+    pub(super) table: Uploaded,
     /// A word a segment for 32 pixels of a row, in the order of the model's planes.
     planes: Uploaded,
     /// Observed pixels, `[view][segment]`, in rows of the most segments.
     areas: Vec<u32>,
     /// `[candidate][view][segment]`.
-    sums: Buffer,
+    pub(super) sums: Buffer,
     sums_out: Buffer,
 }
 
@@ -40,7 +39,6 @@ impl DeviceSegments {
         let [sums, sums_out] = Self::room(model, candidates)?;
         Ok(Self {
             segments: Arc::clone(segments),
-            raster: RasterSegmentsStage::new(device)?,
             objective: ObjectiveSegmentsStage::new(device)?,
             table: Uploaded::new(device, "segments", &table)?,
             planes: Uploaded::new(device, "observed segments", &vec![0_u32; words])?,
@@ -103,15 +101,18 @@ impl DeviceSegments {
         self.planes.record(recorder)
     }
 
-    /// Records the drawing of a share and the comparison with what was observed, whole and in segments.
+    /// Records the drawing of a share without a framebuffer and the comparison with what was observed, whole and in segments;
+    /// `list` is what `raster` takes.
     pub(super) fn record_sums(
         &self,
         recorder: &mut Recorder,
+        raster: &RasterSegmentsStage,
         (model, workspace): (&DeviceModel, &Workspace),
+        list: &Buffer,
         share: Share,
     ) -> Result<()> {
         let observed = (&self.table.target, &self.planes.target);
-        self.raster.record(recorder, (model, workspace), observed, &self.sums, share)
+        raster.record(recorder, (model, workspace), observed, &self.sums, list, share)
     }
 
     /// Records the fitness of the run.

@@ -1,0 +1,106 @@
+// Compares a tile without any exchange: an invocation reads four neighbouring texels, turns them into four pixels of each of
+// the four candidates and compares all four; only the sums meet, in shared memory.
+
+#ifndef EVALUATE_COMPARE_TEXELS
+#define EVALUATE_COMPARE_TEXELS
+
+#include "evaluate/compare.glsl"
+
+layout(local_size_x = COMPARE_GROUP) in;
+
+// Of each channel four sums, and with segments four fours.
+shared uint shared_totals[16];
+#ifdef SEGMENTED
+shared uint shared_segments[64];
+#endif
+
+void add_to_shared(uint channel, Total total) {
+    for (uint sum = 0u; sum < 4u; sum++) {
+        atomicAdd(shared_totals[4u * channel + sum], total.whole[sum]);
+#ifdef SEGMENTED
+        uint segments = SEGMENTS;
+        uint first = 16u * channel + sum;
+        atomicAdd(shared_segments[first], total.areas[sum]);
+        atomicAdd(shared_segments[first + 4u], total.overlaps[sum]);
+        if (segments > 4u) {
+            atomicAdd(shared_segments[first + 8u], total.more_areas[sum]);
+            atomicAdd(shared_segments[first + 12u], total.more_overlaps[sum]);
+        }
+#endif
+    }
+}
+
+Total shared_total(uint channel) {
+    Total total = nothing();
+    for (uint sum = 0u; sum < 4u; sum++) {
+        total.whole[sum] = shared_totals[4u * channel + sum];
+#ifdef SEGMENTED
+        uint first = 16u * channel + sum;
+        total.areas[sum] = shared_segments[first];
+        total.overlaps[sum] = shared_segments[first + 4u];
+        total.more_areas[sum] = shared_segments[first + 8u];
+        total.more_overlaps[sum] = shared_segments[first + 12u];
+#endif
+    }
+    return total;
+}
+
+void main() {
+    Tile tile = own_tile();
+    uint rows = own_rows(tile);
+    uint unit = gl_LocalInvocationID.x;
+    uint width = max(tile.width >> 2, 1u);
+    uint words = rows * (tile.width >> 2);
+    uint x = unit % width;
+    uint row = unit / width;
+    uint step_x = COMPARE_GROUP % width;
+    uint step_rows = COMPARE_GROUP / width;
+    if (unit < 16u) shared_totals[unit] = 0u;
+#ifdef SEGMENTED
+    if (unit < 64u) shared_segments[unit] = 0u;
+    load_numbers(tile);
+#endif
+    Source source0 = source_of(tile, 0u);
+    Source source1 = source_of(tile, 1u);
+    Source source2 = source_of(tile, 2u);
+    Source source3 = source_of(tile, 3u);
+    Total total0 = nothing();
+    Total total1 = nothing();
+    Total total2 = nothing();
+    Total total3 = nothing();
+    for (uint word = unit; word < words; word += COMPARE_GROUP) {
+        uint y = gl_WorkGroupID.y + row * gl_NumWorkGroups.y;
+        ivec2 at = tile.origin + ivec2(4u * x, y);
+        uint t0 = texelFetch(framebuffer, at, 0).x;
+        uint t1 = texelFetch(framebuffer, at + ivec2(1, 0), 0).x;
+        uint t2 = texelFetch(framebuffer, at + ivec2(2, 0), 0).x;
+        uint t3 = texelFetch(framebuffer, at + ivec2(3, 0), 0).x;
+        if ((t0 | t1 | t2 | t3) != 0u) {
+            int place = int(y * tile.row_words + x);
+            // Transposes 4 x 4 bytes.
+            uint a = (t0 & 0xffffu) | (t2 << 16);
+            uint b = (t1 & 0xffffu) | (t3 << 16);
+            uint c = (t0 >> 16) | (t2 & 0xffff0000u);
+            uint d = (t1 >> 16) | (t3 & 0xffff0000u);
+            add_word((a & 0x00ff00ffu) | ((b & 0x00ff00ffu) << 8), place, source0, total0);
+            add_word(((a >> 8) & 0x00ff00ffu) | (b & 0xff00ff00u), place, source1, total1);
+            add_word((c & 0x00ff00ffu) | ((d & 0x00ff00ffu) << 8), place, source2, total2);
+            add_word(((c >> 8) & 0x00ff00ffu) | (d & 0xff00ff00u), place, source3, total3);
+        }
+        x += step_x;
+        row += step_rows;
+        if (x >= width) {
+            x -= width;
+            row++;
+        }
+    }
+    barrier();
+    add_to_shared(0u, total0);
+    add_to_shared(1u, total1);
+    add_to_shared(2u, total2);
+    add_to_shared(3u, total3);
+    barrier();
+    if (unit < 4u) add_to_sums(tile, unit, shared_total(unit));
+}
+
+#endif
