@@ -2,9 +2,10 @@
 //! so that a noisy moment of the machine touches every row alike, and the ratios are of medians.
 //!
 //! `cargo bench --bench evaluate` prints the table of docs/PERFORMANCE.md; run by `cargo test` it does one round of each
-//! row and checks that all give the same integers.
+//! row and checks that all give the same integers. Rows `in segments` are scored by three segments (docs/RASTER.md).
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use pantin::bench::{Scene, Yardstick, YardstickKind, swarm};
@@ -14,8 +15,8 @@ use pantin::evaluate::vulkan::{
     Comparison, Compute, Coverage, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
     open_device,
 };
-use pantin::evaluate::{Components, Evaluator, Objective};
-use pantin::features::Observation;
+use pantin::evaluate::{Components, Evaluator, Objective, Reference};
+use pantin::features::{Observation, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;
 use pantin::gpu::{PassTiming, Timing, by_name};
 
@@ -58,6 +59,31 @@ fn print_stages(name: &str, timings: &[PassTiming]) {
     println!("{name} stages, ms: {}", text.join(", "));
 }
 
+/// Observations whose silhouettes are told apart as the body's own parts in a pose: head and trunk, arms, legs.
+fn in_segments(body: &Body, cameras: &[Camera], pose: &[f32], seen: &[Observation]) -> Vec<Observation> {
+    let labels = |is_own: fn(&str) -> bool| -> Vec<u8> {
+        body.parts.iter().filter(|part| is_own(&part.name)).map(|part| part.label).collect()
+    };
+    let is_arm = |name: &str| ["arm", "hand"].iter().any(|word| name.contains(word));
+    let is_leg = |name: &str| ["thigh", "calf", "foot"].iter().any(|word| name.contains(word));
+    let (arms, legs) = (labels(is_arm), labels(is_leg));
+    let rest = body.parts.iter().map(|part| part.label).filter(|label| !arms.contains(label) && !legs.contains(label));
+    let segment = |name: &str, labels: Vec<u8>, weight| Segment { name: name.into(), labels, weight };
+    let list = vec![segment("trunk", rest.collect(), 0.4), segment("arms", arms, 0.3), segment("legs", legs, 0.3)];
+    assert!(list.iter().all(|segment| !segment.labels.is_empty()));
+    let segments = Arc::new(Segments::new(list).unwrap());
+    let reference = Reference::new(body, cameras);
+    seen.iter()
+        .enumerate()
+        .map(|(view, observation)| {
+            let drawn = reference.draw(pose, view);
+            let numbers = drawn.bytes.iter().map(|byte| segments.number(byte & 0x7f)).collect();
+            let segmentation = Segmentation::new(Arc::clone(&segments), drawn.width, drawn.height, numbers).unwrap();
+            observation.clone().with_segmentation(segmentation).unwrap()
+        })
+        .collect()
+}
+
 struct Row {
     name: String,
     rounds_each: usize,
@@ -81,6 +107,8 @@ fn main() {
     for (title, size, person) in [("A", [480, 270], 150.0), ("B", [640, 480], 280.0)] {
         let Scene { body, cameras, observations: seen, pose } = Scene::new(size, person).unwrap();
         let poses = swarm(&body, &pose, count);
+        let segmented = in_segments(&body, &cameras, &pose, &seen);
+        let told_apart = [("", &seen), (" in segments", &segmented)];
         let pixels: u32 = seen.iter().map(Observation::area).sum::<u32>() / 4;
         println!(
             "\n{title}: {count} candidates x 4 cameras, {}x{}, person {person} px ({pixels} px silhouette), {threads} threads",
@@ -105,14 +133,15 @@ fn main() {
                 ms: Vec::new(),
             });
         }
-        for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+        let sets = InstructionSet::ALL.into_iter().filter(|set| set.is_available());
+        for (set, (suffix, seen)) in sets.flat_map(|set| told_apart.map(|each| (set, each))) {
             let mut cpu = Cpu::with(&body, &cameras, set, threads).unwrap();
-            cpu.observe(&seen).unwrap();
+            cpu.observe(seen).unwrap();
             let poses = poses.clone();
             let (mut fitness, mut out) = (vec![0.0; count], Vec::new());
             let objective = Objective::default();
             rows.push(Row {
-                name: set.name().into(),
+                name: format!("{}{suffix}", set.name()),
                 // The iterations of a frame follow each other; alone, an iteration would mostly wake its threads and fill caches.
                 rounds_each: 15,
                 every: 1,
@@ -129,34 +158,38 @@ fn main() {
                 ms: Vec::new(),
             });
         }
-        match Compute::new(&body, &cameras) {
-            Ok(mut compute) => {
-                compute.observe(&seen).unwrap();
-                let (name, poses) = (format!("compute {}", compute.variant()), poses.clone());
-                println!("compute on {}", compute.facts().name);
-                let (mut fitness, mut out) = (vec![0.0; count], Vec::new());
-                let objective = Objective::default();
-                rows.push(Row {
-                    name,
-                    rounds_each: 2,
-                    every: 1,
-                    is_exact: true,
-                    run: Box::new(move || {
-                        compute.fitness(&poses, &objective, &mut fitness).unwrap();
-                        if out.is_empty() {
-                            out = vec![Components::default(); count * 4];
-                            compute.components(&poses, &mut out).unwrap();
-                            stages(&mut compute, &poses, &mut fitness);
-                            return out.clone();
-                        }
-                        Vec::new()
-                    }),
-                    ms: Vec::new(),
-                });
-            }
-            Err(error) => println!("SKIPPED compute: {error:#}"),
+        for (suffix, seen) in told_apart {
+            let mut compute = match Compute::new(&body, &cameras) {
+                Ok(compute) => compute,
+                Err(error) => {
+                    println!("SKIPPED compute: {error:#}");
+                    break;
+                }
+            };
+            compute.observe(seen).unwrap();
+            let (name, poses) = (format!("compute {}{suffix}", compute.variant()), poses.clone());
+            println!("compute on {}", compute.facts().name);
+            let (mut fitness, mut out) = (vec![0.0; count], Vec::new());
+            let objective = Objective::default();
+            rows.push(Row {
+                name,
+                rounds_each: 2,
+                every: 1,
+                is_exact: true,
+                run: Box::new(move || {
+                    compute.fitness(&poses, &objective, &mut fitness).unwrap();
+                    if out.is_empty() {
+                        out = vec![Components::default(); count * 4];
+                        compute.components(&poses, &mut out).unwrap();
+                        stages(&mut compute, &poses, &mut fitness);
+                        return out.clone();
+                    }
+                    Vec::new()
+                }),
+                ms: Vec::new(),
+            });
         }
-        rows.extend(graphics_rows(&body, &cameras, &seen, &poses));
+        rows.extend(graphics_rows(&body, &cameras, told_apart, &poses));
         if !filter.is_empty() {
             rows.retain(|row| filter.iter().any(|word| row.name.contains(word)));
         }
@@ -182,7 +215,7 @@ fn main() {
             continue;
         }
         println!(
-            "{:30} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10}",
+            "{:40} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10}",
             "variant", "ms", "min", "max", "us/image", "x rowspan", "x zbuffer"
         );
         let medians: Vec<f64> = rows
@@ -197,7 +230,7 @@ fn main() {
         };
         for (row, &ms) in rows.iter().zip(&medians) {
             println!(
-                "{:30} {:9.3} {:9.3} {:9.3} {:10.3} {:10.1} {:10.1}",
+                "{:40} {:9.3} {:9.3} {:9.3} {:10.3} {:10.1} {:10.1}",
                 row.name,
                 ms,
                 row.ms[0],
@@ -211,8 +244,13 @@ fn main() {
 }
 
 /// The graphics backend in all its variants, the first of them what one writes first: whole pictures, a depth buffer, a write mask a
-/// channel. Nothing where there is no Vulkan.
-fn graphics_rows(body: &Body, cameras: &[Camera], seen: &[Observation], poses: &[f32]) -> Vec<Row> {
+/// channel; by whole silhouettes, and those that are fit for it by segments too. Nothing where there is no Vulkan.
+fn graphics_rows(
+    body: &Body,
+    cameras: &[Camera],
+    told_apart: [(&str, &Vec<Observation>); 2],
+    poses: &[f32],
+) -> Vec<Row> {
     let device = match open_device() {
         Ok(device) => device,
         Err(error) => {
@@ -245,16 +283,23 @@ fn graphics_rows(body: &Body, cameras: &[Camera], seen: &[Observation], poses: &
         ),
     ];
     let count = poses.len() / body.dof_count();
+    let is_measured = |name: &str, in_segments: bool| {
+        let plain = ["whole-pictures", "feedback", "hardware"].iter().any(|word| name.contains(word));
+        !(in_segments && plain)
+    };
     variants
         .into_iter()
-        .map(|(name, settings)| {
+        .flat_map(|(name, settings)| told_apart.map(|(suffix, seen)| (name, suffix, settings, seen)))
+        .filter(|(name, suffix, ..)| is_measured(name, !suffix.is_empty()))
+        .map(|(name, suffix, settings, seen)| {
+            let name = format!("{name}{suffix}");
             let mut graphics = Graphics::on(&device, body, cameras, settings).unwrap();
             graphics.observe(seen).unwrap();
             let poses = poses.to_vec();
             let (mut fitness, mut out) = (vec![0.0; count], Vec::new());
             let objective = Objective::default();
             Row {
-                name: name.into(),
+                name: name.clone(),
                 rounds_each: 1,
                 every: 4,
                 is_exact: settings.coverage == Coverage::Exact,
@@ -267,7 +312,7 @@ fn graphics_rows(body: &Body, cameras: &[Camera], seen: &[Observation], poses: &
                         for _ in 0..2 {
                             graphics.fitness(&poses, &objective, &mut fitness).unwrap();
                         }
-                        print_stages(name, &graphics.timings().unwrap());
+                        print_stages(&name, &graphics.timings().unwrap());
                         graphics.time_stages(Timing::Off);
                         return out.clone();
                     }
