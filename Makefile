@@ -3,6 +3,7 @@
 #   make test    formatting, lints, all tests
 #   make bench   the speed tables of docs/PERFORMANCE.md
 #   make portability   the GPU tests on lavapipe (three subgroup sizes), SwiftShader and Mesa 25
+#   make rerun-test    builds with the feature rerun and reads recordings back: some ten minutes the first time
 #   make fuzz    a minute of fuzzing for every reader of a user's file (SECONDS_EACH=60)
 
 CARGO ?= cargo
@@ -17,7 +18,7 @@ SHADERC_PACKAGES := libshaderc-dev glslang-dev spirv-tools
 SHADERC_PARTS := shaderc_combined glslang SPIRV MachineIndependent GenericCodeGen OSDependent OGLCompiler HLSL SPIRV-Tools-opt \
 	SPIRV-Tools glslang-default-resource-limits
 
-.PHONY: demo test bench portability fuzz build ffmpeg vulkan shaderc toolchain help
+.PHONY: demo test bench portability rerun-test fuzz build ffmpeg vulkan shaderc toolchain help
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -53,6 +54,11 @@ bench: toolchain shaderc
 
 portability: toolchain shaderc vulkan
 	tests/portability.sh
+
+# 185 crates more, which no other target compiles.
+rerun-test: toolchain shaderc
+	$(CARGO) clippy --locked --features rerun --all-targets -- -D warnings
+	$(CARGO) test --locked --features rerun --test rerun
 
 fuzz: toolchain shaderc
 	tests/fuzz/run.sh all $(SECONDS_EACH)

@@ -55,3 +55,15 @@ fn impossible_numbers_are_named_before_anything_is_written() {
         Command::new(env!("CARGO_BIN_EXE_pantin")).args(["demo", "--frames", "0", "-o"]).arg(&folder).output().unwrap();
     assert!(String::from_utf8_lossy(&failed.stderr).contains("frames is 0"));
 }
+
+#[cfg(not(feature = "rerun"))]
+#[test]
+fn a_build_without_recordings_says_so_before_anything_is_written() {
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = temporary.path().join("demo");
+    let failed = demo(&folder, &["--rerun"]);
+    let message = String::from_utf8_lossy(&failed.stderr).into_owned();
+    assert_eq!(failed.status.code(), Some(1), "{message}");
+    assert!(message.contains("cargo build --release --features rerun"), "{message}");
+    assert!(message.trim().lines().count() == 1 && !folder.exists(), "{message}");
+}

@@ -39,6 +39,10 @@ pub struct DemoArgs {
     /// Seed of the search and of the cameras' noise.
     #[arg(long, value_name = "S", default_value_t = SearchSettings::default().seed)]
     seed: u64,
+    /// Write the report as report.rrd too, a recording for the viewer of rerun.io: the same in space and time. Only in builds
+    /// with the feature `rerun`.
+    #[arg(long)]
+    rerun: bool,
 }
 
 /// The picture of all views side by side.
@@ -60,7 +64,13 @@ pub fn run(args: &DemoArgs) -> Result<()> {
         seed: args.seed,
         ..SearchSettings::default()
     };
-    let settings = TrackSettings { search, spread: SPREAD, overlay_every: OVERLAY_EVERY, ..TrackSettings::default() };
+    let settings = TrackSettings {
+        search,
+        spread: SPREAD,
+        overlay_every: OVERLAY_EVERY,
+        recording: args.rerun,
+        ..TrackSettings::default()
+    };
     settings.check()?;
     let synthetic = SyntheticSequence::new(&scene)?;
     let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;
@@ -82,7 +92,7 @@ pub fn run(args: &DemoArgs) -> Result<()> {
     if let Some(next) = summary.stopped_before {
         bail!("stopped before frame {next}: run `pantin demo --force` to begin again");
     }
-    print_summary(&summary, &args.output);
+    print_summary(&summary, &args.output, args.rerun);
     // Of the frames that were drawn, the one that fits best; the first starts from the truth and shows little.
     let drawn = summary.frames.iter().filter(|result| result.frame.is_multiple_of(OVERLAY_EVERY));
     let best =

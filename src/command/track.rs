@@ -76,6 +76,10 @@ pub struct TrackArgs {
     /// Measure every pass on the Vulkan device too, for trace.json and stages.json; it costs some time of its own.
     #[arg(long)]
     trace: bool,
+    /// Write the report as report.rrd too, a recording for the viewer of rerun.io: the same in space and time. Only in builds
+    /// with the feature `rerun`.
+    #[arg(long)]
+    rerun: bool,
     /// How long a view may take for a picture, s, before the run ends with a sentence that names it.
     #[arg(long, value_name = "S", default_value_t = STALL_TIMEOUT.as_secs_f64())]
     stall_timeout: f64,
@@ -127,6 +131,7 @@ impl TrackArgs {
             start: self.start.clone(),
             overlay_every: self.overlay_every.unwrap_or(default_overlay),
             trace: self.trace,
+            recording: self.rerun,
             resume: self.resume,
             stall_timeout: duration("the stall time-out", self.stall_timeout)?,
             realtime,
@@ -165,12 +170,12 @@ pub fn run(args: &TrackArgs) -> Result<()> {
             args.output.display()
         );
     }
-    print_summary(&summary, &args.output);
+    print_summary(&summary, &args.output, args.rerun);
     Ok(())
 }
 
 /// What the user sees when all is done.
-pub(super) fn print_summary(summary: &TrackSummary, folder: &std::path::Path) {
+pub(super) fn print_summary(summary: &TrackSummary, folder: &std::path::Path, has_recording: bool) {
     for warning in &summary.warnings {
         eprintln!("note: {warning}");
     }
@@ -195,6 +200,9 @@ pub(super) fn print_summary(summary: &TrackSummary, folder: &std::path::Path) {
     }
     let first = if summary.realtime.is_some() { "timeline.svg" } else { "report.html" };
     println!("results in {}, start with {}", folder.display(), folder.join(first).display());
+    if has_recording {
+        println!("the report as a recording: rerun {}", folder.join("report.rrd").display());
+    }
 }
 
 fn print_realtime(realtime: &RealtimeSummary, evaluator: &str) {

@@ -88,6 +88,9 @@ pub struct OverlayFrame {
 pub struct Skeleton {
     /// Its name.
     pub name: String,
+    /// Names of the points, for those who show them.
+    #[serde(skip)]
+    pub names: Vec<String>,
     /// Pairs of indices of points.
     pub bones: Vec<[usize; 2]>,
     /// One row a frame, one entry a point; world, z up, mm.
@@ -323,6 +326,7 @@ mod tests {
         };
         let walker = |shift: f64| Skeleton {
             name: evil.clone(),
+            names: Vec::new(),
             bones: vec![[0, 1], [1, 2]],
             frames: (0..40)
                 .map(|i| vec![Some(DVec3::new(f64::from(i) * 20.0 + shift, 0.0, 900.0)), None, Some(DVec3::NAN)])

@@ -1,10 +1,11 @@
-//! What people look at: overlays, plots, the HTML page.
+//! What people look at: overlays, plots, the HTML page, and the same as a recording.
 
 mod arrows;
 mod comparison;
 mod html;
 mod overlay;
 mod plot;
+mod recording;
 mod timeline;
 
 pub use arrows::{Arrow, arrow_chart};
@@ -14,4 +15,5 @@ pub use html::{
 };
 pub use overlay::{Canvas, OverlayPolygon, part_colour, side_by_side};
 pub use plot::{Series, bar_chart, line_chart};
+pub use recording::{RecordedView, check_recordings_are_built, write_recording};
 pub use timeline::{Bar, Mark, TimelineChart, timeline_chart};

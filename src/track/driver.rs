@@ -485,7 +485,8 @@ impl Run<'_> {
             summary.realtime = Some(realtime.finish(output, sequence, truth, warnings, self.done)?);
             return Ok(summary);
         }
-        write_report(output, sequence, body, &summary, &confidences, &held, self.truth.as_ref(), record.rows())?;
+        let (truth, has_recording) = (self.truth.as_ref(), self.settings.recording);
+        write_report(output, sequence, body, &summary, &confidences, &held, truth, record.rows(), has_recording)?;
         Ok(summary)
     }
 }

@@ -1,9 +1,9 @@
-//! The report of a track: report.html.
+//! The report of a track: report.html, and report.rrd where it is asked for.
 
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use image::RgbImage;
 
 use super::confidence::FrameConfidence;
@@ -16,17 +16,20 @@ use crate::files::{OutputFolder, Overwrite};
 use crate::geometry::Camera;
 use crate::motion::PointTrajectory;
 use crate::report::{
-    CameraFrame, Headline, JointError, OverlayFrame, Player, ReportData, Series, Skeleton, StageTime, write_page,
+    CameraFrame, Headline, JointError, OverlayFrame, Player, RecordedView, ReportData, Series, Skeleton, StageTime,
+    write_page, write_recording,
 };
 use crate::sequence::Sequence;
 
+/// The recording's name in a track's folder.
+pub(super) const RECORDING: &str = "report.rrd";
 /// Overlays that a page holds at most, in frames: more would make it heavy.
 const OVERLAY_FRAMES: usize = 12;
 const BLUE: [u8; 3] = [31, 111, 178];
 const ORANGE: [u8; 3] = [217, 119, 6];
 const GREEN: [u8; 3] = [22, 140, 90];
 
-/// Writes report.html; `settings` are names and values.
+/// Writes report.html, and the recording if it is asked for; `settings` are names and values.
 pub(super) fn write_report(
     output: &OutputFolder,
     sequence: &Sequence,
@@ -36,8 +39,10 @@ pub(super) fn write_report(
     held: &Held,
     truth: Option<&Truth>,
     settings: Vec<(String, String)>,
+    has_recording: bool,
 ) -> Result<()> {
     let frames = &summary.frames;
+    let drawn = drawn_frames(output.path(), &sequence.cameras, frames);
     let joints = held.with_gaps(body.joint_trajectory(&held.table, sequence.fps)?);
     let mut data = ReportData {
         title: sequence.name.clone(),
@@ -54,7 +59,7 @@ pub(super) fn write_report(
         warnings: summary.warnings.clone(),
         first_frame: summary.first_frame,
         fitness_per_frame: fitness_curves(confidences, frames),
-        overlays: overlays(output.path(), &sequence.cameras, frames)?,
+        overlays: overlays(output.path(), &sequence.cameras, &drawn)?,
         player: Some(player(sequence, body, &joints, truth)),
         settings,
         ..ReportData::default()
@@ -76,7 +81,12 @@ pub(super) fn write_report(
     let per_frame = |total: f64, count: u64| if count > 0 { total / count as f64 } else { 0.0 };
     let stages = summary.stages.iter();
     data.stages = stages.map(|s| StageTime { name: s.name.clone(), ms: per_frame(s.total, s.count) }).collect();
-    write_page(&output.file("report.html")?, &data, Overwrite::Replace)
+    write_page(&output.file("report.html")?, &data, Overwrite::Replace)?;
+    if has_recording {
+        let views = recorded_views(output.path(), &sequence.cameras, &drawn);
+        write_recording(&output.file(RECORDING)?, &data, &views, Overwrite::Replace)?;
+    }
+    Ok(())
 }
 
 fn headlines(summary: &TrackSummary) -> Vec<Headline> {
@@ -109,14 +119,24 @@ fn fitness_curves(confidences: &[FrameConfidence], frames: &[FrameResult]) -> Ve
     ]
 }
 
-/// Overlays of frames evenly over the track, read back from the folder: an earlier run may have drawn them.
-fn overlays(folder: &Path, cameras: &[Camera], frames: &[FrameResult]) -> Result<Vec<OverlayFrame>> {
-    let Some(first) = cameras.first() else { return Ok(Vec::new()) };
-    let there: Vec<usize> = frames
-        .iter()
-        .map(|result| result.frame)
-        .filter(|frame| folder.join(file_name(&first.name, *frame)).is_file())
-        .collect();
+/// Frames whose overlays the folder holds: an earlier run may have drawn them.
+fn drawn_frames(folder: &Path, cameras: &[Camera], frames: &[FrameResult]) -> Vec<usize> {
+    let Some(first) = cameras.first() else { return Vec::new() };
+    let frames = frames.iter().map(|result| result.frame);
+    frames.filter(|frame| folder.join(file_name(&first.name, *frame)).is_file()).collect()
+}
+
+/// All overlays that there are, where they lie.
+fn recorded_views<'a>(folder: &Path, cameras: &'a [Camera], drawn: &[usize]) -> Vec<RecordedView<'a>> {
+    let pictures = |camera: &Camera| {
+        let all = drawn.iter().map(|&frame| (frame, folder.join(file_name(&camera.name, frame))));
+        all.filter(|(_, path)| path.is_file()).collect()
+    };
+    cameras.iter().map(|camera| RecordedView { camera, pictures: pictures(camera) }).collect()
+}
+
+/// Overlays of frames evenly over the track, read back from the folder.
+fn overlays(folder: &Path, cameras: &[Camera], there: &[usize]) -> Result<Vec<OverlayFrame>> {
     let count = there.len().min(OVERLAY_FRAMES);
     let mut chosen = Vec::with_capacity(count);
     for index in 0..count {
@@ -137,12 +157,16 @@ fn overlays(folder: &Path, cameras: &[Camera], frames: &[FrameResult]) -> Result
 
 fn player(sequence: &Sequence, body: &Body, joints: &PointTrajectory, truth: Option<&Truth>) -> Player {
     let lines = joint_lines(body);
-    let mut skeletons =
-        vec![Skeleton { name: "tracked".to_string(), bones: lines.clone(), frames: joints.frames.clone() }];
+    let mut skeletons = vec![skeleton("tracked", body, lines.clone(), joints.frames.clone())];
     if let Some(truth) = truth {
         skeletons.extend(true_skeleton(body, joints, truth, &lines));
     }
     Player { fps: sequence.fps, skeletons, cameras: sequence.cameras.iter().filter_map(camera_frame).collect() }
+}
+
+/// A skeleton of the body's joints.
+fn skeleton(name: &str, body: &Body, bones: Vec<[usize; 2]>, frames: Vec<Vec<Option<DVec3>>>) -> Skeleton {
+    Skeleton { name: name.to_string(), names: body.joint_names(), bones, frames }
 }
 
 /// The truth with lines between the joints that it has under our names; markers have no lines to draw.
@@ -158,7 +182,7 @@ fn true_skeleton(body: &Body, joints: &PointTrajectory, truth: &Truth, lines: &[
         let row = row(joints.first_frame + at);
         columns.iter().map(|column| *row?.get((*column)?)?).collect()
     });
-    Some(Skeleton { name: "reference".to_string(), bones: lines.to_vec(), frames: frames.collect() })
+    Some(skeleton("reference", body, lines.to_vec(), frames.collect()))
 }
 
 /// A camera with the directions of its picture's corners; none where its lens has no ray for one.

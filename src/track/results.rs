@@ -9,6 +9,7 @@ use anyhow::{Context, Result};
 use super::confidence::FrameConfidence;
 use super::journal::{FrameResult, Journal};
 use super::overlay;
+use super::page;
 use super::realtime;
 use super::run_record;
 use crate::body::{Body, PoseTable, PoseWriter};
@@ -17,7 +18,7 @@ use crate::geometry::Camera;
 use crate::motion::{PointTrajectory, write_bvh, write_points};
 
 /// Everything a run writes but its overlays.
-const FILES: [&str; 13] = [
+const FILES: [&str; 14] = [
     "poses.csv",
     "joints.csv",
     "joints.trc",
@@ -27,6 +28,7 @@ const FILES: [&str; 13] = [
     "stages.json",
     "trace.json",
     "report.html",
+    page::RECORDING,
     realtime::SUMMARY,
     realtime::TIMELINE,
     run_record::NAME,

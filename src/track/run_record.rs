@@ -103,7 +103,7 @@ fn run(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Table {
     let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
     let command = format!(
         "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-         --refine {} --predict {} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}",
+         --refine {} --predict {} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}{}",
         sequence.path.display(),
         plan.range.start,
         plan.range.end,
@@ -119,6 +119,7 @@ fn run(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Table {
         plan.backend.evaluator.name(),
         settings.model.name(),
         settings.overlay_every,
+        if settings.recording { " --rerun" } else { "" },
         settings.realtime.as_ref().map(|realtime| realtime.flags()).unwrap_or_default(),
     );
     Table::from_iter([

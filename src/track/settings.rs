@@ -6,6 +6,7 @@ use std::time::Duration;
 use anyhow::{Result, ensure};
 
 use super::{Backend, FrameRange, Model, ObjectiveChoice, Prediction, RealtimeSettings};
+use crate::report::check_recordings_are_built;
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::STALL_TIMEOUT;
 
@@ -35,6 +36,8 @@ pub struct TrackSettings {
     pub overlay_every: usize,
     /// Measure every pass on the device, for the trace and the stage times; it costs time of its own.
     pub trace: bool,
+    /// Write the report as a recording too; only in builds with the feature `rerun`.
+    pub recording: bool,
     /// Go on with the run that the output folder holds.
     pub resume: bool,
     /// How long a view may take for a picture.
@@ -57,6 +60,7 @@ impl Default for TrackSettings {
             start: None,
             overlay_every: 10,
             trace: false,
+            recording: false,
             resume: false,
             stall_timeout: STALL_TIMEOUT,
             realtime: None,
@@ -78,8 +82,15 @@ impl TrackSettings {
         );
         let stall = self.stall_timeout.as_secs_f64();
         ensure!((0.1..=86_400.0).contains(&stall), "the stall time-out is {stall} s, expected 0.1 to 86400");
+        if self.recording {
+            check_recordings_are_built()?;
+        }
         if let Some(realtime) = &self.realtime {
             realtime.check()?;
+            ensure!(
+                !self.recording,
+                "a run in real time writes no report, so there is none to record: leave out --rerun"
+            );
             ensure!(
                 realtime.deadline.is_none() || self.search.kind == SearchKind::Pso,
                 "a deadline changes the number of poses from frame to frame, which --search {} cannot: expected pso",
