@@ -1,6 +1,9 @@
 //! The backend that draws with the graphics pipeline: four candidates of a view a tile of one large framebuffer, compared there
 //! with the observations (SPEC A9).
 
+mod evaluator;
+mod room;
+
 use std::sync::Arc;
 
 use anyhow::{Result, ensure};
@@ -8,26 +11,21 @@ use anyhow::{Result, ensure};
 use crate::body::{Body, Mesh};
 use crate::evaluate::batch::{check_batch, check_scene};
 use crate::evaluate::rig::Rig;
-use crate::evaluate::segments::{check_segment_batch, segments_of};
 use crate::evaluate::stages::{
     CompareStage, Coverage, Gathering, ObjectiveStage, Packing, PlaceStage, PoseStage, ProjectFeedbackStage, Share,
     layout,
 };
-use crate::evaluate::{
-    CandidateImage, Components, Evaluator, Footprint, MeshProjector, Objective, Projector, SegmentSums,
-};
+use crate::evaluate::{CandidateImage, Evaluator, MeshProjector, Objective, Projector, SegmentSums};
 use crate::features::{Observation, Segments};
 use crate::geometry::Camera;
-use crate::gpu::{
-    Buffer, Device, DeviceFacts, DeviceKind, DevicePass, Memory, OutOfMemory, PassTiming, Recorder, Recording, Timing,
-};
+use crate::gpu::{Device, DeviceFacts, DeviceKind, Memory, PassTiming, Recorder, Recording, Timing};
 
+use self::room::{Room, make_framebuffer};
 use super::drawn::Drawn;
 use super::graphics_segments::{Comparing, GraphicsSegments};
-use super::host_ends::HostEnds;
 use super::readback::{FramebufferCopy, HostComparison};
 use super::runs::Runs;
-use super::tiles::{TileLayout, fitting_tile, next_tile};
+use super::tiles::{fitting_tile, next_tile};
 use super::{
     Comparison, DeviceEvaluator, DeviceModel, Framebuffer, GraphicsSettings, Projection, Tiling, Workspace, open_device,
 };
@@ -76,76 +74,6 @@ struct Counted {
     sums: Vec<Option<layout::Sums>>,
     /// `[candidate][view][segment]`, where there are segments.
     segments: Vec<SegmentSums>,
-}
-
-/// Buffers for a number of candidates.
-#[derive(Debug)]
-struct Room {
-    workspace: Workspace,
-    framebuffer: Framebuffer,
-    /// Most candidates of a batch.
-    batch: u32,
-    ends: HostEnds,
-    /// What the images touched, for the host to fit tiles to.
-    bounds_out: Buffer,
-    /// Of the framebuffer, for the comparison on the host.
-    copy: Option<FramebufferCopy>,
-    /// For transform feedback.
-    captured: Option<Buffer>,
-}
-
-impl Room {
-    fn new(
-        model: &DeviceModel,
-        drawn: &mut Drawn,
-        settings: &GraphicsSettings,
-        tiles: &[[u32; 2]],
-        candidates: u32,
-    ) -> Result<Self> {
-        let (device, counts) = (&model.device, model.counts);
-        let candidates = candidates.max(1);
-        let images = candidates as usize * counts.views as usize;
-        let ends = HostEnds::new(model, candidates)?;
-        let bounds_out = device.buffer::<layout::Bounds>("bounds readback", images, Memory::Readback)?;
-        drawn.reserve(model, candidates)?;
-        let (framebuffer, copy) = make_framebuffer(device, settings, tiles, candidates)?;
-        // The workspace last: it takes what is left.
-        let workspace = Workspace::new(device, counts, candidates)?;
-        let batch = workspace.batch.min(framebuffer.layout.candidates).min(drawn.most());
-        let captured = match settings.projection {
-            Projection::Compute => None,
-            Projection::Feedback => Some(ProjectFeedbackStage::room(device, counts, workspace.batch)?),
-        };
-        Ok(Self { workspace, framebuffer, batch, ends, bounds_out, copy, captured })
-    }
-}
-
-/// The largest framebuffer that `candidates` need and the device has room for, and the host's copy of it where it compares there.
-fn make_framebuffer(
-    device: &Device,
-    settings: &GraphicsSettings,
-    tiles: &[[u32; 2]],
-    candidates: u32,
-) -> Result<(Framebuffer, Option<FramebufferCopy>)> {
-    let on_host = matches!(settings.comparison, Comparison::Host(_));
-    let texel = 4 * (1 + u64::from(settings.packing == Packing::Depth) + u64::from(on_host));
-    let mut most_pixels = device.memory_available() / 2 / texel;
-    if on_host {
-        most_pixels = most_pixels.min(device.capabilities().max_storage / 4);
-    }
-    loop {
-        let layout = TileLayout::new(tiles, candidates, device.capabilities().max_image, most_pixels)?;
-        let made =
-            Framebuffer::new(device, layout, settings.packing, settings.tiling == Tiling::Pictures).and_then(|made| {
-                let copy = if on_host { Some(FramebufferCopy::new(device, &made)?) } else { None };
-                Ok((made, copy))
-            });
-        match made {
-            // Until not even a tile is left, which the layout says.
-            Err(error) if error.is::<OutOfMemory>() => most_pixels /= 2,
-            made => return made,
-        }
-    }
 }
 
 impl Graphics {
@@ -587,191 +515,5 @@ impl Graphics {
             self.tiles = tiles;
         }
         Ok(())
-    }
-}
-
-impl Evaluator for Graphics {
-    fn name(&self) -> &'static str {
-        "graphics"
-    }
-
-    fn variant(&self) -> &'static str {
-        self.settings.name()
-    }
-
-    fn view_count(&self) -> usize {
-        self.model.counts.views as usize
-    }
-
-    fn dof_count(&self) -> usize {
-        self.model.counts.dofs as usize
-    }
-
-    fn observe(&mut self, observations: &[Observation]) -> Result<()> {
-        let segments = segments_of(observations)?;
-        self.model.observe(observations)?;
-        self.set_segments(segments.as_ref())?;
-        if let Some(segments) = &mut self.segments {
-            segments.observe(&self.model, observations)?;
-        }
-        self.runs.outdate_upload();
-        if matches!(self.settings.comparison, Comparison::Host(_)) {
-            self.observations = observations.to_vec();
-        }
-        // Until candidates have told, they are taken to be about as large as what is seen.
-        if !self.is_measured && !self.is_fixed {
-            let seen: Vec<[u32; 2]> = observations.iter().map(first_tile).collect();
-            let outgrows = |(seen, tile): (&[u32; 2], &[u32; 2])| seen[0] > tile[0] || seen[1] > tile[1];
-            if self.is_recorded && seen.iter().zip(&self.tiles).any(outgrows) {
-                // With room to grow into, so that this does not happen in every frame of an approach.
-                let grown = seen
-                    .iter()
-                    .zip(&self.model.sizes)
-                    .map(|(seen, size)| [0, 1].map(|axis| (seen[axis] + seen[axis] / 4).min(size[axis])));
-                self.set_tiles(grown.collect())?;
-                self.is_outgrown = true;
-            } else if !self.is_recorded {
-                self.set_tiles(seen)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn components(&mut self, poses: &[f32], components: &mut [Components]) -> Result<()> {
-        check_batch(poses, self.dof_count(), components.len(), self.view_count())?;
-        if components.is_empty() {
-            return Ok(());
-        }
-        let counted = self.run(poses, None)?;
-        self.room.ends.read_components(&self.model, &counted.sums, components)
-    }
-
-    fn segments(&self) -> Option<&Arc<Segments>> {
-        self.segments.as_ref().map(GraphicsSegments::segments)
-    }
-
-    fn segment_sums(&mut self, poses: &[f32], sums: &mut [SegmentSums]) -> Result<()> {
-        check_segment_batch(self, poses, sums.len())?;
-        if sums.is_empty() {
-            return Ok(());
-        }
-        let counted = self.run(poses, None)?;
-        self.read_segments(&counted, sums)
-    }
-
-    fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
-        check_batch(poses, self.dof_count(), fitness.len(), 1)?;
-        if fitness.is_empty() {
-            return Ok(());
-        }
-        if let Comparison::Host(_) = self.settings.comparison {
-            let views = self.view_count();
-            let mut components = vec![Components::default(); fitness.len() * views];
-            let counted = self.run(poses, None)?;
-            self.room.ends.read_components(&self.model, &counted.sums, &mut components)?;
-            let rows = components.chunks_exact(views);
-            let Some(segments) = &self.segments else {
-                fitness.iter_mut().zip(rows).for_each(|(value, row)| *value = objective.fitness(row));
-                return Ok(());
-            };
-            let a_pose = views * segments.segments().as_slice().len();
-            let mut sums = vec![SegmentSums::default(); fitness.len() * a_pose];
-            self.read_segments(&counted, &mut sums)?;
-            for ((value, row), sums) in fitness.iter_mut().zip(rows).zip(sums.chunks_exact(a_pose)) {
-                *value = objective.segmented_fitness(row, segments.segments(), sums);
-            }
-            return Ok(());
-        }
-        self.run(poses, Some(objective))?;
-        // The tiles may have been fitted since; the room's ends stay.
-        self.room.ends.fitness_out.read(0, fitness)
-    }
-
-    fn drawn(&mut self, pose: &[f32], view: usize) -> Result<Option<CandidateImage>> {
-        self.draw(pose, view).map(Some)
-    }
-
-    fn on_device(&mut self) -> Option<&mut dyn DeviceEvaluator> {
-        match self.settings.comparison {
-            Comparison::Device(_) => Some(self),
-            Comparison::Host(_) => None,
-        }
-    }
-
-    fn measure_passes(&mut self, measured: bool) -> Result<()> {
-        self.runs.measure_passes(measured);
-        Ok(())
-    }
-
-    fn device_passes(&mut self) -> Vec<DevicePass> {
-        self.runs.take_passes()
-    }
-
-    fn footprint(&self) -> Option<Footprint> {
-        let tile = [0, 1].map(|axis| self.tiles.iter().map(|tile| tile[axis]).max().unwrap_or(0));
-        // A channel of a texel, and a quarter of its depth.
-        let bytes_per_pixel = if self.settings.packing == Packing::Depth { 2.0 } else { 1.0 };
-        Some(Footprint { tile, bytes_per_pixel })
-    }
-}
-
-/// The tile of a view of which only the observation is known: its silhouette, a quarter larger; the picture when there is none.
-fn first_tile(observation: &Observation) -> [u32; 2] {
-    let picture = [observation.width, observation.height];
-    observation.silhouette().bounds().map_or(picture, |seen| {
-        let sides = [seen.x1 - seen.x0, seen.y1 - seen.y0];
-        [0, 1].map(|axis| (sides[axis] + sides[axis] / 4 + 16).min(picture[axis]))
-    })
-}
-
-impl DeviceEvaluator for Graphics {
-    fn device(&self) -> &Device {
-        &self.model.device
-    }
-
-    fn poses(&self) -> &Buffer {
-        &self.room.workspace.poses
-    }
-
-    fn fitness(&self) -> &Buffer {
-        &self.room.ends.fitness
-    }
-
-    fn views(&self) -> usize {
-        self.view_count()
-    }
-
-    fn sums(&self) -> &Buffer {
-        &self.room.workspace.sums
-    }
-
-    fn has_outgrown_its_recording(&self) -> bool {
-        self.is_outgrown
-    }
-
-    fn reserve(&mut self, candidates: u32) -> Result<()> {
-        (self.is_recorded, self.is_outgrown) = (true, false);
-        if !self.drawn.scores_what_fits_no_tile() && !self.is_fixed {
-            // Nobody looks between what is recorded here: every image must fit.
-            self.set_tiles(self.model.sizes.clone())?;
-            self.is_fixed = true;
-        }
-        self.make_room(candidates)
-    }
-
-    fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
-        self.model.record_upload(recorder)?;
-        self.segments.as_ref().map_or(Ok(()), |segments| segments.record_upload(recorder))?;
-        self.drawn.record_upload(recorder)
-    }
-
-    /// With tiles of the size that the newest observations or candidates told; images that outgrow them later are still scored,
-    /// the slower way. The comparison is on the device, whatever the settings say.
-    fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
-        self.record_start(recorder)?;
-        for share in self.shares(candidates)? {
-            self.record_share(recorder, share, None)?;
-        }
-        self.record_objective(recorder, objective, candidates)
     }
 }
