@@ -90,7 +90,7 @@ check() {
             newer="VK_LAYER_PATH=$work/layer VK_KHRONOS_VALIDATION_SYNCVAL_SHADER_ACCESSES_HEURISTIC=true"
         log=$work/$(echo "$name $layer" | tr ' ' '-').log
         # shellcheck disable=SC2086 # several variables in one word
-        if env "$@" $newer PANTIN_NEEDS_VULKAN=1 "$cargo" test --locked --quiet --lib -- $tests >"$log" 2>&1; then
+        if env "$@" $newer PANTIN_NEEDS_VULKAN=1 "$cargo" test --locked --quiet --lib -- $tests $left_out >"$log" 2>&1; then
             verdict=passed
         else
             verdict=FAILED failed=1
@@ -102,11 +102,16 @@ check() {
 }
 
 tests=$*
+left_out=
 printf '%-12s %-10s %-7s %-22s %s\n' driver layer verdict tests device
 for width in 128 256 512; do
     check "lavapipe $width" LP_NATIVE_VECTOR_WIDTH=$width
 done
+# Its compiler unrolls the noise of every kind and dimension: minutes a pipeline, and memory until the machine has none left.
+say "swiftshader: the noise stages (texture::stages) are left out, its compiler runs out of memory on them"
+left_out="--skip texture::stages"
 check swiftshader VK_ICD_FILENAMES="$chromium/vk_swiftshader_icd.json" VK_DRIVER_FILES="$chromium/vk_swiftshader_icd.json"
+left_out=
 if [ -d "$mesa" ]; then
     icd=$mesa/usr/share/vulkan/icd.d/lvp_icd.json
     check "mesa 25" LD_LIBRARY_PATH="$mesa/usr/lib/x86_64-linux-gnu" VK_ICD_FILENAMES="$icd" VK_DRIVER_FILES="$icd"
