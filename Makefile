@@ -43,8 +43,8 @@ test: export PROPTEST_RNG_SEED = 1
 test: toolchain shaderc ffmpeg vulkan
 	$(CARGO) fmt --check
 	$(CARGO) clippy --locked --all-targets -- -D warnings
+	$(CARGO) clippy --locked --features reload --lib -- -D warnings
 	env $(NEEDS_VULKAN) $(CARGO) test --locked
-	$(CARGO) test --locked --features reload --lib gpu::shaders
 	@echo "one round of every benchmark, so that none rots"
 	$(CARGO) test --locked --bench evaluate --bench features --bench search --bench mesh
 	@[ -d ../shared/data ] || echo "SKIPPED: the tests on real recordings; ../shared/data is absent"

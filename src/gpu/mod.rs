@@ -22,7 +22,7 @@ mod pipeline;
 mod recorder;
 mod recording;
 mod shader;
-#[cfg(feature = "reload")]
+#[cfg(any(feature = "reload", test))]
 pub mod shaders;
 mod timing;
 mod transform_feedback;
