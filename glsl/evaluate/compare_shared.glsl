@@ -8,7 +8,9 @@
 
 layout(local_size_x = COMPARE_GROUP) in;
 
-shared uint words[COMPARE_GROUP];
+// One longer than needed: at the length of SegmentTable's numbers the compiler takes their type for it, whose explicit layout shared
+// memory must not have.
+shared uint words[COMPARE_GROUP + 1u];
 shared uvec4 totals[COMPARE_GROUP];
 
 // The sum over the invocations of the same channel, for the first four; all invocations call it.
