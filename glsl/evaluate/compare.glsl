@@ -104,6 +104,40 @@ uint own_rows(Tile tile) {
     return (tile.height + bands - 1u - gl_WorkGroupID.y) / bands;
 }
 
+// The way of an invocation through a tile: every COMPARE_GROUPth place of the rows that its workgroup takes.
+struct Walk {
+    uint x;
+    uint row; // of those that the workgroup takes
+    uint width;
+    uint step_x;
+    uint step_rows;
+};
+
+// From place `unit` on, in rows of `width` places.
+Walk walk_from(uint unit, uint width) {
+    Walk walk;
+    walk.width = max(width, 1u);
+    walk.x = unit % walk.width;
+    walk.row = unit / walk.width;
+    walk.step_x = COMPARE_GROUP % walk.width;
+    walk.step_rows = COMPARE_GROUP / walk.width;
+    return walk;
+}
+
+// The row of the tile.
+uint row_of(Walk walk) {
+    return gl_WorkGroupID.y + walk.row * gl_NumWorkGroups.y;
+}
+
+void advance(inout Walk walk) {
+    walk.x += walk.step_x;
+    walk.row += walk.step_rows;
+    if (walk.x >= walk.width) {
+        walk.x -= walk.width;
+        walk.row++;
+    }
+}
+
 // Where the observation of channel `channel` begins for the tile's origin, in words: it may lie outside of the picture where
 // nothing is drawn.
 int observed_from(Tile tile, uint channel) {

@@ -4,7 +4,7 @@
 #ifndef EVALUATE_COMPARE_SHARED
 #define EVALUATE_COMPARE_SHARED
 
-#include "evaluate/compare.glsl"
+#include "evaluate/compare_channel.glsl"
 
 layout(local_size_x = COMPARE_GROUP) in;
 
@@ -13,18 +13,19 @@ layout(local_size_x = COMPARE_GROUP) in;
 shared uint words[COMPARE_GROUP + 1u];
 shared uvec4 totals[COMPARE_GROUP];
 
-// The sum over the invocations of the same channel, for the first four; all invocations call it.
-uvec4 over_group(uint unit, uvec4 total) {
-    totals[unit] = total;
+// For the first four invocations alone.
+uvec4 over_channel(uvec4 counted) {
+    uint unit = gl_LocalInvocationID.x;
+    totals[unit] = counted;
     for (uint half_way = COMPARE_GROUP / 2u; half_way >= 4u; half_way >>= 1) {
         barrier();
         if (unit < half_way) totals[unit] += totals[unit + half_way];
     }
-    total = totals[unit];
+    counted = totals[unit];
 #ifdef SEGMENTED
     barrier();
 #endif
-    return total;
+    return counted;
 }
 
 void main() {
@@ -34,43 +35,25 @@ void main() {
     uint channel = unit & 3u;
     uint texels = rows * tile.width;
     uint steps = (texels + COMPARE_GROUP - 1u) / COMPARE_GROUP;
-    uint width = max(tile.width, 1u);
-    uint x = unit % width;
-    uint row = unit / width;
-    uint step_x = COMPARE_GROUP % width;
-    uint step_rows = COMPARE_GROUP / width;
+    Walk walk = walk_from(unit, tile.width);
 #ifdef SEGMENTED
     load_numbers(tile);
 #endif
     Source source = source_of(tile, channel);
     Total total = nothing();
     for (uint i = 0u; i < steps; i++) {
-        uint y = gl_WorkGroupID.y + row * gl_NumWorkGroups.y;
-        words[unit] = row < rows ? texelFetch(framebuffer, tile.origin + ivec2(x, y), 0).x : 0u;
+        uint y = row_of(walk);
+        words[unit] = walk.row < rows ? texelFetch(framebuffer, tile.origin + ivec2(walk.x, y), 0).x : 0u;
         barrier();
         uint drawn = 0u;
         for (uint pixel = 0u; pixel < 4u; pixel++) {
             drawn |= ((words[(unit & ~3u) + pixel] >> (8u * channel)) & 0xffu) << (8u * pixel);
         }
         barrier();
-        if (drawn != 0u) add_word(drawn, int(y * tile.row_words + (x >> 2)), source, total);
-        x += step_x;
-        row += step_rows;
-        if (x >= width) {
-            x -= width;
-            row++;
-        }
+        if (drawn != 0u) add_word(drawn, int(y * tile.row_words + (walk.x >> 2)), source, total);
+        advance(walk);
     }
-    total.whole = over_group(unit, total.whole);
-#ifdef SEGMENTED
-    uint segments = SEGMENTS;
-    total.areas = over_group(unit, total.areas);
-    total.overlaps = over_group(unit, total.overlaps);
-    if (segments > 4u) {
-        total.more_areas = over_group(unit, total.more_areas);
-        total.more_overlaps = over_group(unit, total.more_overlaps);
-    }
-#endif
+    total = over_channel(total);
     if (unit < 4u) add_to_sums(tile, channel, total);
 }
 

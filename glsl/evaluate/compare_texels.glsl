@@ -49,12 +49,8 @@ void main() {
     Tile tile = own_tile();
     uint rows = own_rows(tile);
     uint unit = gl_LocalInvocationID.x;
-    uint width = max(tile.width >> 2, 1u);
     uint words = rows * (tile.width >> 2);
-    uint x = unit % width;
-    uint row = unit / width;
-    uint step_x = COMPARE_GROUP % width;
-    uint step_rows = COMPARE_GROUP / width;
+    Walk walk = walk_from(unit, tile.width >> 2);
     if (unit < 16u) shared_totals[unit] = 0u;
 #ifdef SEGMENTED
     if (unit < 64u) shared_segments[unit] = 0u;
@@ -69,14 +65,14 @@ void main() {
     Total total2 = nothing();
     Total total3 = nothing();
     for (uint word = unit; word < words; word += COMPARE_GROUP) {
-        uint y = gl_WorkGroupID.y + row * gl_NumWorkGroups.y;
-        ivec2 at = tile.origin + ivec2(4u * x, y);
+        uint y = row_of(walk);
+        ivec2 at = tile.origin + ivec2(4u * walk.x, y);
         uint t0 = texelFetch(framebuffer, at, 0).x;
         uint t1 = texelFetch(framebuffer, at + ivec2(1, 0), 0).x;
         uint t2 = texelFetch(framebuffer, at + ivec2(2, 0), 0).x;
         uint t3 = texelFetch(framebuffer, at + ivec2(3, 0), 0).x;
         if ((t0 | t1 | t2 | t3) != 0u) {
-            int place = int(y * tile.row_words + x);
+            int place = int(y * tile.row_words + walk.x);
             // Transposes 4 x 4 bytes.
             uint a = (t0 & 0xffffu) | (t2 << 16);
             uint b = (t1 & 0xffffu) | (t3 << 16);
@@ -87,12 +83,7 @@ void main() {
             add_word((c & 0x00ff00ffu) | ((d & 0x00ff00ffu) << 8), place, source2, total2);
             add_word(((c >> 8) & 0x00ff00ffu) | (d & 0xff00ff00u), place, source3, total3);
         }
-        x += step_x;
-        row += step_rows;
-        if (x >= width) {
-            x -= width;
-            row++;
-        }
+        advance(walk);
     }
     barrier();
     add_to_shared(0u, total0);
