@@ -489,31 +489,4 @@ impl Graphics {
         self.set_tiles(tiles)?;
         Ok(outgrown)
     }
-
-    fn make_room(&mut self, candidates: u32) -> Result<()> {
-        if candidates > self.room.workspace.candidates {
-            // Recordings hold the old room; without them it is free before the new one is taken.
-            self.runs.forget();
-            self.room = Room::new(&self.model, &mut self.drawn, &self.settings, &self.tiles, candidates)?;
-            if let Some(segments) = &mut self.segments {
-                segments.reserve(&self.model, &self.room.workspace)?;
-            }
-        }
-        Ok(())
-    }
-
-    pub(super) fn set_tiles(&mut self, tiles: Vec<[u32; 2]>) -> Result<()> {
-        if tiles != self.tiles {
-            // Recordings hold the old framebuffer; without them it is free before the new one is taken.
-            self.runs.forget();
-            let Room { workspace, .. } = &self.room;
-            let candidates = workspace.candidates;
-            let (framebuffer, copy) = make_framebuffer(&self.model.device, &self.settings, &tiles, candidates)?;
-            self.room.batch = workspace.batch.min(framebuffer.layout.candidates).min(self.drawn.most());
-            self.room.framebuffer = framebuffer;
-            self.room.copy = copy;
-            self.tiles = tiles;
-        }
-        Ok(())
-    }
 }

@@ -139,15 +139,6 @@ impl Evaluator for Graphics {
     }
 }
 
-/// The tile of a view of which only the observation is known: its silhouette, a quarter larger; the picture when there is none.
-fn first_tile(observation: &Observation) -> [u32; 2] {
-    let picture = [observation.width, observation.height];
-    observation.silhouette().bounds().map_or(picture, |seen| {
-        let sides = [seen.x1 - seen.x0, seen.y1 - seen.y0];
-        [0, 1].map(|axis| (sides[axis] + sides[axis] / 4 + 16).min(picture[axis]))
-    })
-}
-
 impl DeviceEvaluator for Graphics {
     fn device(&self) -> &Device {
         &self.model.device
@@ -198,4 +189,13 @@ impl DeviceEvaluator for Graphics {
         }
         self.record_objective(recorder, objective, candidates)
     }
+}
+
+/// The tile of a view of which only the observation is known: its silhouette, a quarter larger; the picture when there is none.
+fn first_tile(observation: &Observation) -> [u32; 2] {
+    let picture = [observation.width, observation.height];
+    observation.silhouette().bounds().map_or(picture, |seen| {
+        let sides = [seen.x1 - seen.x0, seen.y1 - seen.y0];
+        [0, 1].map(|axis| (sides[axis] + sides[axis] / 4 + 16).min(picture[axis]))
+    })
 }

@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 
+use super::Graphics;
 use crate::evaluate::stages::{Packing, ProjectFeedbackStage, layout};
 use crate::evaluate::vulkan::drawn::Drawn;
 use crate::evaluate::vulkan::host_ends::HostEnds;
@@ -77,5 +78,36 @@ pub(super) fn make_framebuffer(
             Err(error) if error.is::<OutOfMemory>() => most_pixels /= 2,
             made => return made,
         }
+    }
+}
+
+impl Graphics {
+    /// Room for so many candidates.
+    pub(super) fn make_room(&mut self, candidates: u32) -> Result<()> {
+        if candidates > self.room.workspace.candidates {
+            // Recordings hold the old room; without them it is free before the new one is taken.
+            self.runs.forget();
+            self.room = Room::new(&self.model, &mut self.drawn, &self.settings, &self.tiles, candidates)?;
+            if let Some(segments) = &mut self.segments {
+                segments.reserve(&self.model, &self.room.workspace)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes tiles of other sizes.
+    pub(in crate::evaluate::vulkan) fn set_tiles(&mut self, tiles: Vec<[u32; 2]>) -> Result<()> {
+        if tiles != self.tiles {
+            // Recordings hold the old framebuffer; without them it is free before the new one is taken.
+            self.runs.forget();
+            let Room { workspace, .. } = &self.room;
+            let candidates = workspace.candidates;
+            let (framebuffer, copy) = make_framebuffer(&self.model.device, &self.settings, &tiles, candidates)?;
+            self.room.batch = workspace.batch.min(framebuffer.layout.candidates).min(self.drawn.most());
+            self.room.framebuffer = framebuffer;
+            self.room.copy = copy;
+            self.tiles = tiles;
+        }
+        Ok(())
     }
 }
