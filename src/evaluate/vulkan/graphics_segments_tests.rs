@@ -11,7 +11,7 @@ use super::graphics_tests::{exact_settings, lowered, pictures};
 use super::mesh_tests::{self, Tolerance};
 use super::raster_tests::{Random, body_of, observations, odd_cameras};
 use super::readback::FramebufferCopy;
-use super::tests::{cameras, device, fetch, poses, set_up_with};
+use super::tests::{cameras, device, fetch, poses, recorded_fitness, set_up_with};
 use super::{
     Comparison, Coverage, DeviceEvaluator, Framebuffer, Gathering, Graphics, GraphicsSettings, HostComparison, Packing,
     Tiling,
@@ -349,21 +349,11 @@ fn a_search_can_record_segments_into_its_own_submission() {
     graphics.observe(&seen).unwrap();
     assert!(graphics.has_outgrown_its_recording());
     graphics.reserve(60).unwrap();
-    let staging = device.buffer::<f32>("poses staging", poses.len(), Memory::Upload).unwrap();
-    staging.write(0, &poses).unwrap();
-    let mut recorder = device.recorder(Timing::Off).unwrap();
-    graphics.record_upload(&mut recorder).unwrap();
-    recorder.copy("poses", (&staging, 0), (graphics.poses(), 0), staging.size()).unwrap();
-    // Iteration after iteration: what one counted does not stay for the next.
-    for _ in 0..3 {
-        graphics.record(&mut recorder, &AOSP, 60).unwrap();
-    }
-    recorder.finish().unwrap().run().unwrap();
-    let found: Vec<f32> = fetch(&device, DeviceEvaluator::fitness(&graphics), 60);
+    let found = recorded_fitness(&graphics, &AOSP, &poses, 60);
     for (found, expected) in found.iter().zip(&expected.fitness) {
         assert!((found - expected).abs() < 1e-5, "{found} is not {expected}");
     }
-    drop((staging, graphics, device));
+    drop((graphics, device));
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 

@@ -4,7 +4,7 @@
 
 use super::raster_tests::{Random, image, observations, odd_cameras, put};
 use super::readback::FramebufferCopy;
-use super::tests::{cameras, device, fetch, poses, set_up, set_up_with};
+use super::tests::{cameras, device, fetch, poses, recorded_fitness, set_up, set_up_with};
 use super::tiles::TileLayout;
 use super::{
     Comparison, Coverage, DeviceEvaluator, Framebuffer, Gathering, Graphics, GraphicsSettings, HostComparison, Packing,
@@ -413,16 +413,7 @@ fn a_search_can_record_it_into_its_own_submission() {
     let mut graphics = Graphics::on(&device, &body, &cameras, GraphicsSettings::default()).unwrap();
     graphics.observe(&seen).unwrap();
     graphics.reserve(60).unwrap();
-    let staging = device.buffer::<f32>("poses staging", poses.len(), Memory::Upload).unwrap();
-    staging.write(0, &poses).unwrap();
-    let mut recorder = device.recorder(Timing::Off).unwrap();
-    graphics.record_upload(&mut recorder).unwrap();
-    recorder.copy("poses", (&staging, 0), (graphics.poses(), 0), staging.size()).unwrap();
-    for _ in 0..3 {
-        graphics.record(&mut recorder, &objective, 60).unwrap();
-    }
-    recorder.finish().unwrap().run().unwrap();
-    let found: Vec<f32> = fetch(&device, DeviceEvaluator::fitness(&graphics), 60);
+    let found = recorded_fitness(&graphics, &objective, &poses, 60);
     let expected = reference(&body, &cameras, &seen, &poses);
     for (row, found) in expected.chunks_exact(cameras.len()).zip(found) {
         assert!((objective.fitness(row) - found).abs() < 1e-5);
@@ -430,6 +421,6 @@ fn a_search_can_record_it_into_its_own_submission() {
     let mut recorder = device.recorder(Timing::Off).unwrap();
     let error = graphics.record(&mut recorder, &objective, 61).unwrap_err().to_string();
     assert_eq!(error, "there is room for 60 candidates, and 61 were asked for");
-    drop((recorder, staging, graphics, device));
+    drop((recorder, graphics, device));
     assert_eq!(log.messages(), Vec::<String>::new());
 }

@@ -10,7 +10,7 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::drawn::Drawn;
 use super::readback::FramebufferCopy;
-use super::tests::{device, fetch, poses};
+use super::tests::{device, fetch, poses, recorded_fitness};
 use super::{
     Comparison, DeviceEvaluator, DeviceMesh, DeviceModel, Framebuffer, Gathering, Graphics, GraphicsSettings,
     HostComparison, MeshRoom, Packing, TileLayout, Tiling, Workspace,
@@ -512,19 +512,12 @@ fn a_search_on_the_device_finds_every_image_placed() {
     // Recorded while tiles would be small, run with candidates all over the pictures.
     let wild = poses(&body, 9);
     graphics.reserve(9).unwrap();
-    let staging = device.buffer::<f32>("poses staging", wild.len(), Memory::Upload).unwrap();
-    staging.write(0, &wild).unwrap();
-    let mut recorder = device.recorder(Timing::Off).unwrap();
-    graphics.record_upload(&mut recorder).unwrap();
-    recorder.copy("poses", (&staging, 0), (graphics.poses(), 0), staging.size()).unwrap();
-    graphics.record(&mut recorder, &Objective::default(), 9).unwrap();
-    recorder.finish().unwrap().run().unwrap();
-    let found: Vec<f32> = fetch(&device, DeviceEvaluator::fitness(&graphics), 9);
+    let found = recorded_fitness(&graphics, &Objective::default(), &wild, 9);
     let mut expected = vec![0.0; 9];
     reference.fitness(&wild, &Objective::default(), &mut expected).unwrap();
     for (found, expected) in found.iter().zip(&expected) {
         assert!((found - expected).abs() <= Tolerance::of(&device).fitness, "{found} is not {expected}");
     }
-    drop((staging, graphics, device));
+    drop((graphics, device));
     assert_eq!(log.messages(), Vec::<String>::new());
 }

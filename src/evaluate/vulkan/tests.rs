@@ -4,10 +4,10 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-use super::{DeviceModel, Workspace};
+use super::{DeviceEvaluator, DeviceModel, Workspace};
 use crate::body::Body;
-use crate::evaluate::Projector;
 use crate::evaluate::stages::{PoseStage, ProjectStage, Share, layout};
+use crate::evaluate::{Objective, Projector};
 use crate::geometry::{BrownConrady, Camera, Lens, Tsai};
 pub(super) use crate::gpu::test_device::device;
 use crate::gpu::{Buffer, Device, DeviceSettings, Memory, Timing};
@@ -71,6 +71,27 @@ pub(super) fn fetch<T: bytemuck::Pod>(device: &Device, buffer: &Buffer, len: usi
     let mut values = vec![T::zeroed(); len];
     seen.read(0, &mut values).unwrap();
     values
+}
+
+/// Fitness of poses by what an evaluator records into a search's submission, three iterations one after another: what one counted does
+/// not stay for the next. There must be room for them.
+pub(super) fn recorded_fitness(
+    evaluator: &dyn DeviceEvaluator,
+    objective: &Objective,
+    poses: &[f32],
+    candidates: u32,
+) -> Vec<f32> {
+    let device = evaluator.device();
+    let staging = device.buffer::<f32>("poses staging", poses.len(), Memory::Upload).unwrap();
+    staging.write(0, poses).unwrap();
+    let mut recorder = device.recorder(Timing::Off).unwrap();
+    evaluator.record_upload(&mut recorder).unwrap();
+    recorder.copy("poses", (&staging, 0), (evaluator.poses(), 0), staging.size()).unwrap();
+    for _ in 0..3 {
+        evaluator.record(&mut recorder, objective, candidates).unwrap();
+    }
+    recorder.finish().unwrap().run().unwrap();
+    fetch(device, evaluator.fitness(), candidates as usize)
 }
 
 /// A model and a workspace with its poses on the device.
