@@ -26,6 +26,7 @@ layout(push_constant) uniform Push {
     uint dofs;
     uint views;
     uint iteration;
+    uint is_first; // 1 where all that was found before is forgotten
 } push;
 
 shared uint keys[LOOK_GROUP];
@@ -45,7 +46,7 @@ void main() {
     uint place = 0u;
     for (uint particle = lane; particle < push.particles; particle += LOOK_GROUP) {
         uint now = order_of(fitness[particle]);
-        uint before = push.iteration == 0u ? 0u : own[particle].x;
+        uint before = push.is_first == 1u ? 0u : own[particle].x;
         own[particle] = uvec2(max(now, before), now > before ? 1u : 0u);
         // Of equals the lower index stays.
         if (now > key) {
@@ -67,9 +68,9 @@ void main() {
         barrier();
     }
     if (lane == 0u) {
-        uint before = push.iteration == 0u ? 0u : outcome.key;
+        uint before = push.is_first == 1u ? 0u : outcome.key;
         // A swarm without any fitness gathers where the first particle is.
-        leads = keys[0] > before || push.iteration == 0u ? 1u : 0u;
+        leads = keys[0] > before || push.is_first == 1u ? 1u : 0u;
         uint after = max(before, keys[0]);
         outcome.key = after;
         history[push.iteration] = after;

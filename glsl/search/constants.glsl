@@ -6,3 +6,12 @@ const uint SEARCH_GROUP = 64u;
 const uint LOOK_GROUP = 256u;
 // Running sums of a mean; also the invocations of a workgroup of `spread`.
 const uint SUM_LANES = 64u;
+
+// How the sharpness of an annealed filter is found: bit patterns of the least and the greatest one, 2^-10 and 2^24, how often
+// what lies between them is halved, running sums of the shares that a sharpness leaves, and how many halvings one workgroup
+// looks into at once: their tree, less than 2^5 times as many sums, is a workgroup.
+const uint LEAST_SHARPNESS = 0x3A800000u;
+const uint MOST_SHARPNESS = 0x4B800000u;
+const uint HALVINGS = 20u;
+const uint ANNEAL_LANES = 8u;
+const uint HALVINGS_AT_ONCE = 5u;

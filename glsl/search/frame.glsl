@@ -13,9 +13,10 @@ uvec4 random_words(uint iteration, uint particle, uint draw, uint block) {
     return philox(uvec4(particle, draw << 24 | block, iteration, frame.number), frame.seed);
 }
 
-// A normal step from `from`, held within the limits.
-float scattered(float from, float normal, uint d, uint dofs) {
-    precise float step = normal * frame.values[dofs + d];
+// A normal step from `from` with `factor` times the frame's spread, held within the limits.
+float scattered(float from, float normal, float factor, uint d, uint dofs) {
+    precise float spread = frame.values[dofs + d] * factor;
+    precise float step = normal * spread;
     precise float free = from + step;
     return hold(free, frame.values[2u * dofs + d], frame.values[3u * dofs + d]);
 }

@@ -31,7 +31,7 @@ impl AnnealingSettings {
     }
 
     /// Factor on the spread in a layer of so many.
-    fn noise_of(&self, layer: usize, layers: usize) -> f32 {
+    pub(super) fn noise_of(&self, layer: usize, layers: usize) -> f32 {
         let progress = layer as f64 / layers.saturating_sub(1).max(1) as f64;
         f64::from(self.last_noise).powf(progress) as f32
     }

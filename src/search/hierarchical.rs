@@ -29,54 +29,61 @@ impl HierarchySettings {
         }
         Ok(())
     }
+
+    /// The stages of a space, whose iterations add up to `iterations`: the torso, each limb, everything. With fewer iterations
+    /// than stages limbs share one; a single iteration moves everything at once.
+    pub(super) fn stages(&self, space: &SearchSpace, iterations: usize) -> Vec<SwarmStage> {
+        let groups = space.groups();
+        let limbs = groups.iter().copied().max().unwrap_or(0);
+        if limbs == 0 || iterations == 1 {
+            return vec![SwarmStage::whole(space, iterations)];
+        }
+        let joint = if iterations > 2 { 1 } else { 0 };
+        let limb_stages = limbs.min(iterations - 1 - joint);
+        let stage_of = |group: usize| if group == 0 { 0 } else { 1 + (group - 1) % limb_stages };
+        let mut weights = vec![0.0; 1 + limb_stages];
+        for &group in groups {
+            weights[stage_of(group)] += 1.0;
+        }
+        let mut stages: Vec<SwarmStage> = (0..=limb_stages)
+            .map(|stage| {
+                let factors = groups.iter().map(|&group| if stage_of(group) == stage { 1.0 } else { 0.0 }).collect();
+                SwarmStage { factors, iterations: 1 }
+            })
+            .collect();
+        if joint == 1 {
+            stages.push(SwarmStage { factors: vec![self.joint_spread; groups.len()], iterations: 1 });
+            let share = f64::from(self.joint_share.min(0.99));
+            weights.push(groups.len() as f64 * share / (1.0 - share));
+        }
+        // Each further iteration goes where it is missed most, of equals to the first.
+        for _ in stages.len()..iterations {
+            let mut neediest = 0;
+            for (index, weight) in weights.iter().enumerate() {
+                let need = |index: usize, weight: f64| weight / stages[index].iterations as f64;
+                if need(index, *weight) > need(neediest, weights[neediest]) {
+                    neediest = index;
+                }
+            }
+            stages[neediest].iterations += 1;
+        }
+        stages
+    }
 }
 
 /// A swarm of its own over some dimensions.
 #[derive(Clone, Debug, PartialEq)]
-struct Stage {
+pub(super) struct SwarmStage {
     /// Factor on the frame's spread of every dimension; one of 0 stands still.
-    factors: Vec<f32>,
-    iterations: usize,
+    pub(super) factors: Vec<f32>,
+    pub(super) iterations: usize,
 }
 
-/// The stages of a space, whose iterations add up to `iterations`: the torso, each limb, everything. With fewer iterations
-/// than stages limbs share one; a single iteration moves everything at once.
-fn stages(space: &SearchSpace, settings: &HierarchySettings, iterations: usize) -> Vec<Stage> {
-    let groups = space.groups();
-    let limbs = groups.iter().copied().max().unwrap_or(0);
-    if limbs == 0 || iterations == 1 {
-        return vec![Stage { factors: vec![1.0; groups.len()], iterations }];
+impl SwarmStage {
+    /// Everything at once.
+    pub(super) fn whole(space: &SearchSpace, iterations: usize) -> Self {
+        Self { factors: vec![1.0; space.dof_count()], iterations }
     }
-    let joint = if iterations > 2 { 1 } else { 0 };
-    let limb_stages = limbs.min(iterations - 1 - joint);
-    let stage_of = |group: usize| if group == 0 { 0 } else { 1 + (group - 1) % limb_stages };
-    let mut weights = vec![0.0; 1 + limb_stages];
-    for &group in groups {
-        weights[stage_of(group)] += 1.0;
-    }
-    let mut stages: Vec<Stage> = (0..=limb_stages)
-        .map(|stage| {
-            let factors = groups.iter().map(|&group| if stage_of(group) == stage { 1.0 } else { 0.0 }).collect();
-            Stage { factors, iterations: 1 }
-        })
-        .collect();
-    if joint == 1 {
-        stages.push(Stage { factors: vec![settings.joint_spread; groups.len()], iterations: 1 });
-        let share = f64::from(settings.joint_share.min(0.99));
-        weights.push(groups.len() as f64 * share / (1.0 - share));
-    }
-    // Each further iteration goes where it is missed most, of equals to the first.
-    for _ in stages.len()..iterations {
-        let mut neediest = 0;
-        for (index, weight) in weights.iter().enumerate() {
-            let need = |index: usize, weight: f64| weight / stages[index].iterations as f64;
-            if need(index, *weight) > need(neediest, weights[neediest]) {
-                neediest = index;
-            }
-        }
-        stages[neediest].iterations += 1;
-    }
-    stages
 }
 
 /// The search. A stage is a swarm ([`Pso`]) around the best pose so far, at rest, in which only the stage's dimensions move;
@@ -84,7 +91,7 @@ fn stages(space: &SearchSpace, settings: &HierarchySettings, iterations: usize) 
 /// the next stage.
 pub struct HierarchicalPso {
     swarm: Pso,
-    stages: Vec<Stage>,
+    stages: Vec<SwarmStage>,
     iterations: usize,
     /// Iterations done in this frame; `None` before the first frame.
     done: Option<usize>,
@@ -106,7 +113,7 @@ impl HierarchicalPso {
         let dofs = space.dof_count();
         Self {
             swarm: Pso::new(settings, space),
-            stages: stages(space, &settings.hierarchy, settings.iterations),
+            stages: settings.hierarchy.stages(space, settings.iterations),
             iterations: settings.iterations,
             done: None,
             stage: 0,
@@ -193,14 +200,14 @@ mod tests {
     fn stages_share_the_iterations_and_cover_everything() {
         let space = SearchSpace::of(&Body::adult(1750.0).unwrap()).unwrap();
         for iterations in 1..40 {
-            let stages = stages(&space, &HierarchySettings::default(), iterations);
+            let stages = HierarchySettings::default().stages(&space, iterations);
             assert_eq!(stages.iter().map(|stage| stage.iterations).sum::<usize>(), iterations);
             assert!(stages.iter().all(|stage| stage.iterations > 0));
             for d in 0..space.dof_count() {
                 assert!(stages.iter().any(|stage| stage.factors[d] == 1.0), "{d} of {iterations}");
             }
         }
-        let many = stages(&space, &HierarchySettings::default(), 30);
+        let many = HierarchySettings::default().stages(&space, 30);
         assert_eq!(many.len(), 7, "torso, two legs, two arms, head, everything");
         assert!(many[0].factors[0] == 1.0 && many[1].factors[0] == 0.0, "the root is the torso's");
     }

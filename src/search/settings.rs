@@ -57,7 +57,7 @@ impl SearchKind {
 
     /// Whether it has a form that runs whole on a device; the others are driven from the host.
     pub fn has_device_form(self) -> bool {
-        matches!(self, Self::Pso | Self::ParticleFilter)
+        self != Self::CmaEs
     }
 
     /// The kind of that name.

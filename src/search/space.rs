@@ -57,7 +57,17 @@ impl SearchSpace {
         });
         let (lower, upper) = limits.unzip();
         let space = Self::new(lower, upper, body.dofs().map(|(_, dof)| dof.step as f32).collect())?;
-        Ok(Self { groups: groups(body), ..space })
+        space.grouped(groups(body))
+    }
+
+    /// The same space with a group for every dimension, as [`Self::groups`] has them for a body.
+    ///
+    /// # Errors
+    /// When there are not as many as dimensions.
+    pub fn grouped(self, groups: Vec<usize>) -> Result<Self> {
+        let (found, count) = (groups.len(), self.dof_count());
+        ensure!(found == count, "{found} groups come for {count} dimensions, expected as many");
+        Ok(Self { groups, ..self })
     }
 
     /// The number of dimensions.
@@ -78,7 +88,7 @@ impl SearchSpace {
     /// The group of every dimension: 0 for the torso, from 1 on for its limbs, each from where it leaves the torso to its
     /// end. A bone is the torso's if it is the root, if two or more branches of weight hang on it, or if such a bone
     /// hangs on it; a branch has weight with at least a sixteenth of the body's dimensions, so that fingers do not make
-    /// an arm a part of the torso. A space without a body is one group.
+    /// an arm a part of the torso. A space without a body is one group unless [`Self::grouped`] says otherwise.
     pub fn groups(&self) -> &[usize] {
         &self.groups
     }

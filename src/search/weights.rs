@@ -1,14 +1,11 @@
 //! The weights of a filter's particles: from their fitness, as shares of the largest, and resampling by them.
 
 use super::arithmetic::exp_of_negative;
+use super::stages::{ANNEAL_LANES, HALVINGS, LEAST_SHARPNESS, MOST_SHARPNESS};
 use super::{Random, Stream};
 
 /// What a share of 1 counts in the integer sums that resampling goes by.
 const WHOLE: f32 = 2_147_483_648.0;
-/// Bit patterns of the least and the greatest sharpness that [`Weights::sharpness_for`] finds, 2^-10 and 2^24, and how often
-/// it halves what lies between them.
-const SHARPNESS: [u32; 2] = [0x3A80_0000, 0x4B80_0000];
-const HALVINGS: usize = 20;
 
 /// Weights of particles, `w = exp(-sharpness (1 - f)^2)` of a fitness f as shares of the largest.
 pub(super) struct Weights {
@@ -34,7 +31,7 @@ impl Weights {
         let nearest = nearest(fitness)?;
         let largest = fitness[nearest];
         self.shares.fill(0.0);
-        for (share, &fitness) in self.shares.iter_mut().zip(fitness).filter(|(_, fitness)| fitness.is_finite()) {
+        for (share, &fitness) in self.shares.iter_mut().zip(fitness) {
             *share = share_of(fitness, largest, sharpness);
         }
         self.cumulate();
@@ -55,17 +52,11 @@ impl Weights {
     pub(super) fn sharpness_for(fitness: &[f32], survival: f32, least: f32) -> f32 {
         let Some(nearest) = nearest(fitness) else { return least };
         let largest = fitness[nearest];
-        let finite = || fitness.iter().copied().filter(|fitness| fitness.is_finite());
-        let wanted = survival * finite().count() as f32;
-        let [mut low, mut high] = SHARPNESS;
+        let wanted = survival * fitness.iter().filter(|fitness| fitness.is_finite()).count() as f32;
+        let [mut low, mut high] = [LEAST_SHARPNESS, MOST_SHARPNESS];
         for _ in 0..HALVINGS {
             let middle = low + (high - low) / 2;
-            let (mut sum, mut squares) = (0.0, 0.0);
-            for fitness in finite() {
-                let share = share_of(fitness, largest, f32::from_bits(middle));
-                sum += share;
-                squares += share * share;
-            }
+            let [sum, squares] = sums_of_shares(fitness, largest, f32::from_bits(middle));
             // The largest share is 1, so neither sum is 0.
             if sum * sum > wanted * squares {
                 low = middle;
@@ -107,8 +98,41 @@ fn nearest(fitness: &[f32]) -> Option<usize> {
     nearest.map(|(index, _)| index)
 }
 
-/// The weight of `fitness` as a share of that of `largest`.
+/// The sum of all shares and of their squares, in as many running sums as a workgroup has invocations for them; these are
+/// added upper half to lower half.
+#[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn sums_of_shares(fitness: &[f32], largest: f32, sharpness: f32) -> [f32; 2] {
+    const LANES: usize = ANNEAL_LANES as usize;
+    let (mut sums, mut squares) = ([0.0_f32; LANES], [0.0_f32; LANES]);
+    let mut add = |row: &[f32; LANES]| {
+        for ((sum, squares), &fitness) in sums.iter_mut().zip(&mut squares).zip(row) {
+            let share = share_of(fitness, largest, sharpness);
+            *sum += share;
+            *squares += share * share;
+        }
+    };
+    let (rows, rest) = fitness.as_chunks::<LANES>();
+    rows.iter().for_each(&mut add);
+    let mut last = [f32::NAN; LANES];
+    last[..rest.len()].copy_from_slice(rest);
+    add(&last);
+    let mut half = LANES / 2;
+    while half > 0 {
+        for lane in 0..half {
+            sums[lane] += sums[lane + half];
+            squares[lane] += squares[lane + half];
+        }
+        half /= 2;
+    }
+    [sums[0], squares[0]]
+}
+
+/// The weight of `fitness` as a share of that of `largest`; none of what is not a finite number.
+#[inline(always)]
 fn share_of(fitness: f32, largest: f32, sharpness: f32) -> f32 {
+    if !fitness.is_finite() {
+        return 0.0;
+    }
     // (1 - f)^2 less the same of the largest, without the digits that a difference of squares loses.
     let exponent = (fitness - largest) * (2.0 - fitness - largest) * sharpness;
     exp_of_negative(if exponent > 0.0 { 0.0 } else { exponent })

@@ -8,7 +8,7 @@ use super::stages::Span;
 use crate::evaluate::{Components, Evaluator, Objective};
 use crate::features::Observation;
 use crate::gpu::{DevicePass, Timing};
-use crate::search::{DeviceSearch, Estimate, Refinement, Search, SearchKind, SearchSettings, SearchSpace};
+use crate::search::{DeviceSearch, Estimate, Refinement, Search, SearchSettings, SearchSpace};
 
 /// The search of a run.
 pub(super) enum Searcher {
@@ -37,7 +37,7 @@ impl OnDevice {
         let name = evaluator.name();
         let Some(evaluator) = evaluator.on_device() else { bail!("the backend {name} has left its device") };
         // A filter's samples live in its recording: it stays with the old one, which is slower and no less right.
-        let is_outgrown = self.settings.kind == SearchKind::Pso && evaluator.has_outgrown_its_recording();
+        let is_outgrown = !self.settings.kind.carries_on() && evaluator.has_outgrown_its_recording();
         if let Some(recorded) = self.recorded.take_if(|_| !is_outgrown) {
             return Ok(self.recorded.insert(recorded));
         }

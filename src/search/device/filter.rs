@@ -4,7 +4,7 @@ use anyhow::Result;
 
 use super::FrameRecording;
 use crate::search::SearchSettings;
-use crate::search::stages::{Extent, PropagateStage, SpreadStage, WeighStage, propagate_comp, spread_comp, weigh_comp};
+use crate::search::stages::{Extent, PropagateStage, WeighStage, propagate_comp, weigh_comp};
 
 impl FrameRecording<'_> {
     /// Records a frame of the filter: all batches, the weights, the mean and its own evaluation.
@@ -13,7 +13,6 @@ impl FrameRecording<'_> {
         let device = self.evaluator.device().clone();
         let propagate = PropagateStage::new(&device)?;
         let weigh = WeighStage::new(&device)?;
-        let spread = SpreadStage::new(&device)?;
         // `check_room` has seen to it that this fits.
         let count = extent.candidates * settings.iterations as u32;
         let all = Extent { candidates: count, ..extent };
@@ -22,8 +21,9 @@ impl FrameRecording<'_> {
         let all_fitness = self.values("fitness of all particles", count, 1)?;
         let weights = self.values("weights", count, 1)?;
         let cumulated = self.values("sums of weights", count, 2)?;
+        let sharpness = self.values("sharpness", 1, 1)?;
         let (positions, fitness) = (self.evaluator.poses().clone(), self.evaluator.fitness().clone());
-        let sums = self.evaluator.sums().clone();
+        self.recorder.fill("sharpness", &sharpness, settings.filter.sharpness().to_bits())?;
 
         self.recorder.copy("keep", (&particles, 0), (&previous, 0), particles.size())?;
         for batch in 0..settings.iterations as u32 {
@@ -47,21 +47,9 @@ impl FrameRecording<'_> {
             particles: &particles,
             weights: &weights,
             cumulated: &cumulated,
+            sharpness: &sharpness,
         };
-        weigh.record(self.recorder, &bindings, all, settings.filter.sharpness())?;
-        let bindings = spread_comp::Bindings {
-            frame: &memory.frame,
-            outcome: &memory.outcome,
-            rows: &particles,
-            weights: &weights,
-        };
-        spread.record(self.recorder, &bindings, all)?;
-        let row = 4 * u64::from(extent.dofs);
-        let mean = 4 * memory.places.values as u64 + 2 * row;
-        self.recorder.copy("estimate", (&memory.outcome, mean), (&positions, 0), row)?;
-        self.evaluate(1)?;
-        self.recorder.copy("gather", (&fitness, 0), (&memory.fitness, 0), 4)?;
-        self.recorder.copy("gather", (&sums, 0), (&memory.sums, 0), memory.sums.size())?;
-        self.recorder.fill("no history", &memory.history, 0)
+        weigh.record(self.recorder, &bindings, all, 0.0)?;
+        self.estimate_mean(&particles, &weights, count)
     }
 }

@@ -1,9 +1,10 @@
 //! The search on a Vulkan device: all iterations of a frame in one submission, and only its result read back.
 //!
-//! It is the search of [`super::Pso`] and [`super::ParticleFilter`] with the same random numbers and, operation by operation,
-//! the same arithmetic: given the same fitness it finds the same poses to the bit. What it does is recorded once; a frame
+//! It is the search of [`super::Pso`], [`super::HierarchicalPso`], [`super::ParticleFilter`] and [`super::AnnealedFilter`] with
+//! the same random numbers and, operation by operation, the same arithmetic: given the same fitness it finds the same poses to the bit. What it does is recorded once; a frame
 //! writes its centre and spread, submits the recording and waits.
 
+mod annealed;
 mod filter;
 mod swarm;
 #[cfg(test)]
@@ -13,7 +14,8 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 
-use super::stages::{Extent, layout};
+use super::hierarchical::SwarmStage;
+use super::stages::{Extent, SpreadStage, layout, spread_comp};
 use super::{Estimate, SearchKind, SearchSettings, SearchSpace, check_start};
 use crate::evaluate::Objective;
 use crate::evaluate::vulkan::DeviceEvaluator;
@@ -26,7 +28,7 @@ pub struct DeviceFound {
     pub estimate: Estimate,
     /// Drawn area, overlap, edge pixels and proximity of its pose, one row a view.
     pub sums: Vec<[u32; 4]>,
-    /// The best fitness after each iteration of a swarm, not a number while none was finite; empty for a particle filter.
+    /// The best fitness after each iteration of a swarm, not a number while none was finite; empty for a filter.
     pub best: Vec<f32>,
 }
 
@@ -72,8 +74,12 @@ impl DeviceSearch {
         evaluator.record_upload(&mut recorder)?;
         let mut recording = FrameRecording { recorder: &mut recorder, evaluator, objective, extent, memory: &memory };
         match settings.kind {
-            SearchKind::Pso => recording.swarm(settings),
+            SearchKind::Pso => recording.swarm(settings, &[SwarmStage::whole(space, settings.iterations)]),
+            SearchKind::Hierarchical => {
+                recording.swarm(settings, &settings.hierarchy.stages(space, settings.iterations))
+            }
             SearchKind::ParticleFilter => recording.filter(settings),
+            SearchKind::Annealed => recording.annealed(settings),
             kind => bail!("the search {:?} has no form for devices", kind.name()),
         }
         .with_context(|| {
@@ -100,7 +106,7 @@ impl DeviceSearch {
     pub fn search_frame(&mut self, frame: u32, centre: &[f32], spread: &[f32]) -> Result<DeviceFound> {
         let dofs = self.space.dof_count();
         check_start(dofs, centre, spread)?;
-        let goes_on = self.settings.kind == SearchKind::ParticleFilter && self.estimated == centre;
+        let goes_on = self.settings.kind.carries_on() && self.estimated == centre;
         self.estimated.clear();
         let seed = self.settings.seed;
         let header = layout::FrameHeader {
@@ -132,7 +138,7 @@ impl DeviceSearch {
         let SearchSettings { particles, iterations, kind, .. } = self.settings;
         let scored = particles * iterations;
         ensure!(key != 0, "none of the {scored} poses of frame {frame} has a finite fitness");
-        let is_filter = kind == SearchKind::ParticleFilter;
+        let is_filter = matches!(kind, SearchKind::ParticleFilter | SearchKind::Annealed);
         let (pose, fitness, evaluations) = if is_filter {
             let fitness = f32::from_bits(words[places.fitness]);
             ensure!(fitness.is_finite(), "the estimate of frame {frame} has a fitness of {fitness}");
@@ -140,7 +146,7 @@ impl DeviceSearch {
         } else {
             (values(0), value_of(key), scored)
         };
-        if is_filter {
+        if kind.carries_on() {
             self.estimated.extend_from_slice(&pose);
         }
         let history = &words[places.history..places.history + if is_filter { 0 } else { iterations }];
@@ -187,7 +193,7 @@ struct FrameMemory {
     outcome: Buffer,
     /// Order of the best fitness after each iteration.
     history: Buffer,
-    /// The fitness of the filter's estimate.
+    /// The fitness of a filter's estimate.
     fitness: Buffer,
     sums: Buffer,
     readback: Buffer,
@@ -246,6 +252,32 @@ struct FrameRecording<'a> {
 impl FrameRecording<'_> {
     fn evaluate(&mut self, candidates: u32) -> Result<()> {
         self.evaluator.record(self.recorder, self.objective, candidates)
+    }
+
+    /// As many ones.
+    fn ones(&mut self, name: &str, count: u32) -> Result<Buffer> {
+        let ones = self.values(name, count, 1)?;
+        self.recorder.fill("ones", &ones, 1.0_f32.to_bits())?;
+        Ok(ones)
+    }
+
+    /// The weighted mean of `count` rows, and its own evaluation.
+    fn estimate_mean(&mut self, rows: &Buffer, weights: &Buffer, count: u32) -> Result<()> {
+        let (extent, memory) = (self.extent, self.memory);
+        let spread = SpreadStage::new(self.evaluator.device())?;
+        let factors = self.ones("everything moves", extent.dofs)?;
+        let bindings =
+            spread_comp::Bindings { frame: &memory.frame, outcome: &memory.outcome, rows, weights, factors: &factors };
+        spread.record(self.recorder, &bindings, Extent { candidates: count, ..extent }, 0)?;
+        let row = 4 * u64::from(extent.dofs);
+        let mean = 4 * memory.places.values as u64 + 2 * row;
+        let (positions, fitness) = (self.evaluator.poses().clone(), self.evaluator.fitness().clone());
+        let sums = self.evaluator.sums().clone();
+        self.recorder.copy("estimate", (&memory.outcome, mean), (&positions, 0), row)?;
+        self.evaluate(1)?;
+        self.recorder.copy("gather", (&fitness, 0), (&memory.fitness, 0), 4)?;
+        self.recorder.copy("gather", (&sums, 0), (&memory.sums, 0), memory.sums.size())?;
+        self.recorder.fill("no history", &memory.history, 0)
     }
 
     /// A buffer of `count` values a particle.

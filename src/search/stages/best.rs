@@ -22,7 +22,7 @@ impl BestStage {
         Ok(Self { stage })
     }
 
-    /// Records it, after the fitness of `iteration`.
+    /// Records it, after the fitness of `iteration`; at a swarm's first one what was found before is forgotten.
     pub(in crate::search) fn record(
         &self,
         recorder: &mut Recorder,
@@ -30,8 +30,10 @@ impl BestStage {
         extent: Extent,
         views: u32,
         iteration: u32,
+        is_first: bool,
     ) -> Result<()> {
-        let push = best_comp::Push { particles: extent.candidates, dofs: extent.dofs, views, iteration };
+        let is_first = u32::from(is_first);
+        let push = best_comp::Push { particles: extent.candidates, dofs: extent.dofs, views, iteration, is_first };
         self.stage.record(recorder, &bindings.bound(), &push, Groups::Count([1, 1, 1]))
     }
 }

@@ -2,6 +2,7 @@
 //! `glsl/search/`; the name is its debug label and its row of timings too.
 
 mod best;
+mod layer;
 mod r#move;
 mod propagate;
 mod scatter;
@@ -14,7 +15,11 @@ mod generated {
 }
 
 pub(super) use best::BestStage;
-pub(super) use generated::{best_comp, layout, move_comp, propagate_comp, scatter_comp, spread_comp, weigh_comp};
+pub(super) use generated::{ANNEAL_LANES, HALVINGS, LEAST_SHARPNESS, MOST_SHARPNESS};
+pub(super) use generated::{
+    best_comp, layer_comp, layout, move_comp, propagate_comp, scatter_comp, spread_comp, weigh_comp,
+};
+pub(super) use layer::LayerStage;
 pub(super) use r#move::{MoveStage, Pull};
 pub(super) use propagate::PropagateStage;
 pub(super) use scatter::ScatterStage;
@@ -22,12 +27,16 @@ pub(super) use spread::SpreadStage;
 pub(super) use weigh::WeighStage;
 
 use crate::gpu::{Device, Groups};
-use generated::SEARCH_GROUP;
+use generated::{HALVINGS_AT_ONCE, LOOK_GROUP, SEARCH_GROUP};
 
 /// Dimensions that eight blocks of random numbers serve.
 const DIMENSIONS: u32 = 32;
 /// Blocks of random numbers that serve them.
 const BLOCKS: u32 = 8;
+
+// `weigh.comp` goes down the tree of its halvings in whole rounds, each of which a workgroup has room for.
+const _: () =
+    assert!(HALVINGS.is_multiple_of(HALVINGS_AT_ONCE) && (1 << HALVINGS_AT_ONCE) * ANNEAL_LANES <= LOOK_GROUP);
 
 /// How many candidates of how many values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

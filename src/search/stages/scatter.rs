@@ -1,4 +1,4 @@
-//! The start of a swarm: at rest around the centre.
+//! The start of a swarm: at rest around the frame's centre, or around the best pose so far.
 
 use anyhow::Result;
 
@@ -22,14 +22,16 @@ impl ScatterStage {
         Ok(Self { stage })
     }
 
-    /// Records it, for every particle.
+    /// Records it, for every particle, before iteration `iteration` of the frame, which begins stage `stage`.
     pub(in crate::search) fn record(
         &self,
         recorder: &mut Recorder,
         bindings: &scatter_comp::Bindings<'_>,
         extent: Extent,
+        stage: u32,
+        iteration: u32,
     ) -> Result<()> {
-        let push = scatter_comp::Push { particles: extent.candidates, dofs: extent.dofs };
+        let push = scatter_comp::Push { particles: extent.candidates, dofs: extent.dofs, stage, iteration };
         let groups = extent.block_groups(recorder.device());
         self.stage.record(recorder, &bindings.bound(), &push, groups)
     }

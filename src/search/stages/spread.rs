@@ -22,14 +22,15 @@ impl SpreadStage {
         Ok(Self { stage })
     }
 
-    /// Records it, over so many rows.
+    /// Records it, over so many rows, for what moved in stage `stage`.
     pub(in crate::search) fn record(
         &self,
         recorder: &mut Recorder,
         bindings: &spread_comp::Bindings<'_>,
         extent: Extent,
+        stage: u32,
     ) -> Result<()> {
-        let push = spread_comp::Push { count: extent.candidates, dofs: extent.dofs };
+        let push = spread_comp::Push { count: extent.candidates, dofs: extent.dofs, stage };
         self.stage.record(recorder, &bindings.bound(), &push, Groups::Count([extent.dofs, 1, 1]))
     }
 }

@@ -1,4 +1,4 @@
-//! The filter's weights and their running sums.
+//! A filter's weights and their running sums.
 
 use anyhow::Result;
 
@@ -22,15 +22,16 @@ impl WeighStage {
         Ok(Self { stage })
     }
 
-    /// Records it, for fitness of all particles; `sharpness` is 1 / (2 sigma^2).
+    /// Records it, for fitness of all particles; the sharpness bound stays if `survival` is 0, and otherwise becomes what leaves
+    /// this share of the particles.
     pub(in crate::search) fn record(
         &self,
         recorder: &mut Recorder,
         bindings: &weigh_comp::Bindings<'_>,
         extent: Extent,
-        sharpness: f32,
+        survival: f32,
     ) -> Result<()> {
-        let push = weigh_comp::Push { count: extent.candidates, dofs: extent.dofs, sharpness };
+        let push = weigh_comp::Push { count: extent.candidates, dofs: extent.dofs, survival };
         self.stage.record(recorder, &bindings.bound(), &push, Groups::Count([1, 1, 1]))
     }
 }
