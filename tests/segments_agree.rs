@@ -87,7 +87,8 @@ fn every_instruction_set_gives_the_reference_s_segments() {
     let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
     let shown = expected.sums.iter().filter(|sums| sums.overlap > 0).count();
     assert!(shown > 3000, "only {shown} of {} segments are met", expected.sums.len());
-    let in_segments = |image: usize| expected.sums[3 * image..3 * image + 3].iter().map(|sums| sums.area_model).sum();
+    let in_segments =
+        |image: usize| expected.sums[3 * image..3 * image + 3].iter().map(|sums| sums.area_model).sum::<u32>();
     let images = expected.components.len();
     assert!((0..images).all(|image| expected.components[image].area_model >= in_segments(image)));
     assert!((0..images).any(|image| expected.components[image].area_model > in_segments(image)), "one part has none");
