@@ -1,7 +1,7 @@
 //! Named buffers.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 use anyhow::{Result, anyhow, ensure};
 use ash::vk;
@@ -141,6 +141,15 @@ impl Buffer {
         Ok(())
     }
 
+    /// A word of a buffer that the host sees, as it is just now; the device may be writing to it.
+    pub(super) fn glance(&self, word: usize) -> Option<u32> {
+        let place = self.mapped().ok()?.wrapping_add(4 * word);
+        // SAFETY: a mapped word inside of the buffer, aligned as buffers are, that the host only ever writes while the device
+        // does not use it; an atomic load puts up with the device's stores.
+        (4 * (word as u64 + 1) <= self.size())
+            .then(|| unsafe { AtomicU32::from_ptr(place.cast()) }.load(Ordering::Relaxed))
+    }
+
     /// The mapped address of a range that the device is not using.
     fn place(&self, offset: usize, length: usize) -> Result<*mut u8> {
         let shared = &self.shared;
@@ -157,11 +166,17 @@ impl Buffer {
             "the device is still using the buffer {}",
             shared.name
         );
+        // SAFETY: the offset lies inside of the mapped range, as checked above.
+        Ok(unsafe { self.mapped()?.add(offset) })
+    }
+
+    /// The mapped address of its first byte.
+    fn mapped(&self) -> Result<*mut u8> {
+        let shared = &self.shared;
         let mapped =
             shared.allocation.as_ref().filter(|_| shared.memory != Memory::Device).and_then(Allocation::mapped_ptr);
         let mapped = mapped.ok_or_else(|| anyhow!("the host cannot see the buffer {}", shared.name))?;
-        // SAFETY: the offset lies inside of the mapped range, as checked above.
-        Ok(unsafe { mapped.as_ptr().cast::<u8>().add(offset) })
+        Ok(mapped.as_ptr().cast())
     }
 }
 

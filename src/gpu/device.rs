@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use anyhow::{Result, anyhow, bail};
 use ash::{ext, vk};
@@ -30,13 +30,24 @@ pub struct DeviceSettings {
     pub pipeline_cache: Option<PathBuf>,
     /// Whether every pass leaves a mark that tells how far a lost device came.
     pub breadcrumbs: bool,
+    /// How long a device may be at work without beginning another pass (or, without breadcrumbs, without coming to an end)
+    /// before it is given up. Drivers reset a graphics card that hangs after seconds and say so; a software device may take
+    /// minutes for one pass.
+    pub patience: Duration,
     /// Lose the device, as a crash would, when it has run so many passes: a fault for tests to inject.
     pub lose_after_passes: Option<u64>,
 }
 
 impl Default for DeviceSettings {
     fn default() -> Self {
-        Self { index: None, lower: None, pipeline_cache: None, breadcrumbs: true, lose_after_passes: None }
+        Self {
+            index: None,
+            lower: None,
+            pipeline_cache: None,
+            breadcrumbs: true,
+            patience: Duration::from_secs(600),
+            lose_after_passes: None,
+        }
     }
 }
 
@@ -66,7 +77,10 @@ pub(super) struct DeviceShared {
     /// Value the timeline takes when the last submission is done.
     submitted: AtomicU64,
     passes_run: AtomicU64,
+    /// Whether nothing more may be run on it.
     is_lost: AtomicBool,
+    /// Whether it is lost because it was given up: it may still be at work, and nothing that it uses is ever freed.
+    is_given_up: AtomicBool,
     /// Recordings that were dropped while the device ran them, and the timeline value that ends that.
     retired: Mutex<Vec<(u64, RecordingParts)>>,
     calibrated: Option<ext::calibrated_timestamps::Device>,
@@ -206,6 +220,7 @@ impl Device {
             submitted: AtomicU64::new(0),
             passes_run: AtomicU64::new(0),
             is_lost: AtomicBool::new(false),
+            is_given_up: AtomicBool::new(false),
             retired: Mutex::new(Vec::new()),
         });
         Ok(Self { _owner: Arc::new(Owner(shared.clone())), shared })
@@ -300,24 +315,39 @@ impl DeviceShared {
         Ok(value)
     }
 
-    /// Waits until the timeline has reached `value`. `last_pass` names the last pass begun, should the device be lost.
-    pub(super) fn wait(&self, value: u64, last_pass: impl FnOnce() -> Option<String>) -> Result<()> {
-        const LONGEST_NS: u64 = 120_000_000_000;
+    /// Waits until the timeline has reached `value`, as long as the device gets on. `begun` tells the last one of `passes` that
+    /// has begun.
+    pub(super) fn wait(&self, value: u64, passes: &[String], begun: impl Fn() -> Option<usize>) -> Result<()> {
+        const LOOK_EVERY: Duration = Duration::from_secs(1);
+        self.check_alive()?;
+        let patience = self.settings.patience;
+        let between_looks = patience.min(LOOK_EVERY).as_nanos() as u64;
         let (semaphores, values) = ([self.timeline], [value]);
         let info = vk::SemaphoreWaitInfo::default().semaphores(&semaphores).values(&values);
-        // SAFETY: the semaphore is a timeline of this device.
-        match unsafe { self.raw.wait_semaphores(&info, LONGEST_NS) } {
-            Ok(()) => Ok(()),
-            Err(vk::Result::TIMEOUT) => Err(self.lose(last_pass()).into()),
-            Err(result) => Err(self.failure(result, "finish its work", last_pass)),
+        let last_pass = || begun().and_then(|pass| passes.get(pass).cloned());
+        let (mut seen, mut since) = (begun(), Instant::now());
+        loop {
+            // SAFETY: the semaphore is a timeline of this device.
+            match unsafe { self.raw.wait_semaphores(&info, between_looks) } {
+                Ok(()) => return Ok(()),
+                Err(vk::Result::TIMEOUT) => {}
+                Err(result) => return Err(self.failure(result, "finish its work", last_pass)),
+            }
+            let now = begun();
+            if now != seen {
+                (seen, since) = (now, Instant::now());
+            } else if since.elapsed() >= patience {
+                self.is_given_up.store(true, Ordering::Relaxed);
+                return Err(DeviceLost { given_up_after: Some(patience), ..self.lose(last_pass()) }.into());
+            }
         }
     }
 
-    /// Whether the device has done everything up to `value`.
+    /// Whether the device has done everything up to `value`, or never will.
     pub(super) fn has_done(&self, value: u64) -> bool {
         // SAFETY: the semaphore is a timeline of this device.
         unsafe { self.raw.get_semaphore_counter_value(self.timeline) }.is_ok_and(|done| done >= value)
-            || self.is_lost.load(Ordering::Relaxed)
+            || self.is_lost.load(Ordering::Relaxed) && !self.is_given_up.load(Ordering::Relaxed)
     }
 
     /// Keeps what a recording held until the device is done with it.
@@ -343,14 +373,14 @@ impl DeviceShared {
     /// An error if the device has been lost.
     pub(super) fn check_alive(&self) -> Result<()> {
         if self.is_lost.load(Ordering::Relaxed) {
-            return Err(DeviceLost { device: self.facts.name.clone(), pass: None }.into());
+            return Err(self.lose(None).into());
         }
         Ok(())
     }
 
     fn lose(&self, pass: Option<String>) -> DeviceLost {
         self.is_lost.store(true, Ordering::Relaxed);
-        DeviceLost { device: self.facts.name.clone(), pass }
+        DeviceLost { device: self.facts.name.clone(), pass, given_up_after: None }
     }
 
     /// The error of a Vulkan call that should have let the device `purpose`.
@@ -400,10 +430,14 @@ fn cache_file(folder: &std::path::Path, facts: &DeviceFacts) -> PathBuf {
 
 impl Drop for Owner {
     fn drop(&mut self) {
-        // SAFETY: no other thread holds the device's queue: this was its last handle. Failing means lost, so idle too.
-        let _ = unsafe { self.0.raw.device_wait_idle() };
-        let retired = std::mem::take(&mut *lock(&self.0.retired));
-        drop(retired);
+        // What a device that was given up still uses stays for good: the recordings left in its queue hold it.
+        if !self.0.is_given_up.load(Ordering::Relaxed) {
+            // SAFETY: no other thread holds the device's queue: this was its last handle. Failing means lost, so idle too.
+            if unsafe { self.0.raw.device_wait_idle() }.is_err() {
+                self.0.is_lost.store(true, Ordering::Relaxed);
+            }
+        }
+        self.0.collect();
     }
 }
 

@@ -1,21 +1,29 @@
 //! The errors of a device that callers act upon: fall back to the processor, or split the work.
 
 use std::fmt;
+use std::time::Duration;
 
-/// The device is gone: a crash of its driver, a reset, or its removal. Nothing more can be run on it.
+/// The device is gone: a crash of its driver, a reset, its removal, or a pass without end. Nothing more can be run on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DeviceLost {
     /// Name of the device.
     pub device: String,
     /// The last pass that had begun, when a breadcrumb tells.
     pub pass: Option<String>,
+    /// How long it had not got on, where it was given up and not known to be gone.
+    pub given_up_after: Option<Duration>,
 }
 
 impl fmt::Display for DeviceLost {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.pass {
-            Some(pass) => write!(f, "the device {} was lost in pass {pass}", self.device),
-            None => write!(f, "the device {} was lost before any pass began", self.device),
+        let Self { device, pass, given_up_after } = self;
+        match given_up_after {
+            Some(after) => write!(f, "the device {device} was given up after {after:?} at work")?,
+            None => write!(f, "the device {device} was lost")?,
+        }
+        match pass {
+            Some(pass) => write!(f, " in pass {pass}"),
+            None => write!(f, " before any pass began"),
         }
     }
 }

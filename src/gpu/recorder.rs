@@ -20,7 +20,7 @@ use super::shader::{Binding, Bound};
 use super::timing::Timing;
 
 /// Most passes of a recording: its queries and breadcrumbs are made for so many.
-const MOST_PASSES: usize = 4096;
+pub(super) const MOST_PASSES: usize = 4096;
 
 /// A sequence of passes being recorded.
 pub struct Recorder {

@@ -78,7 +78,8 @@ impl Recording {
         if self.submitted == 0 {
             return Ok(());
         }
-        self.device.shared.wait(self.submitted, || self.last_pass_begun())
+        let begun = || self.last_pass_begun();
+        self.device.shared.wait(self.submitted, self.passes(), begun)
     }
 
     /// Runs all passes and waits for them.
@@ -90,12 +91,11 @@ impl Recording {
         self.wait()
     }
 
-    /// The last pass that left its mark.
-    fn last_pass_begun(&self) -> Option<String> {
+    /// The last pass that left its mark, whether or not the device is at work.
+    fn last_pass_begun(&self) -> Option<usize> {
         let parts = self.parts.as_ref()?;
-        let mut marks = vec![0_u32; parts.passes.len()];
-        parts.breadcrumbs.as_ref()?.read(0, &mut marks).ok()?;
-        marks.iter().rposition(|&mark| mark != 0).map(|place| parts.passes[place].clone())
+        let breadcrumbs = parts.breadcrumbs.as_ref()?;
+        (0..parts.passes.len()).rev().find(|&pass| breadcrumbs.glance(pass).is_some_and(|mark| mark != 0))
     }
 
     /// The times of all passes of the last run, which must have been waited for; empty when the recording does not measure.

@@ -3,8 +3,12 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
 use super::generated::{double_comp, fill_frag, fill_vert, layout};
-use super::test_device::device;
+use super::recorder::MOST_PASSES;
+use super::test_device::{device, device_under};
 use super::*;
 
 fn assert_silent(log: &ValidationLog) {
@@ -238,6 +242,62 @@ fn a_lost_device_is_named_with_its_pass_and_stays_lost() {
     assert!(device.recorder(Timing::Off).unwrap_err().is::<DeviceLost>());
     drop((recording, device));
     assert_silent(&log);
+}
+
+/// As many passes, each of which fills 64 MiB.
+fn slow(device: &Device, passes: usize) -> Recording {
+    let buffer = device.buffer::<u32>("filled again and again", 1 << 24, Memory::Device).unwrap();
+    let mut recorder = device.recorder(Timing::Off).unwrap();
+    for pass in 0..passes {
+        recorder.fill(&format!("fill {pass}"), &buffer, pass as u32).unwrap();
+    }
+    recorder.finish().unwrap()
+}
+
+#[test]
+fn a_device_that_gets_on_is_waited_for() {
+    let name = "a_device_that_gets_on_is_waited_for";
+    let mut passes = 64;
+    loop {
+        let settings = DeviceSettings { patience: Duration::from_millis(250), ..DeviceSettings::default() };
+        let patience = settings.patience;
+        let Some((device, log)) = device(name, settings) else { return };
+        let mut recording = slow(&device, passes);
+        let begin = Instant::now();
+        recording.run().unwrap();
+        drop((recording, device));
+        assert_silent(&log);
+        // Only a run of some times the patience proves anything.
+        if begin.elapsed() > 3 * patience || passes == MOST_PASSES {
+            return;
+        }
+        passes = (4 * passes).min(MOST_PASSES);
+    }
+}
+
+#[test]
+fn a_device_that_is_given_up_keeps_what_it_uses() {
+    let settings = DeviceSettings { patience: Duration::ZERO, ..DeviceSettings::default() };
+    let name = "a_device_that_is_given_up_keeps_what_it_uses";
+    let Some((device, _)) = device_under(Validation::Off, name, settings) else { return };
+    let mut recording = slow(&device, 256);
+    let error = recording.run().unwrap_err();
+    let lost = error.downcast_ref::<DeviceLost>().unwrap();
+    assert_eq!(lost.given_up_after, Some(Duration::ZERO));
+    assert!(format!("{error}").contains("was given up after 0ns at work"), "{error}");
+    assert!(recording.run().unwrap_err().is::<DeviceLost>());
+    let kept = recording.parts.as_ref().unwrap().buffers[0].clone();
+    let shared = device.shared.clone();
+    // SAFETY: the semaphore is a timeline of this device.
+    let reached = unsafe { shared.raw.get_semaphore_counter_value(shared.timeline) }.unwrap();
+    let is_at_work = reached < recording.submitted;
+    let used = shared.memory_used.load(Ordering::Relaxed);
+    drop((kept, recording, device));
+    // It works on while everything of it is dropped, and would crash without its memory.
+    if is_at_work {
+        assert_eq!(shared.memory_used.load(Ordering::Relaxed), used, "memory in use was freed");
+        std::thread::sleep(Duration::from_millis(500));
+    }
 }
 
 #[test]
