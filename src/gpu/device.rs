@@ -325,7 +325,8 @@ impl DeviceShared {
         let (semaphores, values) = ([self.timeline], [value]);
         let info = vk::SemaphoreWaitInfo::default().semaphores(&semaphores).values(&values);
         let last_pass = || begun().and_then(|pass| passes.get(pass).cloned());
-        let (mut seen, mut since) = (begun(), Instant::now());
+        // The breadcrumbs are first read when the first look is due: most work is done by then.
+        let (mut seen, mut since) = (None, Instant::now());
         loop {
             // SAFETY: the semaphore is a timeline of this device.
             match unsafe { self.raw.wait_semaphores(&info, between_looks) } {
@@ -373,13 +374,17 @@ impl DeviceShared {
     /// An error if the device has been lost.
     pub(super) fn check_alive(&self) -> Result<()> {
         if self.is_lost.load(Ordering::Relaxed) {
-            return Err(self.lose(None).into());
+            return Err(self.lost(None).into());
         }
         Ok(())
     }
 
     fn lose(&self, pass: Option<String>) -> DeviceLost {
         self.is_lost.store(true, Ordering::Relaxed);
+        self.lost(pass)
+    }
+
+    fn lost(&self, pass: Option<String>) -> DeviceLost {
         DeviceLost { device: self.facts.name.clone(), pass, given_up_after: None }
     }
 
