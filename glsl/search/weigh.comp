@@ -32,8 +32,8 @@ shared uint finite;
 // Sums of shares and of their squares, `ANNEAL_LANES` of each for every sharpness that is tried.
 shared vec2 tried[LOOK_GROUP];
 
-// What halves the bits between `low` and `high`, low bits: as many halvings as `path` has bits after its first one, each of which
-// says whether the upper half was taken.
+// What is left of the bit patterns from `between.x` to `between.y` after as many halvings as `path` has bits after its first one,
+// each of which says whether the upper half was taken.
 uvec2 halved(uvec2 between, uint path) {
     for (int level = findMSB(path) - 1; level >= 0; level--) {
         uint middle = between.x + (between.y - between.x) / 2u;

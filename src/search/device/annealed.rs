@@ -12,7 +12,7 @@ impl FrameRecording<'_> {
     pub(super) fn annealed(&mut self, settings: &SearchSettings) -> Result<()> {
         let (extent, memory) = (self.extent, self.memory);
         let device = self.evaluator.device().clone();
-        let scatter = LayerStage::new(&device)?;
+        let choose = LayerStage::new(&device)?;
         let weigh = WeighStage::new(&device)?;
         let previous = self.values("previous particles", extent.candidates, extent.dofs)?;
         let weights = self.values("weights", extent.candidates, 1)?;
@@ -34,7 +34,7 @@ impl FrameRecording<'_> {
                 positions: &positions,
             };
             let noise = settings.annealing.noise_of(layer, settings.iterations);
-            scatter.record(self.recorder, &bindings, extent, layer as u32, noise)?;
+            choose.record(self.recorder, &bindings, extent, layer as u32, noise)?;
             self.evaluate(extent.candidates)?;
             let bindings = weigh_comp::Bindings {
                 fitness: &fitness,
