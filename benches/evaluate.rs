@@ -11,7 +11,7 @@ use std::time::Instant;
 use pantin::bench::{Scene, Yardstick, YardstickKind, swarm};
 use pantin::body::Body;
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
-use pantin::evaluate::vulkan::{
+use pantin::evaluate::device::{
     Comparison, Compute, Coverage, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
     open_device,
 };

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use pantin::body::{Body, FrustumBase, Mesh, Skinning};
-use pantin::evaluate::vulkan::{Graphics, GraphicsSettings, open_device};
+use pantin::evaluate::device::{Graphics, GraphicsSettings, open_device};
 use pantin::evaluate::{Components, Evaluator as _, Objective, Reference};
 use pantin::features::Observation;
 use pantin::geometry::{BrownConrady, Camera, Lens};

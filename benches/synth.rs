@@ -5,7 +5,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use pantin::body::Body;
-use pantin::evaluate::vulkan::open_device;
+use pantin::evaluate::device::open_device;
 use pantin::gpu::by_name;
 use pantin::synth::device::DevicePainter;
 use pantin::synth::figure::{Figure, Wardrobe};

@@ -11,7 +11,7 @@ use std::process::Command;
 
 use device::device;
 use pantin::body::Body;
-use pantin::evaluate::vulkan::Compute;
+use pantin::evaluate::device::Compute;
 use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind, Reference};
 use pantin::gpu::{Capabilities, DeviceLost, DeviceSettings, Timing, ValidationLog, by_name};
 use scene::{Random, cameras, evaluate, first_difference, observations, poses, reference_in_parallel};

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use device::{device, device_under};
 use pantin::body::{Body, Mesh};
-use pantin::evaluate::vulkan::{Comparison, Compute, Gathering, Graphics, GraphicsSettings, Packing};
+use pantin::evaluate::device::{Comparison, Compute, Gathering, Graphics, GraphicsSettings, Packing};
 use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind};
 use pantin::features::{Observation, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;

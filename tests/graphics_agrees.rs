@@ -9,7 +9,7 @@ mod scene;
 
 use device::device;
 use pantin::body::Body;
-use pantin::evaluate::vulkan::{
+use pantin::evaluate::device::{
     Comparison, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
 };
 use pantin::evaluate::{Evaluator as _, Objective, ObjectiveKind};

@@ -52,11 +52,9 @@ const KNOWN_CIRCLES: &[&[&str]] = &[
         "evaluate::objective",
         "evaluate::reference",
         "evaluate::segments",
-        "evaluate::vulkan::device_evaluator",
+        "evaluate::device::device_evaluator",
     ],
-    &["evaluate::stages::draw", "evaluate::vulkan::framebuffer"],
-    &["evaluate::stages::project", "evaluate::vulkan::model", "evaluate::vulkan::workspace"],
-    &["evaluate::vulkan::graphics", "evaluate::vulkan::graphics::room"],
+    &["evaluate::device::graphics", "evaluate::device::graphics::room"],
     &["features::device", "features::extractor"],
     &["geometry::camera", "geometry::tsai"],
     &[

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use device::device;
 use pantin::body::Body;
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
-use pantin::evaluate::vulkan::{
+use pantin::evaluate::device::{
     Comparison, Compute, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
 };
 use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind, Reference, SegmentSums};

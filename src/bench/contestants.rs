@@ -9,7 +9,7 @@ use super::Scene;
 use super::yardstick::{Yardstick, YardstickKind};
 use crate::body::{FrustumBase, Mesh};
 use crate::evaluate::cpu::{Cpu, InstructionSet};
-use crate::evaluate::vulkan::{
+use crate::evaluate::device::{
     Comparison, Compute, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Tiling, device_settings,
     open_instance,
 };

@@ -8,7 +8,7 @@ use super::contestants::{Contestants, Missing, Model};
 use super::report::{BenchReport, Row, machine};
 use super::rounds::{Round, Times, interleaved};
 use super::scene::{Scene, swarm};
-use crate::evaluate::vulkan::open_device;
+use crate::evaluate::device::open_device;
 use crate::evaluate::{Evaluator, Objective};
 
 /// How far a fitness may lie from the first evaluator's.

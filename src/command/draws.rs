@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 
-use crate::evaluate::vulkan::open_device;
+use crate::evaluate::device::open_device;
 use crate::gpu::{Device, DeviceKind};
 
 /// What draws.

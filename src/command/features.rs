@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::progress::Progress;
 use crate::body::Body;
-use crate::evaluate::vulkan::open_device;
+use crate::evaluate::device::open_device;
 use crate::features::{Extractor, FeatureSettings, ViewSource};
 use crate::files::{OutputFolder, Overwrite};
 use crate::sequence::Sequence;

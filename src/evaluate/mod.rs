@@ -5,6 +5,7 @@ mod batch;
 mod bit_planes;
 mod components;
 pub mod cpu;
+pub mod device;
 mod mesh_projection;
 mod mesh_raster;
 mod objective;
@@ -13,14 +14,13 @@ mod reference;
 mod rig;
 mod score;
 mod segments;
-mod stages;
-pub mod vulkan;
 
 use std::sync::Arc;
 
 use anyhow::Result;
 
 pub use components::Components;
+use device::DeviceEvaluator;
 pub use mesh_projection::{EDGE_BIAS, MeshProjector, NEAR, NEAREST, ProjectedVertex};
 pub use mesh_raster::draw_mesh;
 pub use objective::{Objective, ObjectiveKind};
@@ -28,7 +28,6 @@ pub use projection::{PartQuad, Projector};
 pub use reference::{CandidateImage, Reference, compare, draw_quads};
 pub use score::score;
 pub use segments::SegmentSums;
-use vulkan::DeviceEvaluator;
 
 use crate::features::{Observation, Segments};
 use crate::gpu::DevicePass;

@@ -6,7 +6,7 @@ use anyhow::{Context, Result, anyhow};
 
 use crate::bench::{Round, interleaved, seen_of, swarm};
 use crate::body::Body;
-use crate::evaluate::vulkan::{device_settings, open_instance};
+use crate::evaluate::device::{device_settings, open_instance};
 use crate::evaluate::{Evaluator, Objective};
 use crate::geometry::Camera;
 use crate::gpu::{DeviceKind, devices};

@@ -5,7 +5,7 @@ use anyhow::{Result, anyhow, bail};
 use super::auto::{fastest, is_device_worth_measuring};
 use crate::body::{Body, Mesh};
 use crate::evaluate::cpu::Cpu;
-use crate::evaluate::vulkan::{Compute, Graphics, GraphicsSettings, open_device};
+use crate::evaluate::device::{Compute, Graphics, GraphicsSettings, open_device};
 use crate::evaluate::{Evaluator, Reference};
 use crate::geometry::Camera;
 

@@ -115,7 +115,7 @@ fn killed_in_real_time_it_keeps_its_rows_and_goes_on() {
 
 #[test]
 fn a_device_lost_in_real_time_loses_nothing_done() {
-    if let Err(error) = pantin::evaluate::vulkan::open_device() {
+    if let Err(error) = pantin::evaluate::device::open_device() {
         assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
         println!("SKIPPED a_device_lost_in_real_time_loses_nothing_done: {error:#}");
         return;

@@ -110,7 +110,7 @@ fn a_device_tracks_as_the_processor_does() {
         let read = |folder: &Path| fs::read(folder.join("poses.csv")).unwrap();
         // The search is the same to the bit. So is the evaluation where the device is a processor that rounds quotients and
         // roots as this one does; elsewhere a last place of the objective may turn a comparison.
-        let device = pantin::evaluate::vulkan::open_device().unwrap();
+        let device = pantin::evaluate::device::open_device().unwrap();
         if device.facts().kind == pantin::gpu::DeviceKind::Cpu {
             assert!(read(&there) == read(&here), "{search}: poses.csv differs");
         }
@@ -491,7 +491,7 @@ fn wrong_inputs_are_one_sentence() {
 
 /// Whether there is a Vulkan device for the backends that need one; none is a failure in CI.
 fn has_vulkan(test: &str) -> bool {
-    let opened = pantin::evaluate::vulkan::open_device();
+    let opened = pantin::evaluate::device::open_device();
     if let Err(error) = &opened {
         assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
         println!("SKIPPED {test}: {error:#}");

@@ -18,7 +18,7 @@ use super::hierarchical::SwarmStage;
 use super::stages::{Extent, SpreadStage, layout, spread_comp};
 use super::{Estimate, SearchKind, SearchSettings, SearchSpace, check_start};
 use crate::evaluate::Objective;
-use crate::evaluate::vulkan::DeviceEvaluator;
+use crate::evaluate::device::DeviceEvaluator;
 use crate::gpu::{Buffer, Device, DevicePass, Memory, PassTiming, Recorder, Recording, Timing};
 
 /// What a search on a device found in a frame.

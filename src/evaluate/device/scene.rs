@@ -1,0 +1,259 @@
+//! Body, cameras and observations on the device.
+
+use anyhow::{Result, ensure};
+
+use super::generated::{PROJECT_GROUP, layout};
+use crate::evaluate::Projector;
+use crate::evaluate::batch::check_observations;
+use crate::evaluate::bit_planes::{WORD_PIXELS, bit_planes};
+use crate::evaluate::rig::{Rig, RigCamera, RigLens};
+use crate::features::Observation;
+use crate::gpu::{Buffer, Device, Memory, Recorder};
+
+/// Most parts of a body: a workgroup holds all parts of an image.
+pub(crate) const MOST_PARTS: usize = PROJECT_GROUP as usize;
+
+/// How many of everything a candidate has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Counts {
+    pub(crate) views: u32,
+    pub(crate) bones: u32,
+    pub(crate) parts: u32,
+    pub(crate) dofs: u32,
+}
+
+/// Which candidates of a run a recorded pass works on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Share {
+    /// The first one.
+    pub(crate) first: u32,
+    /// How many.
+    pub(crate) candidates: u32,
+}
+
+/// A buffer of the device and the host's copy of what goes there.
+#[derive(Debug)]
+pub(super) struct Uploaded {
+    pub(super) staging: Buffer,
+    pub(super) target: Buffer,
+}
+
+impl Uploaded {
+    pub(super) fn new<T: bytemuck::Pod>(device: &Device, name: &str, values: &[T]) -> Result<Self> {
+        let staging = device.buffer::<T>(&format!("{name} staging"), values.len(), Memory::Upload)?;
+        staging.write(0, values)?;
+        Ok(Self { staging, target: device.buffer::<T>(name, values.len(), Memory::Device)? })
+    }
+
+    /// Records the copy.
+    pub(super) fn record(&self, recorder: &mut Recorder) -> Result<()> {
+        recorder.copy("upload", (&self.staging, 0), (&self.target, 0), self.target.size())
+    }
+}
+
+/// Body, cameras and observations on the device. The host's side is written at once; the device sees it when the passes of
+/// [`Self::record_upload`] have run.
+#[derive(Debug)]
+pub(crate) struct DeviceScene {
+    pub(crate) device: Device,
+    pub(crate) counts: Counts,
+    /// Picture sizes of the views, pixels.
+    pub(crate) sizes: Vec<[u32; 2]>,
+    /// Labels of the parts in the body's order.
+    pub(crate) labels: Vec<u8>,
+    pub(crate) bones: Buffer,
+    pub(crate) parts: Buffer,
+    pub(crate) cameras: Buffer,
+    /// Bit planes of the observations, eight words together: planes 0..=6 the proximity bits, plane 7 the silhouette, of 32
+    /// pixels of a row. A view's begin at its camera's `first_plane_word` groups.
+    pub(crate) planes: Buffer,
+    /// The packed bytes of the observations, four pixels a word, rows padded to whole words. A view's begin at its camera's
+    /// `first_pixel_word`.
+    pub(crate) pixels: Buffer,
+    uploads: Vec<Uploaded>,
+    camera_rows: Vec<layout::Camera>,
+}
+
+/// Places of the uploads.
+const BONES: usize = 0;
+const PARTS: usize = 1;
+const CAMERAS: usize = 2;
+const PLANES: usize = 3;
+const PIXELS: usize = 4;
+
+impl DeviceScene {
+    /// For a body with these labels and its cameras. Observations are of nothing at first.
+    ///
+    /// # Errors
+    /// When there are more parts than a workgroup takes, or the device has no room.
+    pub(crate) fn new(device: &Device, projector: &Projector, labels: Vec<u8>) -> Result<Self> {
+        let rig = &projector.rig;
+        ensure!(!rig.parts.is_empty(), "the body has no parts, expected at least one to draw");
+        ensure!(
+            rig.parts.len() <= MOST_PARTS,
+            "the body has {} parts, and the Vulkan backends draw at most {MOST_PARTS}",
+            rig.parts.len()
+        );
+        let counts = Counts {
+            views: projector.cameras.len() as u32,
+            bones: rig.bones.len() as u32,
+            parts: rig.parts.len() as u32,
+            dofs: rig.dof_count as u32,
+        };
+        let mut camera_rows = Vec::new();
+        let (mut planes, mut pixels) = (0, 0);
+        for camera in &projector.cameras {
+            let [width, height] = camera.size;
+            camera_rows.push(camera_row(camera, planes, pixels));
+            planes += width.div_ceil(32) * height;
+            pixels += width.div_ceil(4) * height;
+        }
+        let uploads = vec![
+            Uploaded::new(device, "bones", &bone_rows(rig))?,
+            Uploaded::new(device, "parts", &part_rows(rig, &labels))?,
+            Uploaded::new(device, "cameras", &camera_rows)?,
+            Uploaded::new(device, "observed planes", &vec![0_u32; 8 * planes as usize])?,
+            Uploaded::new(device, "observed pixels", &vec![0_u32; pixels as usize])?,
+        ];
+        let target = |place: usize| uploads[place].target.clone();
+        Ok(Self {
+            device: device.clone(),
+            counts,
+            sizes: projector.cameras.iter().map(|camera| camera.size).collect(),
+            labels,
+            bones: target(BONES),
+            parts: target(PARTS),
+            cameras: target(CAMERAS),
+            planes: target(PLANES),
+            pixels: target(PIXELS),
+            uploads,
+            camera_rows,
+        })
+    }
+
+    /// Takes another body of as many bones, parts and degrees of freedom.
+    pub(crate) fn set_rig(&mut self, rig: &Rig) -> Result<()> {
+        let found = (rig.bones.len() as u32, rig.parts.len() as u32, rig.dof_count as u32);
+        ensure!(
+            found == (self.counts.bones, self.counts.parts, self.counts.dofs),
+            "a body of {} bones, {} parts and {} degrees of freedom cannot take the place of one of {}, {} and {}",
+            found.0,
+            found.1,
+            found.2,
+            self.counts.bones,
+            self.counts.parts,
+            self.counts.dofs
+        );
+        self.uploads[BONES].staging.write(0, &bone_rows(rig))?;
+        self.uploads[PARTS].staging.write(0, &part_rows(rig, &self.labels))
+    }
+
+    /// Takes the observations of a frame, one a view.
+    pub(crate) fn observe(&mut self, observations: &[Observation]) -> Result<()> {
+        check_observations(observations, self.sizes.iter().copied())?;
+        for (observation, camera) in observations.iter().zip(&mut self.camera_rows) {
+            camera.area_obs = observation.area();
+            let width = observation.width as usize;
+            let (mut planes, mut pixels) = (Vec::new(), Vec::new());
+            for row in observation.bytes.chunks_exact(width) {
+                planes.extend(row.chunks(WORD_PIXELS).flat_map(bit_planes));
+                pixels.extend(packed(row));
+            }
+            self.uploads[PLANES].staging.write(8 * camera.first_plane_word as usize, &planes)?;
+            self.uploads[PIXELS].staging.write(camera.first_pixel_word as usize, &pixels)?;
+        }
+        self.uploads[CAMERAS].staging.write(0, &self.camera_rows)
+    }
+
+    /// Pixels of the observed silhouettes, one a view.
+    pub(crate) fn observed_areas(&self) -> impl Iterator<Item = u32> + '_ {
+        self.camera_rows.iter().map(|camera| camera.area_obs)
+    }
+
+    /// Where the views' bit planes begin, in groups of 32 pixels of a row.
+    pub(super) fn first_plane_words(&self) -> impl Iterator<Item = u32> + '_ {
+        self.camera_rows.iter().map(|camera| camera.first_plane_word)
+    }
+
+    /// Where the views' packed bytes begin, in words.
+    pub(super) fn first_pixel_words(&self) -> impl Iterator<Item = u32> + '_ {
+        self.camera_rows.iter().map(|camera| camera.first_pixel_word)
+    }
+
+    /// Records the copies of everything to the device's own memory.
+    pub(crate) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
+        self.uploads.iter().try_for_each(|upload| upload.record(recorder))
+    }
+
+    /// The push constants of a share of the candidates.
+    pub(crate) fn batch(&self, share: Share) -> layout::Batch {
+        let Counts { views, bones, parts, dofs } = self.counts;
+        layout::Batch { candidates: share.candidates, views, bones, parts, dofs, first: share.first }
+    }
+}
+
+/// The bytes of a row of pixels, four a word, the last one filled up with nothing.
+pub(super) fn packed(row: &[u8]) -> impl Iterator<Item = u32> + '_ {
+    row.chunks(4).map(|chunk| {
+        let mut bytes = [0; 4];
+        bytes[..chunk.len()].copy_from_slice(chunk);
+        u32::from_le_bytes(bytes)
+    })
+}
+
+fn bone_rows(rig: &Rig) -> Vec<layout::Bone> {
+    rig.bones
+        .iter()
+        .map(|bone| layout::Bone {
+            offset: bone.offset,
+            parity: bone.parity,
+            parent: bone.parent.map_or(-1, |parent| parent as i32),
+            axes: bone.axes.iter().enumerate().map(|(place, &axis)| (axis as u32) << (2 * place)).sum(),
+            slots: bone.slots.map(|slot| slot.map_or(-1, |slot| slot as i32)),
+        })
+        .collect()
+}
+
+fn part_rows(rig: &Rig, labels: &[u8]) -> Vec<layout::Part> {
+    rig.parts
+        .iter()
+        .zip(labels)
+        .map(|(part, &label)| layout::Part {
+            a: part.a,
+            radius_a: part.radius_a,
+            b: part.b,
+            radius_b: part.radius_b,
+            bone: part.bone as u32,
+            label: u32::from(label),
+            pad0: 0,
+            pad1: 0,
+        })
+        .collect()
+}
+
+fn camera_row(camera: &RigCamera, first_plane_word: u32, first_pixel_word: u32) -> layout::Camera {
+    let m = &camera.camera_from_world;
+    let common = layout::Camera {
+        camera_from_world: [0, 1, 2].map(|row| [m[4 * row], m[4 * row + 1], m[4 * row + 2], m[4 * row + 3]]),
+        centre: camera.centre,
+        lens: 0,
+        focal: [0.0; 2],
+        principal: [0.0; 2],
+        radial: [0.0; 3],
+        max_radius_squared: 0.0,
+        tangential: [0.0; 2],
+        size: camera.size,
+        words: camera.size[0].div_ceil(32),
+        first_plane_word,
+        first_pixel_word,
+        area_obs: 0,
+    };
+    match camera.lens {
+        RigLens::Tsai { kappa, focal, centre } => {
+            layout::Camera { lens: 0, focal, principal: centre, radial: [kappa, 0.0, 0.0], ..common }
+        }
+        RigLens::BrownConrady { focal, centre, radial, tangential, max_radius_squared } => {
+            layout::Camera { lens: 1, focal, principal: centre, radial, tangential, max_radius_squared, ..common }
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Segments of the observations on the device, and what is counted by them.
+
+use std::sync::Arc;
+
+use anyhow::Result;
+
+use super::generated::{MOST_SEGMENTS, layout};
+use super::objective_segments::ObjectiveSegmentsStage;
+use super::raster_segments::RasterSegmentsStage;
+use super::scene::{DeviceScene, Share, Uploaded};
+use super::workspace::Workspace;
+use crate::evaluate::{Objective, SegmentSums};
+use crate::features::{Observation, Segments};
+use crate::gpu::{Buffer, Memory, Recorder};
+
+const _: () = assert!(Segments::MOST == MOST_SEGMENTS as usize, "the stages have as many segments as observations may");
+
+/// The segments of a frame's observations, what scores by them, and the sums of a run.
+#[derive(Debug)]
+pub(super) struct DeviceSegments {
+    segments: Arc<Segments>,
+    objective: ObjectiveSegmentsStage,
+    /// Weights, the number of each label, observed areas.
+    pub(super) table: Uploaded,
+    /// A word a segment for 32 pixels of a row, in the order of the model's planes.
+    planes: Uploaded,
+    /// Observed pixels, `[view][segment]`, in rows of the most segments.
+    areas: Vec<u32>,
+    /// `[candidate][view][segment]`.
+    pub(super) sums: Buffer,
+    sums_out: Buffer,
+}
+
+impl DeviceSegments {
+    /// For runs of so many candidates.
+    pub(super) fn new(model: &DeviceScene, segments: &Arc<Segments>, candidates: u32) -> Result<Self> {
+        let device = &model.device;
+        let words = model.planes.size() as usize / size_of::<u32>();
+        let table = vec![0_u32; size_of::<layout::SegmentTableHeader>() / 4 + model.sizes.len() * Segments::MOST];
+        let [sums, sums_out] = Self::room(model, candidates)?;
+        Ok(Self {
+            segments: Arc::clone(segments),
+            objective: ObjectiveSegmentsStage::new(device)?,
+            table: Uploaded::new(device, "segments", &table)?,
+            planes: Uploaded::new(device, "observed segments", &vec![0_u32; words])?,
+            areas: vec![0; model.sizes.len() * Segments::MOST],
+            sums,
+            sums_out,
+        })
+    }
+
+    fn room(model: &DeviceScene, candidates: u32) -> Result<[Buffer; 2]> {
+        let count = candidates as usize * model.sizes.len() * Segments::MOST;
+        let sums = |name, memory| model.device.buffer::<layout::SegmentSum>(name, count, memory);
+        Ok([sums("segment sums", Memory::Device)?, sums("segment sums readback", Memory::Readback)?])
+    }
+
+    /// Makes room for runs of so many candidates.
+    pub(super) fn reserve(&mut self, model: &DeviceScene, candidates: u32) -> Result<()> {
+        [self.sums, self.sums_out] = Self::room(model, candidates)?;
+        Ok(())
+    }
+
+    pub(super) fn segments(&self) -> &Arc<Segments> {
+        &self.segments
+    }
+
+    /// Takes the observations of a frame, which have these segments.
+    pub(super) fn observe(&mut self, model: &DeviceScene, observations: &[Observation]) -> Result<()> {
+        let mut header: layout::SegmentTableHeader = bytemuck::Zeroable::zeroed();
+        for (weight, segment) in header.weights.iter_mut().zip(self.segments.as_slice()) {
+            *weight = segment.weight;
+        }
+        for (label, number) in (0..).zip(&mut header.numbers) {
+            *number = u32::from(self.segments.number(label));
+        }
+        self.areas.clear();
+        for (segmentation, first) in
+            observations.iter().filter_map(|view| view.segmentation.as_ref()).zip(model.first_plane_words())
+        {
+            let mut of_view = segmentation.areas();
+            of_view.resize(Segments::MOST, 0);
+            self.areas.extend(of_view);
+            let width = segmentation.dimensions().0 as usize;
+            let mut planes = Vec::new();
+            for pixels in segmentation.numbers().chunks_exact(width).flat_map(|row| row.chunks(32)) {
+                let mut words = [0_u32; Segments::MOST];
+                for (bit, &number) in pixels.iter().enumerate().filter(|(_, number)| **number > 0) {
+                    words[usize::from(number) - 1] |= 1 << bit;
+                }
+                planes.extend(words);
+            }
+            self.planes.staging.write(Segments::MOST * first as usize, &planes)?;
+        }
+        self.table.staging.write(0, bytemuck::cast_slice::<u8, u32>(bytemuck::bytes_of(&header)))?;
+        self.table.staging.write(size_of::<layout::SegmentTableHeader>() / 4, &self.areas)
+    }
+
+    /// Records the copies to the device's own memory.
+    pub(super) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
+        self.table.record(recorder)?;
+        self.planes.record(recorder)
+    }
+
+    /// Records the drawing of a share without a framebuffer and the comparison with what was observed, whole and in segments;
+    /// `list` is what `raster` takes.
+    pub(super) fn record_sums(
+        &self,
+        recorder: &mut Recorder,
+        raster: &RasterSegmentsStage,
+        (model, workspace): (&DeviceScene, &Workspace),
+        list: &Buffer,
+        share: Share,
+    ) -> Result<()> {
+        let observed = (&self.table.target, &self.planes.target);
+        raster.record(recorder, (model, workspace), observed, &self.sums, list, share)
+    }
+
+    /// Records the fitness of the run.
+    pub(super) fn record_objective(
+        &self,
+        recorder: &mut Recorder,
+        (model, workspace): (&DeviceScene, &Workspace),
+        (objective, candidates): (&Objective, u32),
+        fitness: &Buffer,
+    ) -> Result<()> {
+        let sums = (&self.table.target, &self.sums);
+        self.objective.record(recorder, (model, workspace), sums, (objective, candidates), fitness)
+    }
+
+    /// Records the copy of the sums to the host.
+    pub(super) fn record_readback(&self, recorder: &mut Recorder) -> Result<()> {
+        recorder.copy("read segment sums", (&self.sums, 0), (&self.sums_out, 0), self.sums.size())
+    }
+
+    /// The sums of a finished run, `[candidate][view][segment]` of the segments that there are.
+    pub(super) fn read(&self, sums: &mut [SegmentSums]) -> Result<()> {
+        let count = self.segments.as_slice().len();
+        let mut found: Vec<layout::SegmentSum> = bytemuck::zeroed_vec(sums.len() / count * Segments::MOST);
+        self.sums_out.read(0, &mut found)?;
+        for (image, (row, found)) in sums.chunks_exact_mut(count).zip(found.chunks_exact(Segments::MOST)).enumerate() {
+            for (segment, (sums, found)) in row.iter_mut().zip(found).enumerate() {
+                let place = image * Segments::MOST + segment;
+                let area_obs = self.areas[place % self.areas.len()];
+                *sums = SegmentSums { area_obs, area_model: found.area_model, overlap: found.overlap };
+            }
+        }
+        Ok(())
+    }
+}
