@@ -1,9 +1,11 @@
 //! The house as docs/ARCHITECTURE.md draws it: imports run down the floors, unsafe code stays in its places, files stay
-//! one concept long.
+//! one concept long, links lead somewhere.
 #![allow(clippy::unwrap_used)]
 
 #[path = "house/circles.rs"]
 mod circles;
+#[path = "house/links.rs"]
+mod links;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -251,4 +253,23 @@ fn names_say_what_is_inside() {
             assert!(!EMPTY_NAMES.contains(&name), "{file}: the name {name} says nothing");
         }
     }
+}
+
+#[test]
+fn links_of_the_documentation_lead_somewhere() {
+    assert_eq!(links::broken(Path::new(env!("CARGO_MANIFEST_DIR"))), Vec::<String>::new());
+}
+
+#[test]
+fn a_broken_link_is_caught() {
+    let root = tempfile::tempdir().unwrap();
+    fs::create_dir(root.path().join("docs")).unwrap();
+    fs::create_dir(root.path().join("tests")).unwrap();
+    fs::write(root.path().join("README.md"), "[a](docs/A.md) [b](docs/B.md) [c](docs/A.md#two-words) [d](#none)\n")
+        .unwrap();
+    fs::write(root.path().join("docs/A.md"), "# A\n## Two words\n[r](../README.md) [w](https://example.org/x)\n")
+        .unwrap();
+    let broken = links::broken(root.path());
+    assert_eq!(broken.len(), 2, "{broken:?}");
+    assert!(broken[0].contains("docs/B.md") && broken[1].contains("no heading none"), "{broken:?}");
 }
