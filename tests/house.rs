@@ -1,5 +1,5 @@
-//! The house as docs/ARCHITECTURE.md draws it: imports run down the floors, unsafe code stays in its places, files stay
-//! one concept long, links lead somewhere.
+//! The house as docs/ARCHITECTURE.md draws it: imports run down the floors, unsafe code stays in its places, names say
+//! something, links lead somewhere.
 #![allow(clippy::unwrap_used)]
 
 #[path = "house/circles.rs"]

@@ -1,4 +1,4 @@
-//! `const uint NAME = 16u;` lines of a room's `constants.glsl` as Rust constants, so that each number is written once.
+//! `const uint NAME = 16u;` lines of a room's `constants.glsl` as Rust constants: the numbers that stages and host share.
 
 use anyhow::{Result, anyhow, bail};
 
