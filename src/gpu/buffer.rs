@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 use anyhow::{Result, anyhow, ensure};
 use ash::vk;
+use ash::vk::Handle as _;
 use bytemuck::Pod;
 use gpu_allocator::vulkan::Allocation;
 
@@ -102,6 +103,12 @@ impl Device {
 }
 
 impl Buffer {
+    /// The number that tells it from every other resource: handles of buffers and images may have the same value, and the last
+    /// bit tells the two apart.
+    pub(super) fn id(&self) -> u64 {
+        self.shared.handle.as_raw() << 1
+    }
+
     /// Its name.
     pub fn name(&self) -> &str {
         &self.shared.name

@@ -6,7 +6,7 @@ use ash::vk;
 use super::buffer::Buffer;
 use super::hazards::Use;
 use super::image::Image;
-use super::recorder::{Recorder, buffer_id, image_id};
+use super::recorder::Recorder;
 
 impl Recorder {
     /// A pass that copies bytes between buffers.
@@ -23,8 +23,7 @@ impl Recorder {
             );
         }
         self.begin(name)?;
-        let uses =
-            [Use { resource: buffer_id(from.0), writes: false }, Use { resource: buffer_id(to.0), writes: true }];
+        let uses = [Use { resource: from.0.id(), writes: false }, Use { resource: to.0.id(), writes: true }];
         self.wait_for(&uses, &[]);
         self.keep_buffer(from.0);
         self.keep_buffer(to.0);
@@ -48,7 +47,7 @@ impl Recorder {
     /// None of its own; those of beginning a pass.
     pub fn fill(&mut self, name: &str, buffer: &Buffer, word: u32) -> Result<()> {
         self.begin(name)?;
-        self.wait_for(&[Use { resource: buffer_id(buffer), writes: true }], &[]);
+        self.wait_for(&[Use { resource: buffer.id(), writes: true }], &[]);
         self.keep_buffer(buffer);
         // SAFETY: recording; the whole buffer is a multiple of four bytes long.
         unsafe {
@@ -97,8 +96,7 @@ impl Recorder {
             buffer.size()
         );
         self.begin(name)?;
-        let uses =
-            [Use { resource: image_id(image), writes: !reads }, Use { resource: buffer_id(buffer), writes: reads }];
+        let uses = [Use { resource: image.id(), writes: !reads }, Use { resource: buffer.id(), writes: reads }];
         let layout = if reads { vk::ImageLayout::TRANSFER_SRC_OPTIMAL } else { vk::ImageLayout::TRANSFER_DST_OPTIMAL };
         self.wait_for(&uses, &[(image.clone(), layout)]);
         self.keep_buffer(buffer);

@@ -2,14 +2,12 @@
 
 use std::collections::HashMap;
 
-use anyhow::{Result, bail, ensure};
+use anyhow::Result;
 use ash::vk;
 
-use super::interface::BindingKind;
-use super::pipeline::{Pipeline, descriptor_type};
-use super::recorder::id;
+use super::pipeline::{Pipeline, Resource, descriptor_type};
 use super::recording::RecordingParts;
-use super::shader::{Binding, Bound};
+use super::shader::Bound;
 
 /// Descriptor sets of a pool; a recording takes another pool when one is used up.
 const SETS_A_POOL: u32 = 128;
@@ -21,9 +19,6 @@ const DESCRIPTORS_A_SET: [(vk::DescriptorType, u32); 4] = [
     (vk::DescriptorType::STORAGE_IMAGE, 4),
 ];
 
-/// A resource at a slot of a set.
-type BoundSlot<'a> = (u32, BindingKind, Bound<'a>);
-
 /// The sets written so far. Their pools belong to the recording's parts, which outlive its run.
 #[derive(Default)]
 pub(super) struct Descriptors {
@@ -34,23 +29,22 @@ pub(super) struct Descriptors {
 }
 
 impl Descriptors {
-    /// The sets of a pipeline with these bindings; the same ones for the same resources, which the caller keeps alive.
+    /// The sets of a pipeline with these resources, which the caller keeps alive; the same ones for the same resources.
     pub(super) fn of(
         &mut self,
         parts: &mut RecordingParts,
-        pass: &str,
         pipeline: &Pipeline,
-        bindings: &[Binding<'_>],
+        resources: &[Resource<'_>],
     ) -> Result<Vec<vk::DescriptorSet>> {
         let mut sets = Vec::new();
         for (number, &layout) in (0..).zip(&pipeline.shared.set_layouts) {
-            let bound = bound_slots(pass, pipeline, bindings, number)?;
-            let key = (layout, bound.iter().map(|(slot, _, bound)| (*slot, id(bound))).collect());
+            let of_set: Vec<_> = resources.iter().filter(|(slot, _)| slot.set == number).collect();
+            let key = (layout, of_set.iter().map(|(slot, bound)| (slot.binding, bound.id())).collect());
             let set = match self.sets.get(&key) {
                 Some(&set) => set,
                 None => {
                     let set = self.allocate(parts, layout)?;
-                    write(parts, set, &bound);
+                    write(parts, set, &of_set);
                     self.sets.insert(key, set);
                     set
                 }
@@ -83,35 +77,13 @@ impl Descriptors {
     }
 }
 
-/// What `bindings` put into the slots of a pipeline's set.
-fn bound_slots<'a>(
-    pass: &str,
-    pipeline: &Pipeline,
-    bindings: &[Binding<'a>],
-    number: u32,
-) -> Result<Vec<BoundSlot<'a>>> {
-    let mut bound = Vec::new();
-    for &(set, slot, kind, variable) in pipeline.shared.slots.iter().filter(|slot| slot.0 == number) {
-        let Some(binding) = bindings.iter().find(|binding| (binding.layout.set, binding.layout.binding) == (set, slot))
-        else {
-            bail!("the pass {pass} binds nothing to {variable} of {}", pipeline.name());
-        };
-        let is_buffer = matches!(kind, BindingKind::StorageBuffer | BindingKind::UniformBuffer);
-        ensure!(
-            is_buffer == matches!(binding.bound, Bound::Buffer(_)),
-            "the pass {pass} binds the wrong kind of resource to {variable} of {}",
-            pipeline.name()
-        );
-        bound.push((slot, kind, binding.bound));
-    }
-    Ok(bound)
-}
-
 /// Points a new set to its resources.
-fn write(parts: &RecordingParts, set: vk::DescriptorSet, bound: &[BoundSlot<'_>]) {
-    for &(slot, kind, bound) in bound {
-        let write =
-            vk::WriteDescriptorSet::default().dst_set(set).dst_binding(slot).descriptor_type(descriptor_type(kind));
+fn write(parts: &RecordingParts, set: vk::DescriptorSet, resources: &[&Resource<'_>]) {
+    for (slot, bound) in resources {
+        let write = vk::WriteDescriptorSet::default()
+            .dst_set(set)
+            .dst_binding(slot.binding)
+            .descriptor_type(descriptor_type(slot.kind));
         let (buffer, image);
         let write = match bound {
             Bound::Buffer(bound) => {

@@ -13,6 +13,7 @@ use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use crate::files::{Overwrite, write_atomically};
 
 use super::capability::{Capabilities, DeviceFacts, devices};
+use super::compiled::Compiled;
 use super::instance::Instance;
 use super::loss::DeviceLost;
 use super::recording::RecordingParts;
@@ -55,11 +56,14 @@ impl Default for DeviceSettings {
 #[derive(Clone)]
 pub struct Device {
     pub(super) shared: Arc<DeviceShared>,
-    /// Empties the retirement queue when the last handle goes: what waits there holds the device itself.
-    _owner: Arc<Owner>,
+    owner: Arc<Owner>,
 }
 
-struct Owner(Arc<DeviceShared>);
+/// What goes with the last handle, since it holds the device itself: the retirement queue is emptied then.
+struct Owner {
+    shared: Arc<DeviceShared>,
+    compiled: Compiled,
+}
 
 pub(super) struct DeviceShared {
     pub(super) raw: ash::Device,
@@ -223,7 +227,12 @@ impl Device {
             is_given_up: AtomicBool::new(false),
             retired: Mutex::new(Vec::new()),
         });
-        Ok(Self { _owner: Arc::new(Owner(shared.clone())), shared })
+        let owner = Owner { shared: shared.clone(), compiled: Compiled::default() };
+        Ok(Self { owner: Arc::new(owner), shared })
+    }
+
+    pub(super) fn compiled(&self) -> &Compiled {
+        &self.owner.compiled
     }
 
     /// What it is and why it can be used.
@@ -436,13 +445,13 @@ fn cache_file(folder: &std::path::Path, facts: &DeviceFacts) -> PathBuf {
 impl Drop for Owner {
     fn drop(&mut self) {
         // What a device that was given up still uses stays for good: the recordings left in its queue hold it.
-        if !self.0.is_given_up.load(Ordering::Relaxed) {
+        if !self.shared.is_given_up.load(Ordering::Relaxed) {
             // SAFETY: no other thread holds the device's queue: this was its last handle. Failing means lost, so idle too.
-            if unsafe { self.0.raw.device_wait_idle() }.is_err() {
-                self.0.is_lost.store(true, Ordering::Relaxed);
+            if unsafe { self.shared.raw.device_wait_idle() }.is_err() {
+                self.shared.is_lost.store(true, Ordering::Relaxed);
             }
         }
-        self.0.collect();
+        self.shared.collect();
     }
 }
 

@@ -6,7 +6,8 @@ use ash::vk;
 use super::hazards::Use;
 use super::image::Image;
 use super::pass::{Clear, Draw, Feedback, Target};
-use super::recorder::{Recorder, buffer_id, check_push, image_id, readable, uses};
+use super::pipeline::{Resource, uses};
+use super::recorder::{Recorder, check_push, readable};
 
 impl Recorder {
     /// A pass that draws into a target, in the order of the draws.
@@ -25,21 +26,19 @@ impl Recorder {
             );
         }
         self.begin(name)?;
-        let mut all = self.uses_of(draws);
-        let mut layouts: Vec<(Image, vk::ImageLayout)> = Vec::new();
-        for draw in draws {
-            layouts.extend(readable(draw.bindings));
-        }
-        all.push(Use { resource: image_id(colour), writes: true });
+        let resources = resources_of(name, draws)?;
+        let mut all = self.uses_of(draws, &resources);
+        let mut layouts: Vec<(Image, vk::ImageLayout)> = resources.iter().flat_map(|own| readable(own)).collect();
+        all.push(Use { resource: colour.id(), writes: true });
         layouts.push((colour.clone(), vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL));
         self.keep_image(colour);
         if let Some((depth, _)) = target.depth {
-            all.push(Use { resource: image_id(depth), writes: true });
+            all.push(Use { resource: depth.id(), writes: true });
             layouts.push((depth.clone(), vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL));
             self.keep_image(depth);
         }
         self.wait_for(&all, &layouts);
-        let sets = self.prepare(name, draws)?;
+        let sets = self.prepare(name, draws, &resources)?;
         let attachment = |image: &Image, clear: Clear, layout, is_depth: bool| {
             let info = vk::RenderingAttachmentInfo::default()
                 .image_view(image.shared.view)
@@ -93,12 +92,13 @@ impl Recorder {
             buffer.size()
         );
         self.begin(name)?;
-        let mut all = self.uses_of(draws);
-        all.push(Use { resource: buffer_id(buffer), writes: true });
+        let resources = resources_of(name, draws)?;
+        let mut all = self.uses_of(draws, &resources);
+        all.push(Use { resource: buffer.id(), writes: true });
         self.keep_buffer(buffer);
-        let layouts: Vec<_> = draws.iter().flat_map(|draw| readable(draw.bindings)).collect();
+        let layouts: Vec<_> = resources.iter().flat_map(|own| readable(own)).collect();
         self.wait_for(&all, &layouts);
-        let sets = self.prepare(name, draws)?;
+        let sets = self.prepare(name, draws, &resources)?;
         let info = vk::RenderingInfo::default().render_area(rectangle([0, 0, 1, 1])).layer_count(1);
         let commands = self.parts.commands;
         // SAFETY: recording; the extension is enabled and the range lies inside of the buffer.
@@ -120,16 +120,16 @@ impl Recorder {
         Ok(())
     }
 
-    fn uses_of(&mut self, draws: &[Draw<'_>]) -> Vec<Use> {
+    fn uses_of(&mut self, draws: &[Draw<'_>], resources: &[Vec<Resource<'_>>]) -> Vec<Use> {
         let mut all = Vec::new();
-        for draw in draws {
-            all.extend(uses(draw.bindings));
+        for (draw, resources) in draws.iter().zip(resources) {
+            all.extend(uses(resources));
             if let Some(indices) = draw.indices {
-                all.push(Use { resource: buffer_id(indices), writes: false });
+                all.push(Use { resource: indices.id(), writes: false });
                 self.keep_buffer(indices);
             }
             if let Some((counts, _)) = draw.indirect {
-                all.push(Use { resource: buffer_id(counts), writes: false });
+                all.push(Use { resource: counts.id(), writes: false });
                 self.keep_buffer(counts);
             }
         }
@@ -137,10 +137,16 @@ impl Recorder {
     }
 
     /// Descriptor sets of all draws, written before rendering begins.
-    fn prepare(&mut self, name: &str, draws: &[Draw<'_>]) -> Result<Vec<Vec<vk::DescriptorSet>>> {
+    fn prepare(
+        &mut self,
+        name: &str,
+        draws: &[Draw<'_>],
+        resources: &[Vec<Resource<'_>>],
+    ) -> Result<Vec<Vec<vk::DescriptorSet>>> {
         draws
             .iter()
-            .map(|draw| {
+            .zip(resources)
+            .map(|(draw, resources)| {
                 check_push(name, draw.pipeline, draw.push)?;
                 if let Some((counts, offset)) = draw.indirect {
                     ensure!(
@@ -152,7 +158,7 @@ impl Recorder {
                     );
                 }
                 self.keep_pipeline(draw.pipeline);
-                self.descriptor_sets(name, draw.pipeline, draw.bindings)
+                self.descriptor_sets(draw.pipeline, resources)
             })
             .collect()
     }
@@ -192,6 +198,10 @@ impl Recorder {
             }
         }
     }
+}
+
+fn resources_of<'a>(name: &str, draws: &[Draw<'a>]) -> Result<Vec<Vec<Resource<'a>>>> {
+    draws.iter().map(|draw| draw.pipeline.resources(name, draw.bindings)).collect()
 }
 
 fn rectangle([x, y, width, height]: [u32; 4]) -> vk::Rect2D {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use anyhow::{Result, ensure};
 use ash::vk;
+use ash::vk::Handle as _;
 use gpu_allocator::vulkan::Allocation;
 
 use super::device::{Device, DeviceShared};
@@ -210,6 +211,11 @@ pub(super) fn whole(format: Format) -> vk::ImageSubresourceRange {
 }
 
 impl Image {
+    /// As [`super::Buffer::id`].
+    pub(super) fn id(&self) -> u64 {
+        self.shared.handle.as_raw() << 1 | 1
+    }
+
     /// Its name.
     pub fn name(&self) -> &str {
         &self.shared.name

@@ -6,6 +6,7 @@
 
 mod buffer;
 mod capability;
+mod compiled;
 mod compute_stage;
 mod copies;
 mod descriptors;
@@ -24,13 +25,14 @@ mod recording;
 mod shader;
 #[cfg(any(feature = "reload", test))]
 pub mod shaders;
+mod staged;
 mod timing;
 mod transform_feedback;
 mod validation;
 
 pub use buffer::Buffer;
 pub use capability::{Capabilities, DeviceFacts, DeviceKind, devices};
-pub use compute_stage::ComputeStage;
+pub use compute_stage::{ComputeStage, Stage};
 pub use device::{ClockPair, Device, DeviceSettings};
 pub use image::{Format, Image, ImageUse};
 pub use instance::Instance;
@@ -38,10 +40,11 @@ pub use interface::{Access, BindingKind, ShaderKind};
 pub use loss::{DeviceLost, OutOfMemory};
 pub use memory::Memory;
 pub use pass::{Clear, Dispatch, Draw, Feedback, Groups, Target, Viewport};
-pub use pipeline::{Blend, Drawing, Pipeline, Stage, Topology};
+pub use pipeline::{Blend, Drawing, Pipeline, Topology};
 pub use recorder::Recorder;
 pub use recording::Recording;
-pub use shader::{Binding, BindingLayout, Bound, Shader, SpecConstant};
+pub use shader::{Binding, BindingLayout, Bound, Shader, ShaderStage, SpecConstant};
+pub use staged::StagedBuffer;
 pub use timing::{DevicePass, PassStatistics, PassTiming, Timing, by_name};
 pub use validation::{Validation, ValidationLog};
 

@@ -5,28 +5,60 @@ use std::ops::Range;
 use super::buffer::Buffer;
 use super::image::Image;
 use super::pipeline::Pipeline;
-use super::shader::Binding;
+use super::shader::{Binding, Shader, ShaderStage};
 
 /// How many workgroups are run.
 #[derive(Clone, Copy, Debug)]
 pub enum Groups<'a> {
     /// So many in x, y, z.
     Count([u32; 3]),
+    /// As many as make so many invocations in x, y, z: the shader leaves out those beyond.
+    Over([u32; 3]),
+    /// As many as make so many invocations of a one-dimensional stage, in rows of [`Self::ROW`] workgroups: where x is not enough,
+    /// y counts the rows.
+    Flat(u32),
     /// Three words of a buffer, from this byte on.
     Indirect(&'a Buffer, u64),
 }
 
-/// One run of a compute pipeline.
-#[derive(Clone, Copy, Debug)]
+impl Groups<'_> {
+    /// Most workgroups in one direction that every device runs.
+    const ROW: u32 = 65535;
+
+    /// Their number in x, y, z for workgroups of this size; none where the device alone knows.
+    pub(super) fn count(self, size: [u32; 3]) -> Option<[u32; 3]> {
+        match self {
+            Self::Count(count) => Some(count),
+            Self::Over([x, y, z]) => Some([x.div_ceil(size[0]), y.div_ceil(size[1]), z.div_ceil(size[2])]),
+            Self::Flat(invocations) => {
+                let groups = invocations.div_ceil(size[0]);
+                Some([groups.min(Self::ROW), groups.div_ceil(Self::ROW), 1])
+            }
+            Self::Indirect(..) => None,
+        }
+    }
+}
+
+/// One run of a compute stage: what the build's `Bindings::dispatch` makes.
+#[derive(Clone, Debug)]
 pub struct Dispatch<'a> {
-    /// The pipeline.
-    pub pipeline: &'a Pipeline,
+    /// What runs.
+    pub stage: ShaderStage,
     /// What its descriptors point to.
-    pub bindings: &'a [Binding<'a>],
+    pub bindings: Vec<Binding<'a>>,
     /// Its push constants.
-    pub push: &'a [u8],
+    pub push: Vec<u8>,
     /// Its workgroups.
     pub groups: Groups<'a>,
+}
+
+impl Dispatch<'_> {
+    /// The same run of a shader with the same bindings, push constants and specialisation constants, which may read and write
+    /// otherwise: another way to compute the same.
+    pub fn by(mut self, variant: &'static Shader) -> Self {
+        self.stage.shader = variant;
+        self
+    }
 }
 
 /// Part of a target in pixels, and the range that depths 0 to 1 are mapped to.

@@ -3,13 +3,14 @@
 use std::ffi::CString;
 use std::sync::Arc;
 
-use anyhow::{Result, anyhow, ensure};
+use anyhow::{Result, anyhow, bail, ensure};
 use ash::vk;
 
-use super::device::{Device, DeviceShared};
+use super::device::DeviceShared;
+use super::hazards::Use;
 use super::image::Format;
-use super::interface::{BindingKind, ShaderKind};
-use super::shader::Shader;
+use super::interface::{Access, BindingKind, ShaderKind};
+use super::shader::{Binding, BindingLayout, Bound, ShaderStage};
 
 /// A compiled pipeline; clones are the same pipeline.
 #[derive(Clone)]
@@ -24,25 +25,30 @@ pub(super) struct PipelineShared {
     pub(super) layout: vk::PipelineLayout,
     pub(super) set_layouts: Vec<vk::DescriptorSetLayout>,
     pub(super) bind_point: vk::PipelineBindPoint,
-    /// All descriptors of all stages: set, binding, kind, name.
-    pub(super) slots: Vec<(u32, u32, BindingKind, &'static str)>,
+    slots: Vec<Slot>,
     pub(super) push_stages: vk::ShaderStageFlags,
     pub(super) push_size: u32,
 }
+
+/// A descriptor of a pipeline.
+#[derive(Clone, Debug)]
+pub(super) struct Slot {
+    pub(super) set: u32,
+    pub(super) binding: u32,
+    pub(super) kind: BindingKind,
+    /// What its stages together do with it: of the shaders that run, whichever struct named the resources.
+    access: Access,
+    name: &'static str,
+    visible: vk::ShaderStageFlags,
+}
+
+/// A slot and what is bound there.
+pub(super) type Resource<'a> = (Slot, Bound<'a>);
 
 impl std::fmt::Debug for Pipeline {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Pipeline").field("name", &self.shared.name).finish_non_exhaustive()
     }
-}
-
-/// A stage of a pipeline and the values of its specialisation constants.
-#[derive(Clone, Copy, Debug)]
-pub struct Stage<'a> {
-    /// The stage.
-    pub shader: &'a Shader,
-    /// `constant_id` and the bits of its value; constants left out keep their defaults.
-    pub constants: &'a [(u32, u32)],
 }
 
 /// What the vertices of a draw form.
@@ -66,7 +72,7 @@ pub enum Blend {
 }
 
 /// The fixed part of a graphics pipeline.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drawing {
     /// What vertices form.
     pub topology: Topology,
@@ -86,34 +92,45 @@ pub struct Drawing {
     pub channels: u8,
 }
 
-impl Device {
-    /// A compute pipeline.
-    ///
-    /// # Errors
-    /// When the stage is not one for compute, exceeds a limit of the device, or its driver refuses it.
-    pub fn compute_pipeline(&self, stage: Stage<'_>) -> Result<Pipeline> {
+impl Default for Drawing {
+    /// Triangles whose fragments replace what is there, all channels; no targets yet.
+    fn default() -> Self {
+        Self {
+            topology: Topology::Triangles,
+            colour: None,
+            depth_test: false,
+            depth_write: false,
+            depth_bias: None,
+            cull_clockwise: false,
+            blend: Blend::Replace,
+            channels: 15,
+        }
+    }
+}
+
+impl Pipeline {
+    /// Compiles a compute stage.
+    pub(super) fn compute(device: &Arc<DeviceShared>, stage: &ShaderStage) -> Result<Self> {
         let shader = stage.shader;
         let group: u32 = shader.workgroup_size.iter().product();
+        let most = device.facts.capabilities.max_workgroup;
         ensure!(shader.kind == ShaderKind::Compute, "{} is not a compute stage", shader.name);
-        ensure!(
-            group <= self.capabilities().max_workgroup,
-            "{} wants workgroups of {group}, and this device allows {}",
-            shader.name,
-            self.capabilities().max_workgroup
-        );
-        self.pipeline(shader.name, &[stage], |device, layout, stages| {
+        ensure!(group <= most, "{} wants workgroups of {group}, and this device allows {most}", shader.name);
+        Self::new(device, shader.name, std::slice::from_ref(stage), |device, layout, stages| {
             let info = [vk::ComputePipelineCreateInfo::default().stage(stages[0]).layout(layout)];
             // SAFETY: the stage and layout live through the call.
             unsafe { device.raw.create_compute_pipelines(device.pipelines, &info, None) }
         })
     }
 
-    /// A graphics pipeline without vertex buffers: vertex stages read storage buffers. Viewport and scissor are set a draw.
-    ///
-    /// # Errors
-    /// When the driver refuses it.
-    pub fn graphics_pipeline(&self, name: &str, stages: &[Stage<'_>], drawing: &Drawing) -> Result<Pipeline> {
-        self.pipeline(name, stages, |device, layout, stages| {
+    /// Compiles a graphics pipeline without vertex buffers: vertex stages read storage buffers. Viewport and scissor are set a draw.
+    pub(super) fn graphics(
+        device: &Arc<DeviceShared>,
+        name: &str,
+        stages: &[ShaderStage],
+        drawing: &Drawing,
+    ) -> Result<Self> {
+        Self::new(device, name, stages, |device, layout, stages| {
             let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
             let assembly = vk::PipelineInputAssemblyStateCreateInfo::default().topology(match drawing.topology {
                 Topology::Points => vk::PrimitiveTopology::POINT_LIST,
@@ -171,66 +188,37 @@ impl Device {
         })
     }
 
-    fn pipeline(
-        &self,
+    fn new(
+        device: &Arc<DeviceShared>,
         name: &str,
-        stages: &[Stage<'_>],
+        stages: &[ShaderStage],
         create: impl FnOnce(
             &DeviceShared,
             vk::PipelineLayout,
             &[vk::PipelineShaderStageCreateInfo<'_>],
         ) -> std::result::Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>,
-    ) -> Result<Pipeline> {
-        let device = &self.shared;
-        let mut slots: Vec<(u32, u32, BindingKind, &'static str)> = Vec::new();
-        let mut visible = Vec::new();
+    ) -> Result<Self> {
+        let slots = slots(name, stages)?;
         let (mut push_stages, mut push_size) = (vk::ShaderStageFlags::empty(), 0);
-        for Stage { shader, .. } in stages {
-            let flag = stage_flag(shader.kind);
-            for binding in shader.bindings {
-                let known = slots.iter().position(|slot| (slot.0, slot.1) == (binding.set, binding.binding));
-                match known {
-                    Some(place) => {
-                        ensure!(
-                            slots[place].2 == binding.kind,
-                            "{name}: {} and {} use set {} binding {} for different things",
-                            slots[place].3,
-                            binding.name,
-                            binding.set,
-                            binding.binding
-                        );
-                        visible[place] |= flag;
-                    }
-                    None => {
-                        slots.push((binding.set, binding.binding, binding.kind, binding.name));
-                        visible.push(flag);
-                    }
-                }
-            }
-            if shader.push_size > 0 {
-                push_stages |= flag;
-                push_size = push_size.max(shader.push_size);
-            }
+        for ShaderStage { shader, .. } in stages.iter().filter(|stage| stage.shader.push_size > 0) {
+            push_stages |= stage_flag(shader.kind);
+            push_size = push_size.max(shader.push_size);
         }
-        ensure!(
-            push_size <= self.capabilities().push_constants,
-            "{name} takes {push_size} bytes of push constants, and this device {}",
-            self.capabilities().push_constants
-        );
+        let room = device.facts.capabilities.push_constants;
+        ensure!(push_size <= room, "{name} takes {push_size} bytes of push constants, and this device {room}");
         let mut made =
             Parts { device, set_layouts: Vec::new(), layout: vk::PipelineLayout::null(), modules: Vec::new() };
-        let sets = slots.iter().map(|slot| slot.0 + 1).max().unwrap_or(0);
+        let sets = slots.iter().map(|slot| slot.set + 1).max().unwrap_or(0);
         for set in 0..sets {
             let bindings: Vec<_> = slots
                 .iter()
-                .zip(&visible)
-                .filter(|(slot, _)| slot.0 == set)
-                .map(|(slot, stages)| {
+                .filter(|slot| slot.set == set)
+                .map(|slot| {
                     vk::DescriptorSetLayoutBinding::default()
-                        .binding(slot.1)
-                        .descriptor_type(descriptor_type(slot.2))
+                        .binding(slot.binding)
+                        .descriptor_type(descriptor_type(slot.kind))
                         .descriptor_count(1)
-                        .stage_flags(*stages)
+                        .stage_flags(slot.visible)
                 })
                 .collect();
             let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
@@ -249,8 +237,8 @@ impl Device {
 
         let mut entries = Vec::new();
         let mut data = Vec::new();
-        for Stage { shader, constants } in stages {
-            for (id, _) in *constants {
+        for ShaderStage { shader, constants } in stages {
+            for (id, _) in constants {
                 ensure!(
                     shader.constants.iter().any(|constant| constant.id == *id),
                     "{} has no specialisation constant {id}",
@@ -299,7 +287,7 @@ impl Device {
         device.name(handle, name);
         let is_compute = stages.first().is_some_and(|stage| stage.shader.kind == ShaderKind::Compute);
         let (layout, set_layouts) = made.keep();
-        Ok(Pipeline {
+        Ok(Self {
             shared: Arc::new(PipelineShared {
                 device: device.clone(),
                 name: name.to_string(),
@@ -313,6 +301,60 @@ impl Device {
             }),
         })
     }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.shared.name
+    }
+
+    /// What the pass called `pass` binds to each of its descriptors; other bindings are of no use to it.
+    pub(super) fn resources<'a>(&self, pass: &str, bindings: &[Binding<'a>]) -> Result<Vec<Resource<'a>>> {
+        let mut resources = Vec::new();
+        for slot in &self.shared.slots {
+            let at = |binding: &&Binding<'_>| (binding.layout.set, binding.layout.binding) == (slot.set, slot.binding);
+            let Some(binding) = bindings.iter().find(at) else {
+                bail!("the pass {pass} binds nothing to {} of {}", slot.name, self.name());
+            };
+            let is_buffer = matches!(slot.kind, BindingKind::StorageBuffer | BindingKind::UniformBuffer);
+            ensure!(
+                is_buffer == matches!(binding.bound, Bound::Buffer(_)),
+                "the pass {pass} binds the wrong kind of resource to {} of {}",
+                slot.name,
+                self.name()
+            );
+            resources.push((slot.clone(), binding.bound));
+        }
+        Ok(resources)
+    }
+}
+
+/// What a pass does with these resources.
+pub(super) fn uses<'a>(resources: &'a [Resource<'_>]) -> impl Iterator<Item = Use> + 'a {
+    resources.iter().map(|(slot, bound)| Use { resource: bound.id(), writes: slot.access.writes() })
+}
+
+/// All descriptors of all stages.
+fn slots(name: &str, stages: &[ShaderStage]) -> Result<Vec<Slot>> {
+    let mut slots: Vec<Slot> = Vec::new();
+    for shader in stages.iter().map(|stage| stage.shader) {
+        let visible = stage_flag(shader.kind);
+        for layout in shader.bindings {
+            let &BindingLayout { set, binding, kind, access, name: own } = layout;
+            match slots.iter_mut().find(|slot| (slot.set, slot.binding) == (set, binding)) {
+                Some(slot) => {
+                    ensure!(
+                        slot.kind == kind,
+                        "{name}: {} and {own} use set {set} binding {binding} for different things",
+                        slot.name
+                    );
+                    slot.access = slot.access.and(access);
+                    slot.visible |= visible;
+                }
+                None => slots.push(Slot { set, binding, kind, access, name: own, visible }),
+            }
+        }
+    }
+    Ok(slots)
 }
 
 /// Objects on the way to a pipeline, destroyed should it not be reached.
@@ -342,13 +384,6 @@ impl Drop for Parts<'_> {
                 self.device.raw.destroy_descriptor_set_layout(*layout, None);
             }
         }
-    }
-}
-
-impl Pipeline {
-    /// Its name.
-    pub fn name(&self) -> &str {
-        &self.shared.name
     }
 }
 

@@ -5,7 +5,6 @@ use std::ffi::CString;
 
 use anyhow::{Result, ensure};
 use ash::vk;
-use ash::vk::Handle as _;
 
 use super::buffer::Buffer;
 use super::descriptors::Descriptors;
@@ -14,9 +13,9 @@ use super::hazards::{Hazards, Use};
 use super::image::{Image, whole};
 use super::memory::Memory;
 use super::pass::{Dispatch, Groups};
-use super::pipeline::Pipeline;
+use super::pipeline::{Pipeline, Resource, uses};
 use super::recording::{Recording, RecordingParts};
-use super::shader::{Binding, Bound};
+use super::shader::Bound;
 use super::timing::Timing;
 
 /// Most passes of a recording: its queries and breadcrumbs are made for so many.
@@ -32,6 +31,9 @@ pub struct Recorder {
     layouts: HashMap<u64, (Image, vk::ImageLayout)>,
     descriptors: Descriptors,
     kept: HashSet<u64>,
+    /// Barriers between passes so far.
+    #[cfg(test)]
+    pub(super) barriers: usize,
 }
 
 impl std::fmt::Debug for Recorder {
@@ -117,6 +119,8 @@ impl Device {
             layouts: HashMap::new(),
             descriptors: Descriptors::default(),
             kept: HashSet::new(),
+            #[cfg(test)]
+            barriers: 0,
         };
         // What ran before, this recording's own last run included, comes first.
         recorder.barrier(&[]);
@@ -134,11 +138,28 @@ impl Device {
 }
 
 impl Recorder {
-    /// A pass of compute work. Its dispatches run side by side unless one needs another's results.
+    /// A pass that runs a compute stage once, named like its shader.
     ///
     /// # Errors
-    /// When a binding is missing or of the wrong kind, the push constants have another size, there are more workgroups than
-    /// the device allows, or it is out of descriptors.
+    /// As [`Self::compute`].
+    pub fn run(&mut self, dispatch: Dispatch<'_>) -> Result<()> {
+        self.run_all([dispatch])
+    }
+
+    /// A pass that runs a compute stage side by side on several sets of resources, named like its shader; none for no dispatch.
+    ///
+    /// # Errors
+    /// As [`Self::compute`].
+    pub fn run_all<'a>(&mut self, dispatches: impl IntoIterator<Item = Dispatch<'a>>) -> Result<()> {
+        let dispatches: Vec<_> = dispatches.into_iter().collect();
+        dispatches.first().map_or(Ok(()), |first| self.compute(first.stage.shader.label(), &dispatches))
+    }
+
+    /// A pass of compute work under a name of its own. Its dispatches run side by side unless one needs another's results.
+    ///
+    /// # Errors
+    /// When a stage does not compile, a binding is missing or of the wrong kind, the push constants have another size, there are
+    /// more workgroups than the device allows, or it is out of descriptors.
     pub fn compute(&mut self, name: &str, dispatches: &[Dispatch<'_>]) -> Result<()> {
         self.begin(name)?;
         for dispatch in dispatches {
@@ -149,16 +170,21 @@ impl Recorder {
     }
 
     fn dispatch(&mut self, name: &str, dispatch: &Dispatch<'_>) -> Result<()> {
-        let mut uses = uses(dispatch.bindings);
+        let pipeline = self.device.compute_pipeline(&dispatch.stage)?;
+        let resources = pipeline.resources(name, &dispatch.bindings)?;
+        check_push(name, &pipeline, &dispatch.push)?;
+        let mut uses: Vec<_> = uses(&resources).collect();
         if let Groups::Indirect(buffer, _) = dispatch.groups {
-            uses.push(Use { resource: buffer_id(buffer), writes: false });
+            uses.push(Use { resource: buffer.id(), writes: false });
             self.keep_buffer(buffer);
         }
-        self.wait_for(&uses, &readable(dispatch.bindings));
-        self.bind(name, dispatch.pipeline, dispatch.bindings, dispatch.push)?;
+        self.wait_for(&uses, &readable(&resources));
+        self.keep_pipeline(&pipeline);
+        let sets = self.descriptor_sets(&pipeline, &resources)?;
+        self.bind_sets(&pipeline, &sets, &dispatch.push);
         let raw = &self.device.shared.raw;
-        match dispatch.groups {
-            Groups::Count([x, y, z]) => {
+        match (dispatch.groups, dispatch.groups.count(dispatch.stage.shader.workgroup_size)) {
+            (_, Some([x, y, z])) => {
                 let limit = self.device.capabilities().max_groups;
                 ensure!(
                     x <= limit && y <= 65535 && z <= 65535,
@@ -167,7 +193,7 @@ impl Recorder {
                 // SAFETY: recording, with a pipeline, its sets and push constants bound.
                 unsafe { raw.cmd_dispatch(self.parts.commands, x, y, z) };
             }
-            Groups::Indirect(buffer, offset) => {
+            (Groups::Indirect(buffer, offset), _) => {
                 ensure!(
                     offset % 4 == 0 && offset + 12 <= buffer.size(),
                     "the pass {name} reads its workgroup count at byte {offset} of {}, which has {}",
@@ -177,6 +203,7 @@ impl Recorder {
                 // SAFETY: as above; the three words lie inside of the buffer.
                 unsafe { raw.cmd_dispatch_indirect(self.parts.commands, buffer.shared.handle, offset) };
             }
+            (_, None) => {}
         }
         Ok(())
     }
@@ -252,7 +279,7 @@ impl Recorder {
     pub(super) fn wait_for(&mut self, uses: &[Use], layouts: &[(Image, vk::ImageLayout)]) {
         let mut transitions = Vec::new();
         for (image, wanted) in layouts {
-            let id = image_id(image);
+            let id = image.id();
             let now = self.layouts.get(&id).map_or(vk::ImageLayout::GENERAL, |(_, layout)| *layout);
             if now != *wanted {
                 transitions.push(self.transition(image, now, *wanted));
@@ -266,6 +293,10 @@ impl Recorder {
                 self.hazards.must_wait(uses);
             }
             self.barrier(&transitions);
+            #[cfg(test)]
+            {
+                self.barriers += 1;
+            }
         }
     }
 
@@ -302,28 +333,19 @@ impl Recorder {
         unsafe { self.device.shared.raw.cmd_pipeline_barrier2(self.parts.commands, &info) };
     }
 
-    /// The descriptor sets of a pipeline with these bindings, which are kept alive.
+    /// The descriptor sets of a pipeline with these resources, which are kept alive.
     pub(super) fn descriptor_sets(
         &mut self,
-        name: &str,
         pipeline: &Pipeline,
-        bindings: &[Binding<'_>],
+        resources: &[Resource<'_>],
     ) -> Result<Vec<vk::DescriptorSet>> {
-        for binding in bindings {
-            match binding.bound {
+        for (_, bound) in resources {
+            match bound {
                 Bound::Buffer(buffer) => self.keep_buffer(buffer),
                 Bound::Image(image) => self.keep_image(image),
             }
         }
-        self.descriptors.of(&mut self.parts, name, pipeline, bindings)
-    }
-
-    fn bind(&mut self, name: &str, pipeline: &Pipeline, bindings: &[Binding<'_>], push: &[u8]) -> Result<()> {
-        check_push(name, pipeline, push)?;
-        self.keep_pipeline(pipeline);
-        let sets = self.descriptor_sets(name, pipeline, bindings)?;
-        self.bind_sets(pipeline, &sets, push);
-        Ok(())
+        self.descriptors.of(&mut self.parts, pipeline, resources)
     }
 
     pub(super) fn bind_sets(&self, pipeline: &Pipeline, sets: &[vk::DescriptorSet], push: &[u8]) {
@@ -341,13 +363,13 @@ impl Recorder {
     }
 
     pub(super) fn keep_buffer(&mut self, buffer: &Buffer) {
-        if self.kept.insert(buffer_id(buffer)) {
+        if self.kept.insert(buffer.id()) {
             self.parts.buffers.push(buffer.clone());
         }
     }
 
     pub(super) fn keep_image(&mut self, image: &Image) {
-        if self.kept.insert(image_id(image)) {
+        if self.kept.insert(image.id()) {
             self.parts.images.push(image.clone());
         }
     }
@@ -386,36 +408,13 @@ pub(super) fn check_push(name: &str, pipeline: &Pipeline, push: &[u8]) -> Result
     Ok(())
 }
 
-pub(super) fn uses(bindings: &[Binding<'_>]) -> Vec<Use> {
-    bindings
+/// The images among `resources`, in the layout that stages read and write them in.
+pub(super) fn readable(resources: &[Resource<'_>]) -> Vec<(Image, vk::ImageLayout)> {
+    resources
         .iter()
-        .map(|binding| Use { resource: id(&binding.bound), writes: binding.layout.access.writes() })
-        .collect()
-}
-
-/// The images among `bindings`, in the layout that stages read and write them in.
-pub(super) fn readable(bindings: &[Binding<'_>]) -> Vec<(Image, vk::ImageLayout)> {
-    bindings
-        .iter()
-        .filter_map(|binding| match binding.bound {
-            Bound::Image(image) => Some((image.clone(), vk::ImageLayout::GENERAL)),
+        .filter_map(|(_, bound)| match bound {
+            Bound::Image(image) => Some(((*image).clone(), vk::ImageLayout::GENERAL)),
             Bound::Buffer(_) => None,
         })
         .collect()
-}
-
-pub(super) fn id(bound: &Bound<'_>) -> u64 {
-    match bound {
-        Bound::Buffer(buffer) => buffer_id(buffer),
-        Bound::Image(image) => image_id(image),
-    }
-}
-
-/// Handles of buffers and images may have the same value; their last bit tells the two apart.
-pub(super) fn buffer_id(buffer: &Buffer) -> u64 {
-    buffer.shared.handle.as_raw() << 1
-}
-
-pub(super) fn image_id(image: &Image) -> u64 {
-    image.shared.handle.as_raw() << 1 | 1
 }

@@ -22,6 +22,30 @@ pub struct Shader {
     pub constants: &'static [SpecConstant],
 }
 
+impl Shader {
+    /// Name of its file without folder and ending: the name of its passes, in captures and in rows of timings.
+    pub fn label(&self) -> &'static str {
+        let file = self.name.rsplit('/').next().unwrap_or(self.name);
+        file.split('.').next().unwrap_or(file)
+    }
+}
+
+/// A shader with the values of its specialisation constants: what a pipeline is compiled from.
+#[derive(Clone, Debug)]
+pub struct ShaderStage {
+    /// The shader.
+    pub shader: &'static Shader,
+    /// `constant_id` and the bits of its value; constants left out keep their defaults.
+    pub constants: Vec<(u32, u32)>,
+}
+
+impl PartialEq for ShaderStage {
+    /// A shader is known by its path.
+    fn eq(&self, other: &Self) -> bool {
+        self.shader.name == other.shader.name && self.constants == other.constants
+    }
+}
+
 /// A descriptor of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BindingLayout {
@@ -47,6 +71,11 @@ impl Access {
     pub fn reads(self) -> bool {
         self != Self::Write
     }
+
+    /// What two stages do together.
+    pub(super) fn and(self, other: Self) -> Self {
+        if self == other { self } else { Self::ReadWrite }
+    }
 }
 
 /// A specialisation constant.
@@ -67,6 +96,16 @@ pub enum Bound<'a> {
     Buffer(&'a Buffer),
     /// A whole image.
     Image(&'a Image),
+}
+
+impl Bound<'_> {
+    /// The number that tells it from every other resource.
+    pub(super) fn id(&self) -> u64 {
+        match self {
+            Self::Buffer(buffer) => buffer.id(),
+            Self::Image(image) => image.id(),
+        }
+    }
 }
 
 /// A descriptor of a stage and what is bound there.

@@ -6,7 +6,9 @@
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use super::generated::{double_comp, fill_frag, fill_vert, layout};
+use super::generated::{double_comp, double_in_place_comp, fill_frag, fill_vert, layout, recolour_frag};
+use super::hazards::{Hazards, Use};
+use super::pipeline::uses;
 use super::recorder::MOST_PASSES;
 use super::test_device::{device, device_under};
 use super::*;
@@ -17,7 +19,6 @@ fn assert_silent(log: &ValidationLog) {
 
 /// Doubles 0..count twice over, through a buffer between: 4 x.
 fn quadruple(device: &Device, count: u32, timing: Timing) -> anyhow::Result<(Vec<f32>, Recording)> {
-    let pipeline = device.compute_pipeline(Stage { shader: &double_comp::SHADER, constants: &[] })?;
     let input = device.buffer::<f32>("input", count as usize, Memory::Upload)?;
     let middle = device.buffer::<f32>("middle", count as usize, Memory::Device)?;
     let output = device.buffer::<f32>("output", count as usize, Memory::Readback)?;
@@ -25,15 +26,8 @@ fn quadruple(device: &Device, count: u32, timing: Timing) -> anyhow::Result<(Vec
     let push = layout::DoublePush { count, factor: 2.0 };
     let mut recorder = device.recorder(timing)?;
     for (name, source, target) in [("first", &input, &middle), ("second", &middle, &output)] {
-        recorder.compute(
-            name,
-            &[Dispatch {
-                pipeline: &pipeline,
-                bindings: &double_comp::Bindings { source, target }.bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: Groups::Count([count.div_ceil(64), 1, 1]),
-            }],
-        )?;
+        let bindings = double_comp::Bindings { source, target };
+        recorder.compute(name, &[bindings.dispatch(push, Groups::Over([count, 1, 1]))])?;
     }
     let mut recording = recorder.finish()?;
     recording.run()?;
@@ -69,18 +63,8 @@ fn dependent_passes_run_in_order_and_again() {
 #[test]
 fn a_triangle_is_drawn_and_read_back() {
     let Some((device, log)) = device("a_triangle_is_drawn_and_read_back", DeviceSettings::default()) else { return };
-    let stages =
-        [Stage { shader: &fill_vert::SHADER, constants: &[] }, Stage { shader: &fill_frag::SHADER, constants: &[] }];
-    let drawing = Drawing {
-        topology: Topology::Triangles,
-        colour: Some(Format::Rgba8),
-        depth_test: false,
-        depth_write: false,
-        depth_bias: None,
-        cull_clockwise: false,
-        blend: Blend::Max,
-        channels: 0b0110,
-    };
+    let drawing = Drawing { colour: Some(Format::Rgba8), blend: Blend::Max, channels: 0b0110, ..Drawing::default() };
+    let stages = [fill_vert::stage(), fill_frag::stage()];
     let pipeline = device.graphics_pipeline("fill", &stages, &drawing).unwrap();
     let corners = device.buffer::<layout::Corner>("corners", 3, Memory::Upload).unwrap();
     let at = |x: f32, y: f32| layout::Corner { position: [x, y], colour: 0xffff_ffff, _pad0: [0] };
@@ -126,18 +110,8 @@ fn a_triangle_is_drawn_and_read_back() {
 fn clockwise_triangles_are_left_out_and_counts_can_come_from_a_buffer() {
     let name = "clockwise_triangles_are_left_out_and_counts_can_come_from_a_buffer";
     let Some((device, log)) = device(name, DeviceSettings::default()) else { return };
-    let stages =
-        [Stage { shader: &fill_vert::SHADER, constants: &[] }, Stage { shader: &fill_frag::SHADER, constants: &[] }];
-    let drawing = Drawing {
-        topology: Topology::Triangles,
-        colour: Some(Format::Rgba8),
-        depth_test: false,
-        depth_write: false,
-        depth_bias: None,
-        cull_clockwise: true,
-        blend: Blend::Replace,
-        channels: 15,
-    };
+    let drawing = Drawing { colour: Some(Format::Rgba8), cull_clockwise: true, ..Drawing::default() };
+    let stages = [fill_vert::stage(), fill_frag::stage()];
     let pipeline = device.graphics_pipeline("fill", &stages, &drawing).unwrap();
     let corners = device.buffer::<layout::Corner>("corners", 6, Memory::Upload).unwrap();
     let at = |x: f32, y: f32, colour| layout::Corner { position: [x, y], colour, _pad0: [0] };
@@ -322,4 +296,93 @@ fn the_validation_log_hears_of_a_fault() {
     // Layers word it as SYNC-HAZARD-WRITE-AFTER-WRITE or as "hazard detected".
     let heard = log.messages().iter().any(|message| message.to_lowercase().contains("hazard"));
     assert!(heard, "{:?}", log.messages());
+}
+
+#[test]
+fn a_variant_that_writes_what_its_sibling_reads_gets_its_barrier() {
+    let name = "a_variant_that_writes_what_its_sibling_reads_gets_its_barrier";
+    let Some((device, log)) = device(name, DeviceSettings::default()) else { return };
+    let [first, second, third] = ["first", "second", "third"].map(|name| {
+        let values = if name == "first" { [3.0_f32; 64] } else { [0.0; 64] };
+        device.uploaded(name, &values).unwrap()
+    });
+    let push = layout::DoublePush { count: 64, factor: 2.0 };
+    let reading = double_comp::Bindings { source: &first, target: &second };
+    // Bound through the struct of its sibling, which says that `first` is read.
+    let sibling = double_comp::Bindings { source: &first, target: &third };
+    let from_struct = |bindings: &double_comp::Bindings<'_>| -> Vec<Use> {
+        let uses = |binding: &Binding<'_>| Use { resource: binding.bound.id(), writes: binding.layout.access.writes() };
+        bindings.bound().iter().map(uses).collect()
+    };
+    let mut by_struct = Hazards::default();
+    assert!(!by_struct.must_wait(&from_struct(&reading)));
+    assert!(!by_struct.must_wait(&from_struct(&sibling)), "the struct alone has no conflict to show");
+    for (variant, barriers) in [(&double_comp::SHADER, 0), (&double_in_place_comp::SHADER, 1)] {
+        let mut recorder = device.recorder(Timing::Off).unwrap();
+        recorder.run(reading.dispatch(push, Groups::Over([64, 1, 1]))).unwrap();
+        recorder.run(sibling.dispatch(push, Groups::Over([64, 1, 1])).by(variant)).unwrap();
+        assert_eq!(recorder.barriers, barriers, "{}", variant.name);
+        let mut recording = recorder.finish().unwrap();
+        assert_eq!(recording.passes(), ["double", variant.label()]);
+        recording.run().unwrap();
+    }
+    let values = |buffer: &Buffer| {
+        let readback = device.buffer::<f32>("values", 64, Memory::Readback).unwrap();
+        let mut recorder = device.recorder(Timing::Off).unwrap();
+        recorder.copy("read", (buffer, 0), (&readback, 0), readback.size()).unwrap();
+        recorder.finish().unwrap().run().unwrap();
+        let mut values = [0.0_f32; 64];
+        readback.read(0, &mut values).unwrap();
+        values
+    };
+    assert_eq!([&first, &second, &third].map(values), [[6.0; 64], [6.0; 64], [6.0; 64]]);
+    assert_silent(&log);
+    // Without that barrier the layer hears of it.
+    let mut recorder = device.recorder(Timing::Off).unwrap();
+    recorder.run(reading.dispatch(push, Groups::Over([64, 1, 1]))).unwrap();
+    recorder.forget_hazards();
+    recorder.run(sibling.dispatch(push, Groups::Over([64, 1, 1])).by(&double_in_place_comp::SHADER)).unwrap();
+    recorder.finish().unwrap().run().unwrap();
+    let heard = log.messages().iter().any(|message| message.to_lowercase().contains("hazard"));
+    assert!(heard, "{:?}", log.messages());
+}
+
+#[test]
+fn what_any_stage_of_a_drawing_writes_counts_as_written() {
+    let name = "what_any_stage_of_a_drawing_writes_counts_as_written";
+    let Some((device, log)) = device(name, DeviceSettings::default()) else { return };
+    if !device.capabilities().fragment_stores {
+        return;
+    }
+    let corners = device.buffer::<layout::Corner>("corners", 3, Memory::Device).unwrap();
+    // Named by the vertex stage, which reads them.
+    let bindings = fill_vert::Bindings { corners: &corners }.bound();
+    let drawing = Drawing { colour: Some(Format::Rgba8), ..Drawing::default() };
+    for (fragment, writes) in [(fill_frag::stage(), false), (recolour_frag::stage(), true)] {
+        let pipeline = device.graphics_pipeline("fill", &[fill_vert::stage(), fragment], &drawing).unwrap();
+        let resources = pipeline.resources("draw", &bindings).unwrap();
+        let found: Vec<Use> = uses(&resources).collect();
+        assert_eq!(found, [Use { resource: corners.id(), writes }]);
+    }
+    drop((corners, device));
+    assert_silent(&log);
+}
+
+#[test]
+fn a_pipeline_is_compiled_once() {
+    let Some((device, log)) = device("a_pipeline_is_compiled_once", DeviceSettings::default()) else { return };
+    device.compile(&[double_comp::stage(), double_in_place_comp::stage()]).unwrap();
+    let [first, second, other] = [double_comp::stage(), double_comp::stage(), double_in_place_comp::stage()]
+        .map(|stage| device.compute_pipeline(&stage).unwrap().shared.handle);
+    assert!(first == second && first != other);
+    drop(device);
+    assert_silent(&log);
+}
+
+#[test]
+fn workgroups_cover_what_was_asked_for() {
+    assert_eq!(Groups::Over([65, 7, 3]).count([64, 8, 1]), Some([2, 1, 3]));
+    assert_eq!(Groups::Flat(64 * 65535).count([64, 1, 1]), Some([65535, 1, 1]));
+    assert_eq!(Groups::Flat(64 * 65535 + 1).count([64, 1, 1]), Some([65535, 2, 1]));
+    assert_eq!(Groups::Count([1, 2, 3]).count([64, 1, 1]), Some([1, 2, 3]));
 }

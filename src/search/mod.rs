@@ -15,8 +15,8 @@ mod philox;
 mod pso;
 mod refinement;
 mod settings;
+mod shaders;
 mod space;
-mod stages;
 mod weights;
 
 use anyhow::{Result, ensure};

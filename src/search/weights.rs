@@ -1,7 +1,7 @@
 //! The weights of a filter's particles: from their fitness, as shares of the largest, and resampling by them.
 
 use super::arithmetic::exp_of_negative;
-use super::stages::{ANNEAL_LANES, HALVINGS, LEAST_SHARPNESS, MOST_SHARPNESS};
+use super::shaders::{ANNEAL_LANES, HALVINGS, LEAST_SHARPNESS, MOST_SHARPNESS};
 use super::{Random, Stream};
 
 /// What a share of 1 counts in the integer sums that resampling goes by.

@@ -3,9 +3,9 @@
 
 use super::compile::{Compiled, compile, kind_of};
 use super::constants::constants;
-use super::interface::{Access, BindingKind};
+use super::interface::{Access, BindingKind, ShaderKind};
 use super::layouts::{Layouts, camel_case, identifier};
-use super::reflect::{Reflection, reflect};
+use super::reflect::{Constant, Reflection, reflect};
 use anyhow::{Context, Result, ensure};
 use std::fmt::Write;
 use std::fs;
@@ -104,7 +104,8 @@ fn stage(
         }
     }
     let kind = compiled.kind;
-    writeln!(text, "/// The stage `{name}`.\npub mod {module} {{")?;
+    writeln!(text, "/// The stage `{name}`.\n#[allow(dead_code, reason = \"a room takes of a stage what it needs\")]")?;
+    writeln!(text, "pub mod {module} {{")?;
     if let Some(why) = &reflection.unread {
         writeln!(text, "    // Accesses are as declared: naga cannot read this stage ({why}).")?;
     }
@@ -129,25 +130,71 @@ fn stage(
         writeln!(text, "            crate::gpu::SpecConstant {{ name: {own:?}, id: {id}, default: {default} }},")?;
     }
     writeln!(text, "        ],\n    }};")?;
+    text += &constants_of(name, reflection)?;
+    if let Some(own) = &push_type {
+        writeln!(text, "    /// Push constants.\n    pub type Push = super::layout::{own};")?;
+    }
     if !fields.is_empty() {
         text += &bindings(reflection, &fields)?;
+        if kind == ShaderKind::Compute {
+            text += &dispatch(push_type.is_some(), !reflection.constants.is_empty())?;
+        }
     }
-    if let Some(own) = push_type {
-        writeln!(text, "    /// Push constants.\n    #[allow(dead_code)]\n    pub type Push = super::layout::{own};")?;
+    writeln!(text, "}}")?;
+    Ok(text)
+}
+
+/// The struct of a stage's specialisation constants, where it has any, and the function that gives the stage with them.
+fn constants_of(name: &str, reflection: &Reflection) -> Result<String> {
+    let mut text = String::new();
+    let (mut fields, mut defaults, mut values) = (String::new(), String::new(), String::new());
+    let mut names = Vec::new();
+    for Constant { name: glsl, id, ty, default } in &reflection.constants {
+        let field = identifier(&glsl.to_ascii_lowercase());
+        ensure!(!names.contains(&field), "{name}: two specialisation constants are called {field}");
+        let (value, bits) = match *ty {
+            "bool" => ((*default != 0).to_string(), format!("u32::from(constants.{field})")),
+            "i32" => (default.cast_signed().to_string(), format!("constants.{field}.cast_unsigned()")),
+            "f32" => (format!("f32::from_bits({default})"), format!("constants.{field}.to_bits()")),
+            _ => (default.to_string(), format!("constants.{field}")),
+        };
+        writeln!(fields, "        /// `{glsl}`, {value} by default.\n        pub {field}: {ty},")?;
+        write!(defaults, "{field}: {value}, ")?;
+        write!(values, "({id}, {bits}), ")?;
+        names.push(field);
     }
-    if !reflection.constants.is_empty() {
-        writeln!(
-            text,
-            "    /// Numbers of the specialisation constants.\n    #[allow(dead_code)]\n    pub mod constants {{"
-        )?;
+    if !names.is_empty() {
+        writeln!(text, "    /// Numbers of the specialisation constants.\n    pub mod constants {{")?;
         for constant in &reflection.constants {
             let own = constant.name.to_ascii_uppercase();
             writeln!(text, "        /// `{}`, {} by default.", constant.name, constant.default)?;
             writeln!(text, "        pub const {own}: u32 = {};", constant.id)?;
         }
         writeln!(text, "    }}")?;
+        writeln!(text, "    /// Specialisation constants.\n    #[derive(Clone, Copy, Debug, PartialEq)]")?;
+        writeln!(text, "    pub struct Constants {{\n{fields}    }}\n    impl Default for Constants {{")?;
+        writeln!(text, "        fn default() -> Self {{ Self {{ {defaults}}} }}\n    }}")?;
     }
-    writeln!(text, "}}")?;
+    let parameter = if names.is_empty() { "" } else { "constants: Constants" };
+    writeln!(text, "    /// What a pipeline is compiled from.")?;
+    writeln!(text, "    pub fn stage({parameter}) -> crate::gpu::ShaderStage {{")?;
+    writeln!(text, "        crate::gpu::ShaderStage {{ shader: &SHADER, constants: vec![{values}] }}\n    }}")?;
+    Ok(text)
+}
+
+/// The function that makes a run of a compute stage from what it works on.
+fn dispatch(has_push: bool, has_constants: bool) -> Result<String> {
+    let mut text = String::new();
+    let (constants, stage) =
+        if has_constants { ("constants: Constants, ", "stage(constants)") } else { ("", "stage()") };
+    let (push, bytes) =
+        if has_push { ("push: Push, ", "bytemuck::bytes_of(&push).to_vec()") } else { ("", "Vec::new()") };
+    writeln!(text, "    impl<'a> Bindings<'a> {{\n        /// A run on them.")?;
+    writeln!(text, "        pub fn dispatch(self, {constants}{push}groups: crate::gpu::Groups<'a>)")?;
+    writeln!(text, "            -> crate::gpu::Dispatch<'a> {{")?;
+    writeln!(text, "            let bindings = self.bound().to_vec();")?;
+    writeln!(text, "            crate::gpu::Dispatch {{ stage: {stage}, bindings, push: {bytes}, groups }}")?;
+    writeln!(text, "        }}\n    }}")?;
     Ok(text)
 }
 

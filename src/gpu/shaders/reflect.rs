@@ -51,6 +51,8 @@ pub struct Constant {
     pub name: String,
     /// `constant_id`.
     pub id: u32,
+    /// Rust name of its type.
+    pub ty: &'static str,
     /// Bits of the default.
     pub default: u32,
 }
@@ -346,7 +348,10 @@ fn one_line(text: &str) -> String {
 struct Scan {
     names: HashMap<u32, String>,
     spec_ids: BTreeMap<u32, u32>,
-    values: HashMap<u32, Vec<u32>>,
+    /// Rust names of the types of numbers.
+    numbers: HashMap<u32, &'static str>,
+    /// Type and words of every constant.
+    values: HashMap<u32, (u32, Vec<u32>)>,
     sets: HashMap<u32, u32>,
     bindings: HashMap<u32, u32>,
     pushes: bool,
@@ -357,6 +362,9 @@ impl Scan {
     fn new(words: &[u32]) -> Self {
         const NAME: u32 = 5;
         const EXECUTION_MODE: u32 = 16;
+        const TYPE_BOOL: u32 = 20;
+        const TYPE_INT: u32 = 21;
+        const TYPE_FLOAT: u32 = 22;
         const CONSTANT: u32 = 43;
         const CONSTANT_COMPOSITE: u32 = 44;
         const SPEC_CONSTANT_TRUE: u32 = 48;
@@ -398,14 +406,20 @@ impl Scan {
                 }
                 (VARIABLE, [_, _, PUSH_CONSTANT, ..]) => scan.pushes = true,
                 (DECORATE, [id, BUILT_IN, WORKGROUP_SIZE]) => size_id = Some(*id),
-                (CONSTANT | SPEC_CONSTANT, [_, id, value @ ..]) => {
-                    scan.values.insert(*id, value.to_vec());
+                (TYPE_BOOL, [id]) => {
+                    scan.numbers.insert(*id, "bool");
                 }
-                (SPEC_CONSTANT_TRUE, [_, id]) => {
-                    scan.values.insert(*id, vec![1]);
+                (TYPE_INT, [id, 32, signed]) => {
+                    scan.numbers.insert(*id, if *signed == 0 { "u32" } else { "i32" });
                 }
-                (SPEC_CONSTANT_FALSE, [_, id]) => {
-                    scan.values.insert(*id, vec![0]);
+                (TYPE_FLOAT, [id, 32, ..]) => {
+                    scan.numbers.insert(*id, "f32");
+                }
+                (CONSTANT | SPEC_CONSTANT, [ty, id, value @ ..]) => {
+                    scan.values.insert(*id, (*ty, value.to_vec()));
+                }
+                (SPEC_CONSTANT_TRUE | SPEC_CONSTANT_FALSE, [ty, id]) => {
+                    scan.values.insert(*id, (*ty, vec![u32::from(operation == SPEC_CONSTANT_TRUE)]));
                 }
                 (CONSTANT_COMPOSITE | SPEC_CONSTANT_COMPOSITE, [_, id, parts @ ..]) => {
                     composites.insert(*id, parts.to_vec());
@@ -416,7 +430,7 @@ impl Scan {
         // `local_size_x_id`: the size is a vector of constants, and its decoration goes before LocalSize.
         if let Some(parts) = size_id.and_then(|id| composites.get(&id)) {
             for ((size, part), axis) in scan.workgroup_size.iter_mut().zip(parts).zip(["x", "y", "z"]) {
-                if let Some([value]) = scan.values.get(part).map(Vec::as_slice) {
+                if let Some([value]) = scan.values.get(part).map(|(_, value)| value.as_slice()) {
                     *size = *value;
                 }
                 let unnamed = scan.names.get(part).is_none_or(String::is_empty);
@@ -439,10 +453,11 @@ impl Scan {
             let name = self.names.get(id).filter(|name| !name.is_empty());
             let name =
                 name.ok_or_else(|| anyhow!("{stage}: the constant of constant_id {number} has no name"))?.clone();
-            let Some([default]) = self.values.get(id).map(Vec::as_slice) else {
+            let value = self.values.get(id).map(|(ty, value)| (self.numbers.get(ty), value.as_slice()));
+            let Some((Some(ty), [default])) = value else {
                 bail!("{stage}: the constant {name} is wider than 32 bits, which is not supported");
             };
-            constants.push(Constant { name, id: *number, default: *default });
+            constants.push(Constant { name, id: *number, ty, default: *default });
         }
         Ok(constants)
     }

@@ -3,17 +3,15 @@
 use anyhow::Result;
 
 use super::FrameRecording;
+use crate::gpu::Groups;
 use crate::search::SearchSettings;
-use crate::search::stages::{LayerStage, WeighStage, layer_comp, weigh_comp};
+use crate::search::shaders::{layer_comp, weigh_comp};
 
 impl FrameRecording<'_> {
     /// Records a frame of the annealed filter: its layers, each with its weights, then the mean of the last and its own
     /// evaluation.
     pub(super) fn annealed(&mut self, settings: &SearchSettings) -> Result<()> {
         let (extent, memory) = (self.extent, self.memory);
-        let device = self.evaluator.device().clone();
-        let choose = LayerStage::new(&device)?;
-        let weigh = WeighStage::new(&device)?;
         let previous = self.values("previous particles", extent.candidates, extent.dofs)?;
         let weights = self.values("weights", extent.candidates, 1)?;
         let cumulated = self.values("sums of weights", extent.candidates, 2)?;
@@ -27,14 +25,15 @@ impl FrameRecording<'_> {
                 self.recorder.copy("keep", (&positions, 0), (&previous, 0), previous.size())?;
             }
             let bindings = layer_comp::Bindings {
-                frame: &memory.frame,
+                frame: &memory.frame.buffer,
                 outcome: &memory.outcome,
                 previous: &previous,
                 cumulated: &cumulated,
                 positions: &positions,
             };
             let noise = settings.annealing.noise_of(layer, settings.iterations);
-            choose.record(self.recorder, &bindings, extent, layer as u32, noise)?;
+            let push = layer_comp::Push { particles: extent.candidates, dofs: extent.dofs, layer: layer as u32, noise };
+            self.recorder.run(bindings.dispatch(push, extent.block_groups(self.recorder.device())))?;
             self.evaluate(extent.candidates)?;
             let bindings = weigh_comp::Bindings {
                 fitness: &fitness,
@@ -44,7 +43,9 @@ impl FrameRecording<'_> {
                 cumulated: &cumulated,
                 sharpness: &sharpness,
             };
-            weigh.record(self.recorder, &bindings, extent, settings.annealing.survival)?;
+            let survival = settings.annealing.survival;
+            let push = weigh_comp::Push { count: extent.candidates, dofs: extent.dofs, survival };
+            self.recorder.run(bindings.dispatch(push, Groups::Count([1; 3])))?;
         }
         self.estimate_mean(&positions, &weights, extent.candidates)
     }

@@ -3,19 +3,16 @@
 use anyhow::Result;
 
 use super::FrameRecording;
+use crate::gpu::Groups;
 use crate::search::SearchSettings;
-use crate::search::stages::{Extent, PropagateStage, WeighStage, propagate_comp, weigh_comp};
+use crate::search::shaders::{propagate_comp, weigh_comp};
 
 impl FrameRecording<'_> {
     /// Records a frame of the filter: all batches, the weights, the mean and its own evaluation.
     pub(super) fn filter(&mut self, settings: &SearchSettings) -> Result<()> {
         let (extent, memory) = (self.extent, self.memory);
-        let device = self.evaluator.device().clone();
-        let propagate = PropagateStage::new(&device)?;
-        let weigh = WeighStage::new(&device)?;
         // `check_room` has seen to it that this fits.
         let count = extent.candidates * settings.iterations as u32;
-        let all = Extent { candidates: count, ..extent };
         let particles = self.values("particles", count, extent.dofs)?;
         let previous = self.values("previous particles", count, extent.dofs)?;
         let all_fitness = self.values("fitness of all particles", count, 1)?;
@@ -29,14 +26,15 @@ impl FrameRecording<'_> {
         for batch in 0..settings.iterations as u32 {
             let first = batch * extent.candidates;
             let bindings = propagate_comp::Bindings {
-                frame: &memory.frame,
+                frame: &memory.frame.buffer,
                 outcome: &memory.outcome,
                 previous: &previous,
                 cumulated: &cumulated,
                 particles: &particles,
                 positions: &positions,
             };
-            propagate.record(self.recorder, &bindings, extent, [first, count])?;
+            let push = propagate_comp::Push { first, batch: extent.candidates, count, dofs: extent.dofs };
+            self.recorder.run(bindings.dispatch(push, extent.block_groups(self.recorder.device())))?;
             self.evaluate(extent.candidates)?;
             let bytes = 4 * u64::from(extent.candidates);
             self.recorder.copy("gather", (&fitness, 0), (&all_fitness, 4 * u64::from(first)), bytes)?;
@@ -49,7 +47,9 @@ impl FrameRecording<'_> {
             cumulated: &cumulated,
             sharpness: &sharpness,
         };
-        weigh.record(self.recorder, &bindings, all, 0.0)?;
+        // The sharpness stays what the settings say.
+        let push = weigh_comp::Push { count, dofs: extent.dofs, survival: 0.0 };
+        self.recorder.run(bindings.dispatch(push, Groups::Count([1; 3])))?;
         self.estimate_mean(&particles, &weights, count)
     }
 }

@@ -15,11 +15,11 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail, ensure};
 
 use super::hierarchical::SwarmStage;
-use super::stages::{Extent, SpreadStage, layout, spread_comp};
+use super::shaders::{SEARCH_GROUP, layout, spread_comp};
 use super::{Estimate, SearchKind, SearchSettings, SearchSpace, check_start};
 use crate::evaluate::Objective;
 use crate::evaluate::device::DeviceEvaluator;
-use crate::gpu::{Buffer, Device, DevicePass, Memory, PassTiming, Recorder, Recording, Timing};
+use crate::gpu::{Buffer, Device, DevicePass, Groups, Memory, PassTiming, Recorder, Recording, StagedBuffer, Timing};
 
 /// What a search on a device found in a frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +42,7 @@ pub struct DeviceSearch {
     /// The pose last estimated, which a next frame's centre is compared with; empty before.
     estimated: Vec<f32>,
     views: usize,
-    /// The words of [`FrameMemory::upload`] and [`FrameMemory::readback`].
+    /// The words of [`FrameMemory::readback`].
     words: Vec<u32>,
 }
 
@@ -70,7 +70,7 @@ impl DeviceSearch {
         let views = evaluator.views();
         let memory = FrameMemory::new(&device, space.dof_count(), settings.iterations, views)?;
         let mut recorder = device.recorder(timing)?;
-        recorder.copy("upload", (&memory.upload, 0), (&memory.frame, 0), memory.frame.size())?;
+        memory.frame.record_upload(&mut recorder)?;
         evaluator.record_upload(&mut recorder)?;
         let mut recording = FrameRecording { recorder: &mut recorder, evaluator, objective, extent, memory: &memory };
         match settings.kind {
@@ -93,7 +93,7 @@ impl DeviceSearch {
             recording: recorder.finish()?,
             estimated: Vec::with_capacity(space.dof_count()),
             views,
-            words: vec![0; ((memory.upload.size().max(memory.readback.size())) / 4) as usize],
+            words: vec![0; (memory.readback.size() / 4) as usize],
             memory,
         })
     }
@@ -114,10 +114,11 @@ impl DeviceSearch {
             goes_on: u32::from(goes_on),
             seed: [seed as u32, (seed >> 32) as u32],
         };
-        self.memory.upload.write(0, &[header])?;
+        let staging = &self.memory.frame.staging;
+        staging.write(0, &[header])?;
         let first = size_of::<layout::FrameHeader>() / 4;
         for (row, values) in [centre, spread, self.space.lower(), self.space.upper()].into_iter().enumerate() {
-            self.memory.upload.write(first + row * dofs, values)?;
+            staging.write(first + row * dofs, values)?;
         }
         self.recording.run()?;
         self.memory.device.validation_log().check()?;
@@ -127,7 +128,7 @@ impl DeviceSearch {
     /// Reads the result.
     fn take(&mut self, frame: u32) -> Result<DeviceFound> {
         let dofs = self.space.dof_count();
-        let words = &mut self.words[..(self.memory.readback.size() / 4) as usize];
+        let words = self.words.as_mut_slice();
         self.memory.readback.read(0, words)?;
         let places = &self.memory.places;
         let key = words[0];
@@ -188,8 +189,7 @@ fn value_of(key: u32) -> f32 {
 /// What goes to the device and comes back in every frame.
 struct FrameMemory {
     device: Device,
-    upload: Buffer,
-    frame: Buffer,
+    frame: StagedBuffer,
     outcome: Buffer,
     /// Order of the best fitness after each iteration.
     history: Buffer,
@@ -218,8 +218,7 @@ impl FrameMemory {
         let words = |name: &str, count: usize, memory| device.buffer::<u32>(name, count, memory);
         Ok(Self {
             device: device.clone(),
-            upload: words("search frame staging", frame, Memory::Upload)?,
-            frame: words("search frame", frame, Memory::Device)?,
+            frame: StagedBuffer::new::<u32>(device, "search frame", frame)?,
             outcome: words("search outcome", outcome, Memory::Device)?,
             history: words("best of each iteration", iterations, Memory::Device)?,
             fitness: words("estimate's fitness", 1, Memory::Device)?,
@@ -237,6 +236,26 @@ impl FrameMemory {
             recorder.copy("readback", (from, 0), (&self.readback, 4 * place as u64), from.size())?;
         }
         Ok(())
+    }
+}
+
+/// How many candidates of how many values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Extent {
+    candidates: u32,
+    dofs: u32,
+}
+
+impl Extent {
+    /// Workgroups for one invocation a block of random numbers of every candidate: as many candidates in x as the device
+    /// allows and stacked in z, the dimensions in y.
+    fn block_groups(self, device: &Device) -> Groups<'static> {
+        /// Dimensions that [`BLOCKS`] blocks of random numbers serve.
+        const DIMENSIONS: u32 = 32;
+        const BLOCKS: u32 = 8;
+        let groups = self.candidates.div_ceil(SEARCH_GROUP / BLOCKS).max(1);
+        let row = groups.min(device.capabilities().max_groups);
+        Groups::Count([row, self.dofs.div_ceil(DIMENSIONS), groups.div_ceil(row)])
     }
 }
 
@@ -264,11 +283,16 @@ impl FrameRecording<'_> {
     /// The weighted mean of `count` rows, and its own evaluation.
     fn estimate_mean(&mut self, rows: &Buffer, weights: &Buffer, count: u32) -> Result<()> {
         let (extent, memory) = (self.extent, self.memory);
-        let spread = SpreadStage::new(self.evaluator.device())?;
         let factors = self.ones("everything moves", extent.dofs)?;
-        let bindings =
-            spread_comp::Bindings { frame: &memory.frame, outcome: &memory.outcome, rows, weights, factors: &factors };
-        spread.record(self.recorder, &bindings, Extent { candidates: count, ..extent }, 0)?;
+        let bindings = spread_comp::Bindings {
+            frame: &memory.frame.buffer,
+            outcome: &memory.outcome,
+            rows,
+            weights,
+            factors: &factors,
+        };
+        let push = spread_comp::Push { count, dofs: extent.dofs, stage: 0 };
+        self.recorder.run(bindings.dispatch(push, Groups::Count([extent.dofs, 1, 1])))?;
         let row = 4 * u64::from(extent.dofs);
         let mean = 4 * memory.places.values as u64 + 2 * row;
         let (positions, fitness) = (self.evaluator.poses().clone(), self.evaluator.fitness().clone());

@@ -2,23 +2,18 @@
 
 use anyhow::Result;
 
-use super::FrameRecording;
-use crate::gpu::Memory;
+use super::{Extent, FrameRecording};
+use crate::gpu::{Groups, Memory};
 use crate::search::SearchSettings;
 use crate::search::hierarchical::SwarmStage;
-use crate::search::stages::{
-    BestStage, MoveStage, Pull, ScatterStage, SpreadStage, best_comp, move_comp, scatter_comp, spread_comp,
-};
+use crate::search::shaders::{best_comp, move_comp, scatter_comp, spread_comp};
 
 impl FrameRecording<'_> {
     /// Records a swarm after the other, each around the best pose of those before.
     pub(super) fn swarm(&mut self, settings: &SearchSettings, stages: &[SwarmStage]) -> Result<()> {
         let (extent, memory) = (self.extent, self.memory);
+        let Extent { candidates: particles, dofs } = extent;
         let device = self.evaluator.device().clone();
-        let scatter = ScatterStage::new(&device)?;
-        let best_stage = BestStage::new(&device)?;
-        let advance = MoveStage::new(&device)?;
-        let spread = SpreadStage::new(&device)?;
         let velocities = self.values("velocities", extent.candidates, extent.dofs)?;
         let best = self.values("best positions", extent.candidates, extent.dofs)?;
         let own = self.values("particles' best", extent.candidates, 2)?;
@@ -30,18 +25,20 @@ impl FrameRecording<'_> {
         let (positions, fitness) = (self.evaluator.poses().clone(), self.evaluator.fitness().clone());
         let sums = self.evaluator.sums().clone();
         let views = self.evaluator.views() as u32;
+        let blocks = extent.block_groups(&device);
 
         let mut iteration = 0;
         for (index, stage) in stages.iter().enumerate() {
             let bindings = scatter_comp::Bindings {
-                frame: &memory.frame,
+                frame: &memory.frame.buffer,
                 outcome: &memory.outcome,
                 positions: &positions,
                 velocities: &velocities,
                 best: &best,
                 factors: &factors,
             };
-            scatter.record(self.recorder, &bindings, extent, index as u32, iteration)?;
+            let push = scatter_comp::Push { particles, dofs, stage: index as u32, iteration };
+            self.recorder.run(bindings.dispatch(push, blocks))?;
             for done in 0..stage.iterations {
                 self.evaluate(extent.candidates)?;
                 let bindings = best_comp::Bindings {
@@ -53,32 +50,37 @@ impl FrameRecording<'_> {
                     sums: &sums,
                     best_sums: &memory.sums,
                 };
-                best_stage.record(self.recorder, &bindings, extent, views, iteration, done == 0)?;
+                // At a swarm's first iteration what was found before is forgotten.
+                let push = best_comp::Push { particles, dofs, views, iteration, is_first: u32::from(done == 0) };
+                self.recorder.run(bindings.dispatch(push, Groups::Count([1; 3])))?;
                 iteration += 1;
-                let pull = (done + 1 < stage.iterations).then(|| Pull {
-                    iteration,
-                    inertia: settings.pso.inertia_of(done + 1, stage.iterations),
-                    cognitive: settings.pso.cognitive,
-                    social: settings.pso.social,
-                });
+                // After the last iteration particles only take note.
+                let mut push =
+                    move_comp::Push { particles, dofs, iteration: 0, inertia: 0.0, cognitive: 0.0, social: 0.0 };
+                if done + 1 < stage.iterations {
+                    let inertia = settings.pso.inertia_of(done + 1, stage.iterations);
+                    let (cognitive, social) = (settings.pso.cognitive, settings.pso.social);
+                    push = move_comp::Push { iteration, inertia, cognitive, social, ..push };
+                }
                 let bindings = move_comp::Bindings {
-                    frame: &memory.frame,
+                    frame: &memory.frame.buffer,
                     outcome: &memory.outcome,
                     positions: &positions,
                     velocities: &velocities,
                     best: &best,
                     own: &own,
                 };
-                advance.record(self.recorder, &bindings, extent, pull)?;
+                self.recorder.run(bindings.dispatch(push, blocks))?;
             }
             let bindings = spread_comp::Bindings {
-                frame: &memory.frame,
+                frame: &memory.frame.buffer,
                 outcome: &memory.outcome,
                 rows: &best,
                 weights: &weights,
                 factors: &factors,
             };
-            spread.record(self.recorder, &bindings, extent, index as u32)?;
+            let push = spread_comp::Push { count: particles, dofs, stage: index as u32 };
+            self.recorder.run(bindings.dispatch(push, Groups::Count([dofs, 1, 1])))?;
         }
         self.recorder.fill("no estimate", &memory.fitness, 0)
     }

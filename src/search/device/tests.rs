@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::*;
 use crate::gpu::test_device::{device, device_under};
-use crate::gpu::{DeviceSettings, Dispatch, Groups, Pipeline, Stage, Validation, by_name};
+use crate::gpu::{DeviceSettings, Groups, StagedBuffer, Validation, by_name};
 use crate::search::arithmetic::box_muller;
 use crate::search::{FilterSettings, Search, philox4x32};
 
@@ -59,11 +59,9 @@ fn score(pose: &[f32], target: &[f32], bad: Bad) -> f32 {
 /// An evaluator on the device of that fitness. Its two views' sums are made up from the fitness and the candidate.
 struct Scorer {
     device: Device,
-    pipeline: Pipeline,
     dofs: usize,
     bad: Bad,
-    staging: Buffer,
-    target: Buffer,
+    target: StagedBuffer,
     poses: Buffer,
     fitness: Buffer,
     sums: Buffer,
@@ -76,11 +74,9 @@ impl Scorer {
         let buffer = |name: &str, len, memory| device.buffer::<f32>(name, len, memory).unwrap();
         Self {
             device: device.clone(),
-            pipeline: device.compute_pipeline(Stage { shader: &score_comp::SHADER, constants: &[] }).unwrap(),
             dofs: target.len(),
             bad,
-            staging: buffer("target staging", target.len(), Memory::Upload),
-            target: buffer("target", target.len(), Memory::Device),
+            target: StagedBuffer::new::<f32>(device, "target", target.len()).unwrap(),
             poses: buffer("poses", target.len(), Memory::Device),
             fitness: buffer("fitness", 1, Memory::Device),
             sums: buffer("sums", 8, Memory::Device),
@@ -89,7 +85,7 @@ impl Scorer {
     }
 
     fn observe(&mut self, target: &[f32]) {
-        self.staging.write(0, target).unwrap();
+        self.target.staging.write(0, target).unwrap();
     }
 }
 
@@ -117,7 +113,7 @@ impl DeviceEvaluator for Scorer {
         Ok(())
     }
     fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
-        recorder.copy("upload", (&self.staging, 0), (&self.target, 0), self.target.size())
+        self.target.record_upload(recorder)
     }
     fn record(&self, recorder: &mut Recorder, _: &Objective, candidates: u32) -> Result<()> {
         if let Some((left, place, value)) = &self.nudge {
@@ -133,20 +129,12 @@ impl DeviceEvaluator for Scorer {
             bad: self.bad.value.to_bits(),
         };
         let bindings = score_comp::Bindings {
-            target: &self.target,
+            target: &self.target.buffer,
             positions: &self.poses,
             fitness: &self.fitness,
             sums: &self.sums,
         };
-        recorder.compute(
-            "score",
-            &[Dispatch {
-                pipeline: &self.pipeline,
-                bindings: &bindings.bound(),
-                push: bytemuck::bytes_of(&push),
-                groups: Groups::Count([candidates.div_ceil(score_comp::SHADER.workgroup_size[0]), 1, 1]),
-            }],
-        )
+        recorder.run(bindings.dispatch(push, Groups::Over([candidates, 1, 1])))
     }
 }
 
@@ -264,14 +252,10 @@ fn blocks_and_normals_are_the_processor_s() {
     staging.write(0, &counters).unwrap();
     let words = device.buffer::<[u32; 4]>("words", counters.len(), Memory::Device).unwrap();
     let normals = device.buffer::<[f32; 4]>("normals", counters.len(), Memory::Device).unwrap();
-    let pipeline = device.compute_pipeline(Stage { shader: &random_comp::SHADER, constants: &[] }).unwrap();
     let mut recorder = device.recorder(Timing::Off).unwrap();
     let push = random_comp::Push { count: counters.len() as u32, key_low: key[0], key_high: key[1] };
     let bindings = random_comp::Bindings { counters: &staging, words: &words, normals: &normals };
-    let groups = Groups::Count([(counters.len() as u32).div_ceil(random_comp::SHADER.workgroup_size[0]), 1, 1]);
-    let dispatch =
-        Dispatch { pipeline: &pipeline, bindings: &bindings.bound(), push: bytemuck::bytes_of(&push), groups };
-    recorder.compute("random", &[dispatch]).unwrap();
+    recorder.run(bindings.dispatch(push, Groups::Over([counters.len() as u32, 1, 1]))).unwrap();
     recorder.finish().unwrap().run().unwrap();
 
     let expected: Vec<[u32; 4]> = counters.iter().map(|counter| philox4x32(*counter, key)).collect();
@@ -283,7 +267,7 @@ fn blocks_and_normals_are_the_processor_s() {
         let expected = [first.0, first.1, second.0, second.1].map(f32::to_bits);
         assert_eq!(*found, expected, "normals of block {index}");
     }
-    drop((pipeline, staging, words, normals, device));
+    drop((staging, words, normals, device));
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 
