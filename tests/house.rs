@@ -61,6 +61,7 @@ const KNOWN_CIRCLES: &[&[&str]] = &[
     &["geometry::camera", "geometry::tsai"],
     &[
         "gpu::buffer",
+        "gpu::compiled",
         "gpu::device",
         "gpu::image",
         "gpu::memory",
@@ -69,7 +70,6 @@ const KNOWN_CIRCLES: &[&[&str]] = &[
         "gpu::shader",
         "gpu::timing",
     ],
-    &["gpu::descriptors", "gpu::recorder"],
     &["motion::bvh", "motion::skeletal"],
     &["report::recording", "report::recording::contents"],
     &["search", "search::refinement"],
