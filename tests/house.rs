@@ -84,8 +84,6 @@ const KNOWN_CIRCLES: &[&[&str]] = &[
     &["sequence::frames", "sequence::live", "sequence::manifest", "sequence::player"],
     &["study::axes", "study::outcome", "study::plan", "study::settings"],
     &["synth::finish", "synth::room", "synth::scene", "synth::scene::checks"],
-    &["texture::example", "texture::example::pictures"],
-    &["texture::example::matching", "texture::stages::matching"],
     &[
         "texture::materials",
         "texture::materials::brick",

@@ -12,17 +12,14 @@ use bytemuck::Pod;
 use super::figure::Figure;
 use super::packing::{PackedCast, PackedFinishes, packed_views, tile_count};
 use super::render::{Cast, Light, View};
-use super::stages::{
-    OccludeStage, PictureStage, SHADOW_SIDE, SoftenStage, layout, occlude_comp, picture_comp, soften_comp,
-};
-use crate::gpu::{Buffer, Device, Memory, PassTiming, Recording, Timing};
+use super::shaders::{SHADOW_SIDE, layout, occlude_comp, picture_comp, soften_comp};
+use crate::gpu::{Buffer, Device, Groups, Memory, PassTiming, Recording, Timing};
 
 /// The pictures of a scene's views by a device.
 #[derive(Debug)]
 pub struct DevicePainter {
     device: Device,
     finishes: PackedFinishes,
-    stages: (OccludeStage, SoftenStage, PictureStage),
     fixed: FixedBuffers,
     /// One instant at a time is on the device.
     instant: Mutex<Instant>,
@@ -50,18 +47,6 @@ struct Instant {
     recording: Option<Recording>,
 }
 
-/// A buffer with `values` on the device, by way of the host.
-fn uploaded<T: Pod>(device: &Device, name: &str, values: &[T]) -> Result<Buffer> {
-    let bytes = size_of_val(values) as u64;
-    let staging = device.buffer::<T>("staging", values.len(), Memory::Upload)?;
-    staging.write(0, values)?;
-    let buffer = device.buffer::<T>(name, values.len(), Memory::Device)?;
-    let mut recorder = device.recorder(Timing::Off)?;
-    recorder.copy("upload", (&staging, 0), (&buffer, 0), bytes)?;
-    recorder.finish()?.run()?;
-    Ok(buffer)
-}
-
 impl FixedBuffers {
     fn new(device: &Device, views: &[View], members: usize, finishes: &PackedFinishes) -> Result<Self> {
         let directions: Vec<[f32; 3]> = views.iter().flat_map(|view| view.directions.iter().copied()).collect();
@@ -75,10 +60,10 @@ impl FixedBuffers {
         let none = [bytemuck::Zeroable::zeroed()];
         let rows: &[layout::Finish] = if finishes.rows.is_empty() { &none } else { &finishes.rows };
         Ok(Self {
-            finishes: uploaded(device, "finishes", rows)?,
-            directions: uploaded(device, "directions", &directions)?,
-            plates: uploaded(device, "plates", &plates)?,
-            floors: uploaded(device, "floors", &floors)?,
+            finishes: device.uploaded("finishes", rows)?,
+            directions: device.uploaded("directions", &directions)?,
+            plates: device.uploaded("plates", &plates)?,
+            floors: device.uploaded("floors", &floors)?,
             hidden: device.buffer::<[f32; 2]>("hidden", cells, Memory::Device)?,
             shades: device.buffer::<[f32; 2]>("shades", cells, Memory::Device)?,
             pictures: device.buffer::<[f32; 4]>("pictures", plates.len(), Memory::Device)?,
@@ -114,7 +99,6 @@ impl DevicePainter {
     pub fn new(device: &Device, views: &[View], figures: &[Figure]) -> Result<Self> {
         let finishes = PackedFinishes::new(figures)?;
         Ok(Self {
-            stages: (OccludeStage::new(device)?, SoftenStage::new(device)?, PictureStage::new(device)?),
             fixed: FixedBuffers::new(device, views, figures.len(), &finishes)?,
             finishes,
             device: device.clone(),
@@ -142,8 +126,8 @@ impl DevicePainter {
             None => self.device.buffer::<[f32; 4]>("drawn", self.fixed.pixels, Memory::Readback)?,
         };
         if instant.recording.is_none() {
-            let size = [self.fixed.most_tiles, views.len() as u32];
-            instant.recording = Some(self.record(&instant.buffers, &readback, packed.members.len() as u32, size)?);
+            let (members, views) = (packed.members.len() as u32, views.len() as u32);
+            instant.recording = Some(self.record(&instant.buffers, &readback, members, views)?);
         }
         if let Some(recording) = &mut instant.recording {
             recording.run()?;
@@ -163,42 +147,35 @@ impl DevicePainter {
         Ok(pictures.collect())
     }
 
-    fn record(&self, buffers: &[Buffer], readback: &Buffer, members: u32, size: [u32; 2]) -> Result<Recording> {
-        let [all_members, solids, triangles, bins, balls, tiles, views] = buffers else {
+    fn record(&self, buffers: &[Buffer], readback: &Buffer, members: u32, views: u32) -> Result<Recording> {
+        let [all_members, solids, triangles, bins, balls, tiles, all_views] = buffers else {
             anyhow::bail!("an instant has {} buffers, expected 7", buffers.len());
         };
         let fixed = &self.fixed;
-        let (occlude, soften, picture) = &self.stages;
         let mut recorder = self.device.recorder(Timing::Stamps)?;
-        occlude.record(
-            &mut recorder,
-            &occlude_comp::Bindings { members: all_members, solids, triangles, bins, balls, hidden: &fixed.hidden },
-            members,
-        )?;
-        soften.record(
-            &mut recorder,
-            &soften_comp::Bindings { hidden: &fixed.hidden, shades: &fixed.shades },
-            members,
-        )?;
-        picture.record(
-            &mut recorder,
-            &picture_comp::Bindings {
-                members: all_members,
-                solids,
-                triangles,
-                bins,
-                views,
-                tiles,
-                finishes: &fixed.finishes,
-                directions: &fixed.directions,
-                plates: &fixed.plates,
-                floors: &fixed.floors,
-                shades: &fixed.shades,
-                pictures: &fixed.pictures,
-            },
-            members,
-            size,
-        )?;
+        let cells = Groups::Over([SHADOW_SIDE, SHADOW_SIDE, members]);
+        let occlude =
+            occlude_comp::Bindings { members: all_members, solids, triangles, bins, balls, hidden: &fixed.hidden };
+        recorder.run(occlude.dispatch(occlude_comp::Push { members }, cells))?;
+        let soften = soften_comp::Bindings { hidden: &fixed.hidden, shades: &fixed.shades };
+        recorder.run(soften.dispatch(cells))?;
+        let picture = picture_comp::Bindings {
+            members: all_members,
+            solids,
+            triangles,
+            bins,
+            views: all_views,
+            tiles,
+            finishes: &fixed.finishes,
+            directions: &fixed.directions,
+            plates: &fixed.plates,
+            floors: &fixed.floors,
+            shades: &fixed.shades,
+            pictures: &fixed.pictures,
+        };
+        // A workgroup a tile of the view that has most.
+        let groups = Groups::Count([fixed.most_tiles, views, 1]);
+        recorder.run(picture.dispatch(picture_comp::Push { members }, groups))?;
         recorder.copy("read pictures", (&fixed.pictures, 0), (readback, 0), fixed.pictures.size())?;
         recorder.finish()
     }
@@ -223,7 +200,7 @@ mod tests {
     use super::super::rig;
     use super::super::room::Room;
     use super::super::scene::{ActorSettings, MotionSettings, Scene};
-    use super::super::stages::SHADOW_CELL;
+    use super::super::shaders::SHADOW_CELL;
     use super::*;
     use crate::body::{Body, MeshSource, Skinning};
     use crate::gpu::DeviceSettings;

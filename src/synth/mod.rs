@@ -21,9 +21,9 @@ pub mod rig;
 pub mod room;
 mod scene;
 mod sequence;
-pub mod shadow;
+pub mod shaders;
+mod shadow;
 pub mod solid;
-mod stages;
 pub mod triangle;
 
 pub use finish::{Finish, FinishParameters, FinishSettings};

@@ -9,11 +9,11 @@ use glam::{DAffine3, DVec3};
 use super::actor::Material;
 use super::figure::Figure;
 use super::render::{Candidate, Cast, Member, View};
-use super::shadow::LightBins;
-use super::solid::{PlacedSolid, Solid};
-use super::stages::{
+use super::shaders::{
     LOOK_FACE, LOOK_HAIR, LOOK_SHIRT, LOOK_SHOE, LOOK_SKIN, LOOK_TROUSERS, MEMBER_SHIFT, TILE_SIDE, layout,
 };
+use super::shadow::LightBins;
+use super::solid::{PlacedSolid, Solid};
 use super::triangle::{Primitive, Triangle};
 
 /// The finishes of all people, and where each person's garments have theirs.

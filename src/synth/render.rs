@@ -9,9 +9,9 @@ use super::actor::Material;
 use super::figure::PlacedFigure;
 use super::hash::smooth_noise;
 use super::room::{Colour, Room, Surface};
+use super::shaders::TILE_SIDE;
 use super::shadow::{FloorShadow, LightBins};
 use super::solid::Ray;
-use super::stages::TILE_SIDE;
 use super::triangle::Primitive;
 use crate::geometry::Camera;
 

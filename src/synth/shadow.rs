@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
+use super::shaders::{SHADOW_CELL, SHADOW_SIDE};
 use super::solid::{BoundingBall, Ray};
-use super::stages::{SHADOW_CELL, SHADOW_SIDE};
 use super::triangle::Primitive;
 
 /// Width of a bin in the plane across the light, mm: for solids, and for a mesh of many small triangles.

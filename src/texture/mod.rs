@@ -1,7 +1,8 @@
 //! Procedural textures (SPEC B): noise, materials cut out of space, pictures of them, synthesis from an example.
 
+pub mod device;
 pub mod example;
 pub mod materials;
 pub mod noise;
 pub mod picture;
-pub mod stages;
+mod shaders;

@@ -104,7 +104,8 @@ fn stage(
         }
     }
     let kind = compiled.kind;
-    writeln!(text, "/// The stage `{name}`.\n#[allow(dead_code, reason = \"a room takes of a stage what it needs\")]")?;
+    writeln!(text, "/// The stage `{name}`.")?;
+    writeln!(text, "#[allow(dead_code, clippy::derivable_impls, reason = \"written by the build, of use or not\")]")?;
     writeln!(text, "pub mod {module} {{")?;
     if let Some(why) = &reflection.unread {
         writeln!(text, "    // Accesses are as declared: naga cannot read this stage ({why}).")?;

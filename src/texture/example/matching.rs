@@ -9,37 +9,12 @@ use rayon::prelude::*;
 use rustfft::num_complex::Complex32;
 use rustfft::{Fft, FftPlanner};
 
+use super::colour::{Known, Weighted, squared_error, weighted};
+use super::device_matching::DeviceMatching;
 use crate::gpu::Device;
-use crate::texture::stages::MatchStage;
 
-/// Weights of red, green and blue in an error.
-pub const COLOUR_WEIGHTS: [f32; 3] = [0.299, 0.587, 0.114];
 /// Placements that the direct way measures in one go.
 const LANES: usize = 16;
-
-/// A colour as errors measure it: channels in [0, 1] times the roots of their weights.
-pub type Weighted = [f32; 3];
-
-/// The weighted colour of a pixel.
-pub fn weighted(pixel: [f32; 3]) -> Weighted {
-    std::array::from_fn(|c| pixel[c] / 255.0 * COLOUR_WEIGHTS[c].sqrt())
-}
-
-/// Squared difference of two colours, [0, 1].
-pub fn squared_error(a: Weighted, b: Weighted) -> f32 {
-    (0..3).map(|c| (a[c] - b[c]) * (a[c] - b[c])).sum()
-}
-
-/// A known pixel of a region.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Known {
-    /// Column in the region.
-    pub x: usize,
-    /// Row in the region.
-    pub y: usize,
-    /// Its colour.
-    pub colour: Weighted,
-}
 
 /// How errors are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,7 +39,7 @@ pub struct Matcher {
     /// Pixels that may not be used above and left of each corner; empty when all may.
     forbidden: Vec<u32>,
     /// What measures instead of the processor.
-    stage: Option<MatchStage>,
+    on_device: Option<DeviceMatching>,
 }
 
 impl std::fmt::Debug for Matcher {
@@ -108,7 +83,7 @@ impl Matcher {
             }
         }
         let mut matcher =
-            Self { width, height, planes, spectra: Default::default(), along, down, forbidden, stage: None };
+            Self { width, height, planes, spectra: Default::default(), along, down, forbidden, on_device: None };
         let plane = |f: &dyn Fn(&Weighted) -> f32| -> Vec<Complex32> {
             colours.iter().map(|colour| Complex32::new(f(colour), 0.0)).collect()
         };
@@ -128,7 +103,7 @@ impl Matcher {
     pub fn on_device(mut self, device: &Device) -> Result<Self> {
         let colours: Vec<Weighted> =
             (0..self.width * self.height).map(|i| self.colour(i % self.width, i / self.width)).collect();
-        self.stage = Some(MatchStage::new(device, [self.width, self.height], &colours)?);
+        self.on_device = Some(DeviceMatching::new(device, [self.width, self.height], &colours)?);
         Ok(self)
     }
 
@@ -180,8 +155,8 @@ impl Matcher {
     pub fn best(&self, size: [usize; 2], known: &[Known]) -> Result<Option<([usize; 2], f32)>> {
         let Some([columns, rows]) = self.placements(size) else { return Ok(None) };
         let way = self.cheaper(columns * rows, known.len());
-        let errors = match &self.stage {
-            Some(stage) => stage.errors([columns, rows], known)?,
+        let errors = match &self.on_device {
+            Some(matching) => matching.errors([columns, rows], known)?,
             None => self.errors(size, known, way),
         };
         let usable = |i: &usize| self.is_usable(i % columns, i / columns, size);
@@ -190,7 +165,7 @@ impl Matcher {
         };
         let places = 0..columns * rows;
         let mut best = places.clone().filter(usable).map(|i| (i, errors[i])).fold(None, least);
-        if self.stage.is_none()
+        if self.on_device.is_none()
             && way == Way::Fourier
             && let Some((_, rough)) = best
         {

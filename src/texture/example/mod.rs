@@ -1,5 +1,7 @@
 //! A texture of any size from a small example: patch by patch, and where patches do not fit pixel by pixel (SPEC B3).
 
+pub mod colour;
+mod device_matching;
 pub mod matching;
 mod pictures;
 #[cfg(test)]
@@ -10,7 +12,9 @@ use std::collections::BinaryHeap;
 use anyhow::{Result, bail};
 use image::{GrayImage, RgbImage};
 
-use self::matching::{COLOUR_WEIGHTS, Known, Matcher, Weighted, squared_error};
+use self::colour::{COLOUR_WEIGHTS, Known, Weighted, squared_error};
+use self::matching::Matcher;
+use self::pictures::Owner;
 use super::noise::mixed;
 use crate::gpu::Device;
 
@@ -102,7 +106,7 @@ pub fn synthesise(
     });
     let picture = RgbImage::from_raw(settings.size[0], settings.size[1], bytes.collect()).unwrap_or_default();
     Ok(Synthesis {
-        decomposition: pictures::decomposition(settings, &canvas.owners),
+        decomposition: pictures::decomposition(settings.size, settings.patch, &canvas.owners),
         resynthesised: pictures::resynthesised(&picture, &canvas.anew),
         resynthesised_count: canvas.anew.iter().filter(|&&anew| anew).count(),
         picture,
@@ -151,13 +155,6 @@ fn check(example: &RgbImage, mask: Option<&GrayImage>, settings: &Settings) -> R
         }
     }
     Ok(())
-}
-
-/// The patch that a pixel came with.
-#[derive(Clone, Copy, Debug, Default)]
-struct Owner {
-    patch: u32,
-    side: u32,
 }
 
 /// The texture while it is made.

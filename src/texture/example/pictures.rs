@@ -2,13 +2,19 @@
 
 use image::{Rgb, RgbImage};
 
-use super::{Owner, Settings};
 use crate::texture::noise::mixed;
 
-/// Patches by size, from blue (whole) over green and yellow to red (pixels), each of its own shade.
-pub(super) fn decomposition(settings: &Settings, owners: &[Owner]) -> RgbImage {
-    let [width, height] = settings.size;
-    let levels = (settings.patch as f32).log2().max(1.0);
+/// The patch that a pixel came with.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Owner {
+    pub(super) patch: u32,
+    pub(super) side: u32,
+}
+
+/// The pixels of a texture of `size` by their patches, of which the largest have a side of `patch`: from blue (whole) over green and
+/// yellow to red (pixels), each of its own shade.
+pub(super) fn decomposition([width, height]: [u32; 2], patch: u32, owners: &[Owner]) -> RgbImage {
+    let levels = (patch as f32).log2().max(1.0);
     RgbImage::from_fn(width, height, |x, y| {
         let owner = owners[(y * width + x) as usize];
         // 0 whole patches, 1 pixels.

@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use super::space::{blend, lit, step};
 use super::{Solid, Space, Texel};
-use crate::texture::stages::MATERIAL_BRICK;
+use crate::texture::shaders::MATERIAL_BRICK;
 
 /// Parameters.
 #[derive(Clone, Debug, Deserialize)]

@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use super::space::blend;
 use super::{Solid, Space, Texel};
-use crate::texture::stages::MATERIAL_CLOUDS;
+use crate::texture::shaders::MATERIAL_CLOUDS;
 
 /// Parameters; the thesis's values by default.
 #[derive(Clone, Debug, Deserialize)]

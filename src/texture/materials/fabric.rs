@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use super::space::lit;
 use super::{Solid, Space, Texel};
-use crate::texture::stages::MATERIAL_FABRIC;
+use crate::texture::shaders::MATERIAL_FABRIC;
 
 /// Parameters.
 #[derive(Clone, Debug, Deserialize)]

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::{Solid, Space, Texel};
-use crate::texture::stages::MATERIAL_GRANITE;
+use crate::texture::shaders::MATERIAL_GRANITE;
 
 /// Parameters; the thesis's values by default.
 #[derive(Clone, Debug, Deserialize)]

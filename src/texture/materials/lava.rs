@@ -5,7 +5,7 @@ use serde::Deserialize;
 use super::space::blend;
 use super::{Solid, Space, Texel};
 use crate::texture::noise::Sum;
-use crate::texture::stages::MATERIAL_LAVA;
+use crate::texture::shaders::MATERIAL_LAVA;
 
 /// Parameters; the thesis's values by default.
 #[derive(Clone, Debug, Deserialize)]

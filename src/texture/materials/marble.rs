@@ -5,7 +5,7 @@ use serde::Deserialize;
 use super::space::blend;
 use super::{Solid, Space, Texel};
 use crate::texture::noise::Sum;
-use crate::texture::stages::MATERIAL_MARBLE;
+use crate::texture::shaders::MATERIAL_MARBLE;
 
 /// Parameters; frequencies are the thesis's by default.
 #[derive(Clone, Debug, Deserialize)]

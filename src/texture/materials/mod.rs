@@ -33,7 +33,7 @@ pub use space::Space;
 pub use terrain::{Band, Fractal, Map, Terrain};
 pub use wood::Wood;
 
-use super::stages::{MATERIAL_LATTICES, MATERIAL_NUMBERS};
+use super::shaders::{MATERIAL_LATTICES, MATERIAL_NUMBERS};
 use crate::files::{parse_table, read_toml};
 
 /// What a material is at a point.

@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use super::space::blend;
 use super::{Solid, Space, Texel};
-use crate::texture::stages::MATERIAL_WOOD;
+use crate::texture::shaders::MATERIAL_WOOD;
 
 /// Parameters; the thesis's values by default.
 #[derive(Clone, Debug, Deserialize)]

@@ -2,23 +2,21 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use super::generated::FARTHEST_BITS;
 use super::*;
 use crate::gpu::test_device::{device, device_under};
-use crate::gpu::{Device, DeviceSettings, Format, ImageUse, Memory, Timing, Validation, by_name};
-use crate::texture::noise::{
-    FARTHEST, HashLattice, Lattice, Noise, Octaves, Perlin, Sum, TableLattice, Tables, Value, hard_coordinates,
-};
+use crate::gpu::{DeviceSettings, ImageUse, Timing, Validation, by_name};
+use crate::texture::noise::{FARTHEST, Noise, Perlin, Sum, Value, hard_coordinates};
+use crate::texture::shaders::FARTHEST_BITS;
 
 /// Values and words of a request at points, and the milliseconds of the dispatch.
 fn on_device(device: &Device, request: &NoiseRequest<'_>, points: &[[f32; 4]]) -> (Vec<f32>, Vec<u32>, f64) {
-    let stage = NoiseStage::new(device, request).unwrap();
+    let noise = DeviceNoise::new(device, request).unwrap();
     let input = device.buffer::<[f32; 4]>("points", points.len(), Memory::Upload).unwrap();
     input.write(0, points).unwrap();
     let values = device.buffer::<f32>("values", points.len(), Memory::Readback).unwrap();
     let words = device.buffer::<u32>("words", points.len(), Memory::Readback).unwrap();
     let mut recorder = device.recorder(Timing::Stamps).unwrap();
-    stage.record(&mut recorder, &input, &values, &words, points.len() as u32).unwrap();
+    noise.record(&mut recorder, &input, &values, &words, points.len() as u32).unwrap();
     let mut recording = recorder.finish().unwrap();
     let mut best = f64::MAX;
     for _ in 0..3 {
@@ -117,13 +115,13 @@ fn fragments_have_the_values_of_compute() {
         let request =
             NoiseRequest { dimensions, kind, octaves: Octaves::default(), source, tile: [0.0, 3.0, 0.0, 0.0] };
         let (computed, _, _) = on_device(&device, &request, &points);
-        let stage = NoiseImageStage::new(&device, &request).unwrap();
+        let noise = DeviceNoise::new(&device, &request).unwrap();
         let input = device.buffer::<[f32; 4]>("points", points.len(), Memory::Upload).unwrap();
         input.write(0, &points).unwrap();
         let picture = device.image("noise", Format::R32Float, size, ImageUse::Target).unwrap();
         let output = device.buffer::<f32>("values", points.len(), Memory::Readback).unwrap();
         let mut recorder = device.recorder(Timing::Off).unwrap();
-        stage.record(&mut recorder, &input, &picture).unwrap();
+        noise.record_picture(&mut recorder, &input, &picture).unwrap();
         recorder.read_image("read", &picture, [0, 0, size[0], size[1]], (&output, 0)).unwrap();
         recorder.finish().unwrap().run().unwrap();
         let mut drawn = vec![0.0_f32; points.len()];
@@ -133,7 +131,7 @@ fn fragments_have_the_values_of_compute() {
             unequal += usize::from(drawn.to_bits() != computed.to_bits());
         }
         let small = device.image("bytes", Format::Rgba8, size, ImageUse::Target).unwrap();
-        let error = stage.record(&mut device.recorder(Timing::Off).unwrap(), &input, &small).unwrap_err();
+        let error = noise.record_picture(&mut device.recorder(Timing::Off).unwrap(), &input, &small).unwrap_err();
         assert!(error.to_string().contains("no float picture"), "{error}");
     }
     println!("{unequal} of 120000 values differ in a bit");
@@ -153,17 +151,17 @@ fn wrong_requests_and_short_buffers_are_refused() {
         source: NoiseSource::Hash(HashLattice::new(0)),
         tile: [0.0; 4],
     };
-    let message = |request: NoiseRequest<'_>| NoiseStage::new(&device, &request).unwrap_err().to_string();
+    let message = |request: NoiseRequest<'_>| DeviceNoise::new(&device, &request).unwrap_err().to_string();
     assert!(message(NoiseRequest { dimensions: 5, ..request }).contains("noise of 5 dimensions"));
     assert!(
         message(NoiseRequest { octaves: Octaves { count: 0, ..Octaves::default() }, ..request }).contains("0 octaves")
     );
-    let stage = NoiseStage::new(&device, &request).unwrap();
+    let noise = DeviceNoise::new(&device, &request).unwrap();
     let short = device.buffer::<f32>("short", 8, Memory::Device).unwrap();
     let mut recorder = device.recorder(Timing::Off).unwrap();
-    let error = stage.record(&mut recorder, &short, &short, &short, 8).unwrap_err().to_string();
+    let error = noise.record(&mut recorder, &short, &short, &short, 8).unwrap_err().to_string();
     assert!(error.contains("too short"), "{error}");
-    drop((recorder, stage, short, device));
+    drop((recorder, noise, short, device));
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 

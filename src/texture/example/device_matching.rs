@@ -1,17 +1,16 @@
-//! How well every placement in an example fits, with the bits of [`crate::texture::example::matching`].
+//! How well every placement in an example fits, measured by a device with the bits of [`super::matching`].
 
 use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Result, ensure};
 
-use super::generated::matching_comp;
-use super::layout;
-use crate::gpu::{Buffer, ComputeStage, Device, Groups, Memory, Recording, Stage, Timing};
-use crate::texture::example::matching::{Known, Weighted};
+use super::colour::{Known, Weighted};
+use crate::gpu::{Buffer, Device, Groups, Memory, Recording, Timing};
+use crate::texture::shaders::{layout, matching_comp};
 
-/// The stage with an example on the device.
+/// An example on the device, and the recorded measurement.
 #[derive(Debug)]
-pub(in crate::texture) struct MatchStage {
+pub(super) struct DeviceMatching {
     device: Device,
     width: usize,
     known: Buffer,
@@ -20,15 +19,12 @@ pub(in crate::texture) struct MatchStage {
     recording: Mutex<Recording>,
 }
 
-impl MatchStage {
-    /// Its name in timings.
-    pub(in crate::texture) const NAME: &'static str = "matching";
-
+impl DeviceMatching {
     /// Compiles and records it for an example of columns and rows with these colours.
     ///
     /// # Errors
     /// When the device has no memory for it.
-    pub(in crate::texture) fn new(device: &Device, [width, height]: [usize; 2], colours: &[Weighted]) -> Result<Self> {
+    pub(super) fn new(device: &Device, [width, height]: [usize; 2], colours: &[Weighted]) -> Result<Self> {
         let area = width * height;
         let rows: Vec<[f32; 4]> = colours.iter().map(|&[r, g, b]| [r, g, b, 0.0]).collect();
         let example = device.buffer::<[f32; 4]>("example", area, Memory::Upload)?;
@@ -36,12 +32,10 @@ impl MatchStage {
         let known = device.buffer::<[f32; 4]>("known pixels", area, Memory::Upload)?;
         let request = device.buffer::<layout::Request>("request", 1, Memory::Upload)?;
         let errors = device.buffer::<f32>("errors", area, Memory::Readback)?;
-        let stage = Stage { shader: &matching_comp::SHADER, constants: &[] };
-        let stage = ComputeStage::new(device, Self::NAME, stage)?;
         let bindings =
             matching_comp::Bindings { example: &example, known_pixels: &known, request: &request, errors: &errors };
         let mut recorder = device.recorder(Timing::Off)?;
-        stage.record(&mut recorder, &bindings.bound(), &(), Groups::Indirect(&request, 0))?;
+        recorder.run(bindings.dispatch(Groups::Indirect(&request, 0)))?;
         Ok(Self { device: device.clone(), width, known, request, errors, recording: Mutex::new(recorder.finish()?) })
     }
 
@@ -49,7 +43,7 @@ impl MatchStage {
     ///
     /// # Errors
     /// When more pixels are known than the example has, or the device fails.
-    pub(in crate::texture) fn errors(&self, [columns, rows]: [usize; 2], known: &[Known]) -> Result<Vec<f32>> {
+    pub(super) fn errors(&self, [columns, rows]: [usize; 2], known: &[Known]) -> Result<Vec<f32>> {
         ensure!(
             known.len() as u64 * 16 <= self.known.size(),
             "{} known pixels, expected no more than the example has",
