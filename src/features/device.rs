@@ -1,25 +1,34 @@
 //! From pictures to packed observations on a Vulkan device: all views of a frame in one submission.
 
+mod bounds;
+mod components;
+mod edges;
+mod foreground;
+mod morphology;
 mod passes;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod twin_tests;
 mod view;
 
 use anyhow::Result;
 use image::{GrayImage, RgbImage};
 
-use self::passes::Passes;
-pub(super) use self::view::{DeviceView, Plane};
-use super::stages::{BoundsStage, Rates};
+use self::bounds::region;
+use self::passes::{record_frame, record_priming};
+use self::view::DeviceView;
+use super::shaders::layout::Rates;
 use super::{FeatureSettings, Region, ViewFeatures};
-use crate::gpu::{Device, PassTiming, Recording, Timing};
+use crate::gpu::{Buffer, Device, Memory, PassTiming, Recording, Timing};
 
 /// Everything from the pictures to the packed bytes of all views. What mixtures have learnt stays on the device.
 #[derive(Debug)]
 pub(super) struct DeviceChain {
     device: Device,
     settings: FeatureSettings,
-    passes: Passes,
+    /// The 7-bit value of every code of a distance map.
+    proximity: Buffer,
     views: Vec<DeviceView>,
     timing: Timing,
     /// The recording of a frame, and which views it expects masks for.
@@ -47,17 +56,30 @@ impl DeviceChain {
             .map(|(size, plate)| DeviceView::new(device, size, plate, &settings.mixture, limit))
             .collect::<Result<Vec<_>>>()?;
         let seen = vec![0; views.len()];
-        Ok(Self {
+        let table = device.buffer::<u32>("proximity table", proximity.len().div_ceil(4), Memory::Upload)?;
+        table.write(0, proximity)?;
+        let mut chain = Self {
             device: device.clone(),
             settings: settings.clone(),
-            passes: Passes::new(device, settings, proximity)?,
+            proximity: table,
             views,
             timing: Timing::Off,
             frame: None,
             priming: None,
             seen,
             codes: Vec::new(),
-        })
+        };
+        // Compiles every stage, for a first frame in time.
+        chain.record(vec![false; chain.views.len()])?;
+        Ok(chain)
+    }
+
+    /// Records a frame in which these views have masks.
+    fn record(&mut self, masked: Vec<bool>) -> Result<()> {
+        let mut recorder = self.device.recorder(self.timing)?;
+        record_frame(&mut recorder, &self.views, &masked, &self.settings, &self.proximity)?;
+        self.frame = Some((masked, recorder.finish()?));
+        Ok(())
     }
 
     /// From the next frame on every pass is timed.
@@ -83,13 +105,13 @@ impl DeviceChain {
             return Ok(());
         }
         for &at in &learning {
-            self.views[at].colours_in.write(0, pictures[at].as_raw().as_slice())?;
+            self.views[at].colours.staging.write(0, pictures[at].as_raw().as_slice())?;
             self.set_rates(at)?;
         }
         if self.priming.is_none() {
             let views: Vec<_> = learning.iter().map(|&at| &self.views[at]).collect();
             let mut recorder = self.device.recorder(Timing::Off)?;
-            self.passes.record_priming(&mut recorder, &views, &self.settings)?;
+            record_priming(&mut recorder, &views, &self.settings)?;
             self.priming = Some(recorder.finish()?);
         }
         self.priming.as_mut().map_or(Ok(()), Recording::run)
@@ -108,7 +130,7 @@ impl DeviceChain {
     ) -> Result<()> {
         for (at, (mask, features)) in masks.iter().zip(features.iter_mut()).enumerate() {
             let view = &self.views[at];
-            view.colours_in.write(0, pictures[at].as_raw().as_slice())?;
+            view.colours.staging.write(0, pictures[at].as_raw().as_slice())?;
             if let Some(mask) = mask {
                 features.foreground.copy_from_gray(mask);
                 features.silhouette.copy_from(&features.foreground);
@@ -119,9 +141,7 @@ impl DeviceChain {
         }
         let masked: Vec<bool> = masks.iter().map(Option::is_some).collect();
         if self.frame.as_ref().is_none_or(|(recorded, _)| *recorded != masked) {
-            let mut recorder = self.device.recorder(self.timing)?;
-            self.passes.record_frame(&mut recorder, &self.views, &masked, &self.settings)?;
-            self.frame = Some((masked, recorder.finish()?));
+            self.record(masked)?;
         }
         if let Some((_, recording)) = &mut self.frame {
             recording.run()?;
@@ -151,7 +171,7 @@ impl DeviceChain {
         }
         let mut sides = [0; 4];
         view.sides_out.read(0, &mut sides)?;
-        features.region = BoundsStage::region(sides, width, height).map_or(Region::whole(width, height), |bounds| {
+        features.region = region(sides, width, height).map_or(Region::whole(width, height), |bounds| {
             bounds.enlarged(self.settings.silhouette.motion, width, height)
         });
         view.edges_out.read(0, features.edges.words_mut())?;

@@ -1,6 +1,6 @@
 //! A change of the light over the whole picture: how much brighter a picture is than the background known, channel by channel.
 
-use super::stages::{RATIO_COUNTS, RATIO_GRID, RATIO_LEAST, RATIO_MOST, RATIO_STEPS};
+use super::shaders::{RATIO_COUNTS, RATIO_GRID, RATIO_LEAST, RATIO_MOST, RATIO_STEPS};
 
 /// The steps a ratio is counted in.
 const STEPS: usize = RATIO_STEPS as usize;

@@ -69,7 +69,7 @@ impl Default for MixtureSettings {
 const LANES: usize = 32;
 
 /// Values of a component: weight, mean red, green, blue, variance.
-const FIELDS: usize = super::stages::MIXTURE_FIELDS as usize;
+const FIELDS: usize = super::shaders::MIXTURE_FIELDS as usize;
 
 /// Rows a task: enough work to be worth handing to another core.
 const ROWS: usize = 16;

@@ -22,8 +22,8 @@ mod region;
 mod segment;
 mod segmentation;
 mod settings;
+mod shaders;
 pub mod shadow;
-mod stages;
 
 pub use bit_image::BitImage;
 pub use distance::{DistanceMap, Metric};

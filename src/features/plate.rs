@@ -31,7 +31,7 @@ impl Default for PlateSettings {
 
 /// The sum of the channels below which a pixel is so dark that it says nothing when the plate is as dark: black clothes
 /// before black furniture may not differ at all.
-const DARK: f32 = super::stages::DARK as f32;
+const DARK: f32 = super::shaders::DARK as f32;
 
 /// What differs from the plate in one row, one flag (0 or 1) a pixel.
 #[derive(Clone, Debug)]

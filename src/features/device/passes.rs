@@ -1,160 +1,132 @@
-//! The passes of a frame on the device, in order.
+//! The passes of a frame on the device, in order. Each gives what its twin on the processor gives, bit by bit: most are whole
+//! numbers, and the rest adds, multiplies and divides (`glsl/features/quotient.glsl`) in the same order, nothing fused. Only a
+//! mixture that adapts by density needs an exponential, which devices round as they like.
 
 use anyhow::Result;
 
+use super::bounds::bounds;
+use super::components::{Keep, components};
+use super::edges::{edges, smooth};
+use super::foreground::{bridge, difference, mixture, probable, ratios};
+use super::morphology::{Operation, closing, morphology, opening};
 use super::view::{DeviceView, Plane, copy_whole};
-use crate::features::FeatureSettings;
-use crate::features::stages::{
-    BoundsStage, BridgeStage, ComponentsStages, DifferenceStage, DistanceStage, EdgesStage, Keep, MixtureStages,
-    MorphologyStage, Operation, PackStage, RATIO_STEPS, RatiosStages, ReachStage, SmoothStage,
+use crate::features::shaders::{
+    METRIC_CHESSBOARD, METRIC_CITY_BLOCK, METRIC_EUCLIDEAN, METRIC_QUASI_EUCLIDEAN, RATIO_STEPS, distance_comp,
+    pack_comp, reach_comp,
 };
-use crate::gpu::{Device, Recorder};
+use crate::features::{FeatureSettings, Metric};
+use crate::gpu::{Buffer, Groups, Recorder};
 
-/// Every stage, compiled for one set of settings.
-#[derive(Debug)]
-pub(super) struct Passes {
-    ratios: RatiosStages,
-    difference: DifferenceStage,
-    mixture: MixtureStages,
-    morphology: MorphologyStage,
-    touched: ComponentsStages,
-    bridge: BridgeStage,
-    largest: ComponentsStages,
-    holes: ComponentsStages,
-    bounds: BoundsStage,
-    smooth: SmoothStage,
-    edges: EdgesStage,
-    reach: ReachStage,
-    distance: DistanceStage,
-    pack: PackStage,
+/// Records a frame: `masked` says which views bring their silhouette with them, `proximity` holds the 7-bit value of every code of
+/// a map.
+pub(super) fn record_frame(
+    recorder: &mut Recorder,
+    views: &[DeviceView],
+    masked: &[bool],
+    settings: &FeatureSettings,
+    proximity: &Buffer,
+) -> Result<()> {
+    let all: Vec<&DeviceView> = views.iter().collect();
+    let of = |wanted: &dyn Fn(&DeviceView, bool) -> bool| -> Vec<&DeviceView> {
+        views.iter().zip(masked).filter(|&(view, &masked)| wanted(view, masked)).map(|(view, _)| view).collect()
+    };
+    let with_mask = of(&|_, masked| masked);
+    let segmented = of(&|_, masked| !masked);
+    let with_plate = of(&|view, masked| !masked && view.plate().is_some());
+    let with_mixture = of(&|view, masked| !masked && view.plate().is_none());
+    for view in views {
+        view.colours.record_upload(recorder)?;
+    }
+    for view in &with_mask {
+        copy_whole(recorder, "upload", &view.mask_in, view.plane(Plane::Silhouette))?;
+    }
+    if settings.plate.gain {
+        ratios(recorder, &with_plate)?;
+    } else {
+        with_plate.iter().try_for_each(|view| recorder.fill("gain", &view.light.gains, RATIO_STEPS))?;
+    }
+    difference(recorder, &with_plate, &settings.plate, &settings.shadow)?;
+    record_mixture(recorder, &with_mixture, settings)?;
+    record_cleaning(recorder, &segmented, &with_plate, settings)?;
+    bounds(recorder, &all, Plane::Silhouette)?;
+    smooth(recorder, &all, settings.edges.smooth)?;
+    let near = [Plane::Silhouette, Plane::Near];
+    morphology(recorder, &all, Operation::Dilate, settings.dilation(), near)?;
+    edges(recorder, &all, &settings.edges)?;
+    record_distance(recorder, &all, settings.distance.metric)?;
+    recorder.run_all(all.iter().map(|view| {
+        pack_comp::Bindings {
+            silhouette: view.plane(Plane::Silhouette),
+            codes: &view.codes,
+            proximity,
+            packed: &view.packed,
+        }
+        .dispatch(view.picture, Groups::Flat((view.picture.width * view.picture.height).div_ceil(4)))
+    }))?;
+    for view in &segmented {
+        copy_whole(recorder, "readback", view.plane(Plane::Foreground), &view.foreground_out)?;
+        copy_whole(recorder, "readback", view.plane(Plane::Silhouette), &view.silhouette_out)?;
+    }
+    for view in views {
+        copy_whole(recorder, "readback", &view.sides, &view.sides_out)?;
+        copy_whole(recorder, "readback", view.plane(Plane::Edges), &view.edges_out)?;
+        copy_whole(recorder, "readback", &view.codes, &view.codes_out)?;
+        copy_whole(recorder, "readback", &view.packed, &view.packed_out)?;
+    }
+    Ok(())
 }
 
-impl Passes {
-    /// Compiles them; `proximity` is the table of the settings.
-    pub(super) fn new(device: &Device, settings: &FeatureSettings, proximity: &[u8]) -> Result<Self> {
-        Ok(Self {
-            ratios: RatiosStages::new(device)?,
-            difference: DifferenceStage::new(device)?,
-            mixture: MixtureStages::new(device, &settings.mixture)?,
-            morphology: MorphologyStage::new(device)?,
-            touched: ComponentsStages::new(device, Keep::Touched)?,
-            bridge: BridgeStage::new(device)?,
-            largest: ComponentsStages::new(device, Keep::largest(&settings.silhouette))?,
-            holes: ComponentsStages::new(device, Keep::Holes(settings.silhouette.max_hole))?,
-            bounds: BoundsStage::new(device)?,
-            smooth: SmoothStage::new(device, settings.edges.smooth)?,
-            edges: EdgesStage::new(device, &settings.edges)?,
-            reach: ReachStage::new(device)?,
-            distance: DistanceStage::new(device, settings.distance.metric)?,
-            pack: PackStage::new(device, proximity)?,
-        })
+/// Records what views without a plate learn from a frame of the empty scene.
+pub(super) fn record_priming(recorder: &mut Recorder, views: &[&DeviceView], settings: &FeatureSettings) -> Result<()> {
+    for view in views {
+        view.colours.record_upload(recorder)?;
     }
+    record_mixture(recorder, views, settings)
+}
 
-    /// Records a frame: `masked` says which views bring their silhouette with them.
-    pub(super) fn record_frame(
-        &self,
-        recorder: &mut Recorder,
-        views: &[DeviceView],
-        masked: &[bool],
-        settings: &FeatureSettings,
-    ) -> Result<()> {
-        let all: Vec<&DeviceView> = views.iter().collect();
-        let of = |wanted: &dyn Fn(&DeviceView, bool) -> bool| -> Vec<&DeviceView> {
-            views.iter().zip(masked).filter(|&(view, &masked)| wanted(view, masked)).map(|(view, _)| view).collect()
-        };
-        let with_mask = of(&|_, masked| masked);
-        let segmented = of(&|_, masked| !masked);
-        let with_plate = of(&|view, masked| !masked && view.plate().is_some());
-        let with_mixture = of(&|view, masked| !masked && view.plate().is_none());
-        for view in views {
-            copy_whole(recorder, "upload", &view.colours_in, &view.colours)?;
-        }
-        for view in &with_mask {
-            copy_whole(recorder, "upload", &view.mask_in, view.plane(Plane::Silhouette))?;
-        }
-        if !with_plate.is_empty() {
-            self.record_difference(recorder, &with_plate, settings)?;
-        }
-        if !with_mixture.is_empty() {
-            self.record_mixture(recorder, &with_mixture, settings)?;
-        }
-        if !segmented.is_empty() {
-            self.record_cleaning(recorder, &segmented, &with_plate, settings)?;
-        }
-        self.bounds.record(recorder, &all, Plane::Silhouette)?;
-        self.smooth.record(recorder, &all)?;
-        let near = [Plane::Silhouette, Plane::Near];
-        self.morphology.record(recorder, &all, Operation::Dilate, settings.dilation(), near)?;
-        self.edges.record(recorder, &all)?;
-        self.reach.record(recorder, &all)?;
-        self.distance.record(recorder, &all)?;
-        self.pack.record(recorder, &all)?;
-        for view in &segmented {
-            copy_whole(recorder, "readback", view.plane(Plane::Foreground), &view.foreground_out)?;
-            copy_whole(recorder, "readback", view.plane(Plane::Silhouette), &view.silhouette_out)?;
-        }
-        for view in views {
-            copy_whole(recorder, "readback", &view.sides, &view.sides_out)?;
-            copy_whole(recorder, "readback", view.plane(Plane::Edges), &view.edges_out)?;
-            copy_whole(recorder, "readback", &view.codes, &view.codes_out)?;
-            copy_whole(recorder, "readback", &view.packed, &view.packed_out)?;
-        }
-        Ok(())
+fn record_mixture(recorder: &mut Recorder, views: &[&DeviceView], settings: &FeatureSettings) -> Result<()> {
+    if settings.mixture.gain {
+        probable(recorder, views, &settings.mixture)?;
+        ratios(recorder, views)?;
     }
+    mixture(recorder, views, &settings.mixture, &settings.shadow)
+}
 
-    /// Records what views without a plate learn from a frame of the empty scene.
-    pub(super) fn record_priming(
-        &self,
-        recorder: &mut Recorder,
-        views: &[&DeviceView],
-        settings: &FeatureSettings,
-    ) -> Result<()> {
-        for view in views {
-            copy_whole(recorder, "upload", &view.colours_in, &view.colours)?;
-        }
-        self.record_mixture(recorder, views, settings)
-    }
+/// From foreground to silhouette; those with a plate have their hysteresis and bridges.
+fn record_cleaning(
+    recorder: &mut Recorder,
+    views: &[&DeviceView],
+    with_plate: &[&DeviceView],
+    settings: &FeatureSettings,
+) -> Result<()> {
+    use Plane::{Foreground, Silhouette, Strong, WorkA, WorkB, WorkC};
+    let holes = Keep::Holes(settings.silhouette.max_hole);
+    opening(recorder, views, settings.opening(), [Foreground, WorkA, WorkB])?;
+    components(recorder, with_plate, Keep::Touched, Strong, [WorkB, WorkA])?;
+    closing(recorder, with_plate, settings.bridge(), [WorkA, WorkB, WorkC])?;
+    bridge(recorder, with_plate, [WorkA, WorkC, WorkB])?;
+    closing(recorder, views, settings.closing(), [WorkB, WorkA, WorkC])?;
+    components(recorder, views, Keep::largest(&settings.silhouette), Strong, [WorkC, WorkA])?;
+    components(recorder, views, holes, Strong, [WorkA, Silhouette])
+}
 
-    fn record_difference(
-        &self,
-        recorder: &mut Recorder,
-        views: &[&DeviceView],
-        settings: &FeatureSettings,
-    ) -> Result<()> {
-        if settings.plate.gain {
-            self.ratios.record(recorder, views)?;
-        } else {
-            views.iter().try_for_each(|view| recorder.fill("gain", &view.light.gains, RATIO_STEPS))?;
-        }
-        self.difference.record(recorder, views, &settings.plate, &settings.shadow)
-    }
-
-    fn record_mixture(&self, recorder: &mut Recorder, views: &[&DeviceView], settings: &FeatureSettings) -> Result<()> {
-        if settings.mixture.gain {
-            self.mixture.record_probable(recorder, views)?;
-            self.ratios.record(recorder, views)?;
-        }
-        self.mixture.record(recorder, views, &settings.mixture, &settings.shadow)
-    }
-
-    /// From foreground to silhouette; those with a plate have their hysteresis and bridges.
-    fn record_cleaning(
-        &self,
-        recorder: &mut Recorder,
-        views: &[&DeviceView],
-        with_plate: &[&DeviceView],
-        settings: &FeatureSettings,
-    ) -> Result<()> {
-        use Plane::{Foreground, Silhouette, Strong, WorkA, WorkB, WorkC};
-        let morphology = &self.morphology;
-        morphology.record_opening(recorder, views, settings.opening(), [Foreground, WorkA, WorkB])?;
-        if !with_plate.is_empty() {
-            self.touched.record(recorder, with_plate, Strong, [WorkB, WorkA])?;
-            morphology.record_closing(recorder, with_plate, settings.bridge(), [WorkA, WorkB, WorkC])?;
-            self.bridge.record(recorder, with_plate, [WorkA, WorkC, WorkB])?;
-        }
-        morphology.record_closing(recorder, views, settings.closing(), [WorkB, WorkA, WorkC])?;
-        self.largest.record(recorder, views, Strong, [WorkC, WorkA])?;
-        self.holes.record(recorder, views, Strong, [WorkA, Silhouette])
-    }
+/// The twin of [`crate::features::DistanceMap::measure`]: vertical distances to the nearest edge, then distances from them.
+fn record_distance(recorder: &mut Recorder, views: &[&DeviceView], metric: Metric) -> Result<()> {
+    let metric = match metric {
+        Metric::Chessboard => METRIC_CHESSBOARD,
+        Metric::CityBlock => METRIC_CITY_BLOCK,
+        Metric::Euclidean => METRIC_EUCLIDEAN,
+        Metric::QuasiEuclidean => METRIC_QUASI_EUCLIDEAN,
+    };
+    recorder.run_all(views.iter().map(|view| {
+        reach_comp::Bindings { edges: view.plane(Plane::Edges), reach: &view.reach }
+            .dispatch(view.picture, view.every_pixel())
+    }))?;
+    recorder.run_all(views.iter().map(|view| {
+        distance_comp::Bindings { reach: &view.reach, codes: &view.codes }.dispatch(
+            distance_comp::Constants { metric },
+            view.picture,
+            view.every_pixel(),
+        )
+    }))
 }

@@ -1,16 +1,16 @@
 //! What the device keeps of one view.
 
 use anyhow::Result;
-use bytemuck::Pod;
 use image::RgbImage;
 
 use crate::features::MixtureSettings;
-use crate::features::stages::{MIXTURE_FIELDS, Picture, RATIO_COUNTS, RATIO_GRID, Rates};
-use crate::gpu::{Buffer, Device, Memory, Recorder, Timing};
+use crate::features::shaders::layout::{Picture, Rates};
+use crate::features::shaders::{MIXTURE_FIELDS, RATIO_COUNTS, RATIO_GRID};
+use crate::gpu::{Buffer, Device, Groups, Memory, Recorder, StagedBuffer};
 
 /// A bit picture of a view; rows are whole 64-bit words, as those of [`crate::features::BitImage`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::features) enum Plane {
+pub(super) enum Plane {
     /// As segmented.
     Foreground,
     /// What differs from the plate beyond doubt; then Canny's edges beyond doubt.
@@ -38,35 +38,35 @@ impl Plane {
 
 /// The forest of connected components; most a node for every two pixels.
 #[derive(Debug)]
-pub(in crate::features) struct Forest {
+pub(super) struct Forest {
     /// Of each node, another of its component that comes no later.
-    pub(in crate::features) labels: Buffer,
+    pub(super) labels: Buffer,
     /// Of each root, the pixels of its component and a mark.
-    pub(in crate::features) areas: Buffer,
+    pub(super) areas: Buffer,
     /// The number of roots, and the roots.
-    pub(in crate::features) roots: Buffer,
+    pub(super) roots: Buffer,
 }
 
 /// What is known of the light.
 #[derive(Debug)]
-pub(in crate::features) struct Light {
+pub(super) struct Light {
     /// The background's colours on a grid of pixels, a word each.
-    pub(in crate::features) grid: Buffer,
+    pub(super) grid: Buffer,
     /// Counted ratios of the three channels.
-    pub(in crate::features) counts: Buffer,
+    pub(super) counts: Buffer,
     /// How bright the picture is, channel by channel.
-    pub(in crate::features) gains: Buffer,
+    pub(super) gains: Buffer,
 }
 
 /// Rows of a mixture's state: as many as the device binds at once.
 #[derive(Debug)]
-pub(in crate::features) struct Band {
+pub(super) struct Band {
     /// First row of the picture.
-    pub(in crate::features) first_row: u32,
+    pub(super) first_row: u32,
     /// Number of rows.
-    pub(in crate::features) rows: u32,
+    pub(super) rows: u32,
     /// Single-precision numbers by component, field, pixel.
-    pub(in crate::features) state: Buffer,
+    pub(super) state: Buffer,
 }
 
 #[derive(Debug)]
@@ -77,31 +77,30 @@ enum Background {
 
 /// The buffers of one view.
 #[derive(Debug)]
-pub(in crate::features) struct DeviceView {
+pub(super) struct DeviceView {
     /// What passes on it are told.
-    pub(in crate::features) picture: Picture,
-    pub(super) colours_in: Buffer,
-    pub(super) mask_in: Buffer,
+    pub(super) picture: Picture,
     /// Red, green, blue bytes, row-major.
-    pub(in crate::features) colours: Buffer,
+    pub(super) colours: StagedBuffer,
+    pub(super) mask_in: Buffer,
     planes: Vec<Buffer>,
     background: Background,
     /// The rates of a mixture's next step.
-    pub(in crate::features) rates: Buffer,
+    pub(super) rates: Buffer,
     /// How the picture's light differs from the background's.
-    pub(in crate::features) light: Light,
+    pub(super) light: Light,
     /// Room for finding components.
-    pub(in crate::features) forest: Forest,
+    pub(super) forest: Forest,
     /// The silhouette's bounding box.
-    pub(in crate::features) sides: Buffer,
+    pub(super) sides: Buffer,
     /// Grey values, a word each.
-    pub(in crate::features) smoothed: Buffer,
+    pub(super) smoothed: Buffer,
     /// Vertical distances, a word each.
-    pub(in crate::features) reach: Buffer,
+    pub(super) reach: Buffer,
     /// Distances as [`crate::features::Metric::code`] writes them, a word each.
-    pub(in crate::features) codes: Buffer,
+    pub(super) codes: Buffer,
     /// Packed bytes, row-major.
-    pub(in crate::features) packed: Buffer,
+    pub(super) packed: Buffer,
     pub(super) foreground_out: Buffer,
     pub(super) silhouette_out: Buffer,
     pub(super) sides_out: Buffer,
@@ -112,7 +111,7 @@ pub(in crate::features) struct DeviceView {
 
 impl DeviceView {
     /// Buffers for pictures of that size, with the plate's pixels uploaded where there is one.
-    pub(in crate::features) fn new(
+    pub(super) fn new(
         device: &Device,
         [width, height]: [u32; 2],
         plate: Option<&RgbImage>,
@@ -125,20 +124,34 @@ impl DeviceView {
         let words = |name: &str, count: usize, memory: Memory| device.buffer::<u32>(name, count, memory);
         let (bits, colours) = (stride as usize * rows, (3 * pixels).div_ceil(4));
         let grid = (width.div_ceil(RATIO_GRID) * height.div_ceil(RATIO_GRID)) as usize;
-        let background = match plate {
-            Some(_) => Background::Plate(words("plate", colours, Memory::Device)?),
-            None => Background::Mixture(bands(device, [width, height], mixture.components as u32)?),
+        let (background, light_grid) = match plate {
+            Some(plate) => {
+                let mut bytes = plate.as_raw().clone();
+                bytes.resize(4 * colours, 0);
+                let on_grid: Vec<u32> = (0..height)
+                    .step_by(RATIO_GRID as usize)
+                    .flat_map(|y| (0..width).step_by(RATIO_GRID as usize).map(move |x| (x, y)))
+                    .map(|(x, y)| {
+                        let [red, green, blue] = plate.get_pixel(x, y).0;
+                        u32::from_le_bytes([red, green, blue, 0])
+                    })
+                    .collect();
+                (Background::Plate(device.uploaded("plate", &bytes)?), device.uploaded("light's grid", &on_grid)?)
+            }
+            None => (
+                Background::Mixture(bands(device, [width, height], mixture.components as u32)?),
+                words("light's grid", grid, Memory::Device)?,
+            ),
         };
-        let view = Self {
+        Ok(Self {
             picture: Picture { width, height, stride, limit: u32::from(limit), amount: 0, low: 0 },
-            colours_in: words("colours staging", colours, Memory::Upload)?,
+            colours: StagedBuffer::new::<u32>(device, "colours", colours)?,
             mask_in: words("mask staging", bits, Memory::Upload)?,
-            colours: words("colours", colours, Memory::Device)?,
             planes: (0..Plane::COUNT).map(|_| words("bit picture", bits, Memory::Device)).collect::<Result<_>>()?,
             background,
             rates: device.buffer::<Rates>("rates", 1, Memory::Upload)?,
             light: Light {
-                grid: words("light's grid", grid, Memory::Device)?,
+                grid: light_grid,
                 counts: words("ratios", 3 * RATIO_COUNTS as usize, Memory::Device)?,
                 gains: words("gains", 3, Memory::Device)?,
             },
@@ -159,43 +172,31 @@ impl DeviceView {
             edges_out: words("edges readback", bits, Memory::Readback)?,
             codes_out: words("codes readback", pixels, Memory::Readback)?,
             packed_out: words("packed readback", pixels.div_ceil(4), Memory::Readback)?,
-        };
-        if let (Background::Plate(buffer), Some(plate)) = (&view.background, plate) {
-            let step = RATIO_GRID as usize;
-            let on_grid: Vec<u32> = (0..height)
-                .step_by(step)
-                .flat_map(|y| (0..width).step_by(step).map(move |x| (x, y)))
-                .map(|(x, y)| {
-                    let [red, green, blue] = plate.get_pixel(x, y).0;
-                    u32::from_le_bytes([red, green, blue, 0])
-                })
-                .collect();
-            view.fill(device, buffer, plate.as_raw().as_slice())?;
-            view.fill(device, &view.light.grid, &on_grid)?;
-        }
-        Ok(view)
-    }
-
-    /// Copies values to the device once, through the staging of the colours.
-    fn fill<T: Pod>(&self, device: &Device, to: &Buffer, values: &[T]) -> Result<()> {
-        self.colours_in.write(0, values)?;
-        let mut recorder = device.recorder(Timing::Off)?;
-        recorder.copy("upload", (&self.colours_in, 0), (to, 0), to.size())?;
-        recorder.finish()?.run()
+        })
     }
 
     /// A bit picture.
-    pub(in crate::features) fn plane(&self, plane: Plane) -> &Buffer {
+    pub(super) fn plane(&self, plane: Plane) -> &Buffer {
         &self.planes[plane as usize]
     }
 
     /// Words of a bit picture.
-    pub(in crate::features) fn words(&self) -> u32 {
+    pub(super) fn words(&self) -> u32 {
         self.picture.stride * self.picture.height
     }
 
+    /// An invocation for every word of a bit picture.
+    pub(super) fn every_word(&self) -> Groups<'static> {
+        Groups::Flat(self.words())
+    }
+
+    /// An invocation for every pixel, in rows.
+    pub(super) fn every_pixel(&self) -> Groups<'static> {
+        Groups::Over([self.picture.width, self.picture.height, 1])
+    }
+
     /// Red, green, blue bytes of the plate, where there is one.
-    pub(in crate::features) fn plate(&self) -> Option<&Buffer> {
+    pub(super) fn plate(&self) -> Option<&Buffer> {
         match &self.background {
             Background::Plate(plate) => Some(plate),
             Background::Mixture(_) => None,
@@ -203,7 +204,7 @@ impl DeviceView {
     }
 
     /// The mixture's state; nothing where there is a plate.
-    pub(in crate::features) fn bands(&self) -> &[Band] {
+    pub(super) fn bands(&self) -> &[Band] {
         match &self.background {
             Background::Plate(_) => &[],
             Background::Mixture(bands) => bands,

@@ -165,13 +165,6 @@ fn constants_of(name: &str, reflection: &Reflection) -> Result<String> {
         names.push(field);
     }
     if !names.is_empty() {
-        writeln!(text, "    /// Numbers of the specialisation constants.\n    pub mod constants {{")?;
-        for constant in &reflection.constants {
-            let own = constant.name.to_ascii_uppercase();
-            writeln!(text, "        /// `{}`, {} by default.", constant.name, constant.default)?;
-            writeln!(text, "        pub const {own}: u32 = {};", constant.id)?;
-        }
-        writeln!(text, "    }}")?;
         writeln!(text, "    /// Specialisation constants.\n    #[derive(Clone, Copy, Debug, PartialEq)]")?;
         writeln!(text, "    pub struct Constants {{\n{fields}    }}\n    impl Default for Constants {{")?;
         writeln!(text, "        fn default() -> Self {{ Self {{ {defaults}}} }}\n    }}")?;

@@ -2,23 +2,30 @@
 
 #![allow(clippy::unwrap_used)]
 
+use anyhow::Result;
 use image::{Rgb, RgbImage};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
-use super::*;
+use super::bounds::{bounds, region};
+use super::components::{Keep, components};
+use super::edges::{edges, smooth};
+use super::foreground::{bridge, difference, mixture, probable, ratios};
+use super::morphology::{Operation, closing, morphology, opening};
+use super::view::{DeviceView, Plane};
 use crate::features::bit_image::any_bit_image;
 use crate::features::blobs::Components;
-use crate::features::device::Plane;
 use crate::features::edges::EdgeDetector;
 use crate::features::mixture::Mixture;
 use crate::features::morphology::{Element, Morphology};
 use crate::features::plate::{DifferenceRow, Plate};
+use crate::features::shaders::MIXTURE_FIELDS;
+use crate::features::shaders::layout::Rates;
 use crate::features::{
-    Adaptation, BitImage, EdgeSettings, MixtureSettings, Operator, PlateSettings, ShadowSettings, Shape,
+    Adaptation, BitImage, EdgeSettings, Magnitude, MixtureSettings, Operator, PlateSettings, ShadowSettings, Shape,
 };
 use crate::gpu::test_device::device;
-use crate::gpu::{Buffer, Capabilities, Device, DeviceSettings, Memory, Timing};
+use crate::gpu::{Buffer, Capabilities, Device, DeviceSettings, Memory, Recorder, Timing};
 
 /// A view on the device, with ways in and out.
 struct Bench {
@@ -70,7 +77,7 @@ impl Bench {
     fn show(&self, picture: &RgbImage) {
         let mut bytes = picture.as_raw().clone();
         bytes.resize(bytes.len().next_multiple_of(4), 0);
-        self.write(&self.view.colours, &bytes);
+        self.write(&self.view.colours.buffer, &bytes);
     }
 }
 
@@ -99,7 +106,6 @@ fn hash(x: u32, y: u32, seed: u32) -> u32 {
 #[test]
 fn morphology_is_the_processor_s() {
     let Some((device, log)) = device("morphology_is_the_processor_s", DeviceSettings::default()) else { return };
-    let stage = MorphologyStage::new(&device).unwrap();
     let radius = prop_oneof![0_u32..9, 14_u32..20, Just(33), Just(127)];
     let shape = prop_oneof![Just(Shape::Square), Just(Shape::Disc)];
     check(24, &(any_bit_image(), radius, shape), |(image, radius, shape)| {
@@ -107,16 +113,16 @@ fn morphology_is_the_processor_s() {
         use Plane::{Edges, Foreground, Near, WorkA, WorkB, WorkC};
         let bench = Bench::new(&device, image.width(), image.height());
         bench.put(Foreground, &image);
-        let (mut morphology, views) = (Morphology::default(), [&bench.view]);
+        let (mut twin, views) = (Morphology::default(), [&bench.view]);
         bench.run(|recorder| {
-            stage.record(recorder, &views, Operation::Dilate, element, [Foreground, Near])?;
-            stage.record(recorder, &views, Operation::Erode, element, [Foreground, Edges])?;
-            stage.record_opening(recorder, &views, element, [Foreground, WorkA, WorkB])?;
-            stage.record_closing(recorder, &views, element, [Foreground, WorkA, WorkC])
+            morphology(recorder, &views, Operation::Dilate, element, [Foreground, Near])?;
+            morphology(recorder, &views, Operation::Erode, element, [Foreground, Edges])?;
+            opening(recorder, &views, element, [Foreground, WorkA, WorkB])?;
+            closing(recorder, &views, element, [Foreground, WorkA, WorkC])
         });
         let mut expect = |operation: fn(&mut Morphology, &mut BitImage, Element)| {
             let mut expected = image.clone();
-            operation(&mut morphology, &mut expected, element);
+            operation(&mut twin, &mut expected, element);
             expected
         };
         prop_assert_eq!(bench.get(Near), expect(Morphology::dilate));
@@ -125,7 +131,7 @@ fn morphology_is_the_processor_s() {
         prop_assert_eq!(bench.get(WorkC), expect(Morphology::close));
         Ok(())
     });
-    drop((stage, device));
+    drop(device);
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 
@@ -154,7 +160,6 @@ fn components_are_the_processor_s() {
         Keep::Largest { count: 4, min_area: 10_000, min_share: 1.0, max_cover: 0.8 },
     ];
     for keep in choices {
-        let stages = ComponentsStages::new(&device, keep).unwrap();
         for image in &images {
             let (width, height) = (image.width(), image.height());
             let strong = noise(width, height, 3, 9);
@@ -162,21 +167,21 @@ fn components_are_the_processor_s() {
             bench.put(Plane::WorkA, image);
             bench.put(Plane::Strong, &strong);
             bench.run(|recorder| {
-                stages.record(recorder, &[&bench.view], Plane::Strong, [Plane::WorkA, Plane::WorkB])?;
+                components(recorder, &[&bench.view], keep, Plane::Strong, [Plane::WorkA, Plane::WorkB])?;
                 // Once more over what the first run left behind.
-                stages.record(recorder, &[&bench.view], Plane::Strong, [Plane::WorkA, Plane::WorkC])
+                components(recorder, &[&bench.view], keep, Plane::Strong, [Plane::WorkA, Plane::WorkC])
             });
-            let (mut expected, mut components) = (image.clone(), Components::default());
+            let (mut expected, mut twin) = (image.clone(), Components::default());
             match keep {
-                Keep::Touched => components.keep_touched(&mut expected, &strong),
-                Keep::Holes(most) => components.fill_holes(&mut expected, most),
+                Keep::Touched => twin.keep_touched(&mut expected, &strong),
+                Keep::Holes(most) => twin.fill_holes(&mut expected, most),
                 Keep::Largest { max_cover, .. }
                     if f64::from(expected.count()) > f64::from(max_cover) * f64::from(width * height) =>
                 {
                     expected.clear();
                 }
                 Keep::Largest { count, min_area, min_share, .. } => {
-                    components.keep_largest(&mut expected, count as usize, min_area, min_share);
+                    twin.keep_largest(&mut expected, count as usize, min_area, min_share);
                 }
             }
             assert_eq!(bench.get(Plane::WorkB), expected, "{keep:?}, {width} x {height}");
@@ -190,7 +195,6 @@ fn components_are_the_processor_s() {
 #[test]
 fn bounds_are_the_processor_s() {
     let Some((device, log)) = device("bounds_are_the_processor_s", DeviceSettings::default()) else { return };
-    let stage = BoundsStage::new(&device).unwrap();
     for image in [
         BitImage::new(70, 30),
         BitImage::from_fn(70, 30, |x, y| (x, y) == (69, 0)),
@@ -199,11 +203,11 @@ fn bounds_are_the_processor_s() {
     ] {
         let bench = Bench::new(&device, image.width(), image.height());
         bench.put(Plane::Silhouette, &image);
-        bench.run(|recorder| stage.record(recorder, &[&bench.view], Plane::Silhouette));
+        bench.run(|recorder| bounds(recorder, &[&bench.view], Plane::Silhouette));
         let sides: [u32; 4] = bench.read(&bench.view.sides).try_into().unwrap();
-        assert_eq!(BoundsStage::region(sides, image.width(), image.height()), image.bounds());
+        assert_eq!(region(sides, image.width(), image.height()), image.bounds());
     }
-    drop((stage, device));
+    drop(device);
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 
@@ -227,7 +231,6 @@ fn differences_from_the_plate_are_the_processor_s() {
     else {
         return;
     };
-    let (ratios, difference) = (RatiosStages::new(&device).unwrap(), DifferenceStage::new(&device).unwrap());
     for (case, (width, height)) in [(301, 157), (64, 40), (3, 2), (1, 5), (130, 3)].into_iter().enumerate() {
         let [plate, picture] = plate_and_picture(width, height, case as u32);
         let mut twin = Plate::new(plate.clone());
@@ -242,8 +245,8 @@ fn differences_from_the_plate_are_the_processor_s() {
             (PlateSettings::default(), ShadowSettings { suppress: false, ..Default::default() }),
         ] {
             bench.run(|recorder| {
-                ratios.record(recorder, &[&bench.view])?;
-                difference.record(recorder, &[&bench.view], &settings, &shadow)
+                ratios(recorder, &[&bench.view])?;
+                difference(recorder, &[&bench.view], &settings, &shadow)
             });
             let gain = twin.gain(&picture);
             assert_eq!(bench.read(&bench.view.light.gains), gain.map(|gain| (gain * 128.0) as u32));
@@ -261,25 +264,24 @@ fn differences_from_the_plate_are_the_processor_s() {
             assert_eq!(bench.get(Plane::Faint), faint);
         }
     }
-    drop((ratios, difference, device));
+    drop(device);
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 
 #[test]
 fn bridges_are_what_a_closing_adds_where_it_differs_faintly() {
     let Some((device, log)) = device("bridges_are_what_a_closing_adds", DeviceSettings::default()) else { return };
-    let stage = BridgeStage::new(&device).unwrap();
     let [from, closed, faint] = [1, 2, 3].map(|seed| noise(130, 21, 90, seed));
     let bench = Bench::new(&device, 130, 21);
     for (plane, image) in [(Plane::WorkA, &from), (Plane::WorkC, &closed), (Plane::Faint, &faint)] {
         bench.put(plane, image);
     }
-    bench.run(|recorder| stage.record(recorder, &[&bench.view], [Plane::WorkA, Plane::WorkC, Plane::WorkB]));
+    bench.run(|recorder| bridge(recorder, &[&bench.view], [Plane::WorkA, Plane::WorkC, Plane::WorkB]));
     let mut expected = closed;
     expected.and(&faint);
     expected.or(&from);
     assert_eq!(bench.get(Plane::WorkB), expected);
-    drop((stage, device, bench));
+    drop((device, bench));
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 
@@ -307,8 +309,6 @@ fn several_bands(capabilities: &mut Capabilities) {
 fn mixture_differences(device: &Device, size: [u32; 2], settings: MixtureSettings) -> (f64, u32) {
     let [width, height] = size;
     let shadow = ShadowSettings::default();
-    let stages = MixtureStages::new(device, &settings).unwrap();
-    let ratios = RatiosStages::new(device).unwrap();
     let bench = Bench::with(device, size, None, &settings);
     let mut twin = Mixture::new(settings, width, height);
     let (mut flags, mut expected) = (vec![0; (width * height) as usize], BitImage::new(width, height));
@@ -322,10 +322,10 @@ fn mixture_differences(device: &Device, size: [u32; 2], settings: MixtureSetting
         bench.view.rates.write(0, &[rates]).unwrap();
         bench.run(|recorder| {
             if settings.gain {
-                stages.record_probable(recorder, &[&bench.view])?;
-                ratios.record(recorder, &[&bench.view])?;
+                probable(recorder, &[&bench.view], &settings)?;
+                ratios(recorder, &[&bench.view])?;
             }
-            stages.record(recorder, &[&bench.view], &settings, &shadow)
+            mixture(recorder, &[&bench.view], &settings, &shadow)
         });
         let seen = bench.get(Plane::Foreground);
         found += expected.count();
@@ -378,7 +378,7 @@ fn mixtures_are_the_processor_s() {
 #[test]
 fn canny_is_the_processor_s() {
     let Some((device, log)) = device("canny_is_the_processor_s", DeviceSettings::default()) else { return };
-    let (smooth, [_, picture]) = (SmoothStage::new(&device, true).unwrap(), plate_and_picture(201, 99, 5));
+    let [_, picture] = plate_and_picture(201, 99, 5);
     let near = BitImage::from_fn(201, 99, |x, y| x.abs_diff(90).pow(2) + y.abs_diff(45).pow(2) < 6000);
     let bench = Bench::new(&device, 201, 99);
     bench.show(&picture);
@@ -386,10 +386,9 @@ fn canny_is_the_processor_s() {
     for magnitude in [Magnitude::Exact, Magnitude::Sum, Magnitude::Max] {
         for (low, threshold) in [(35, 70), (1, 150), (20, 250), (100, 100)] {
             let settings = EdgeSettings { operator: Operator::Canny, magnitude, low, threshold, ..Default::default() };
-            let stage = EdgesStage::new(&device, &settings).unwrap();
             bench.run(|recorder| {
-                smooth.record(recorder, &[&bench.view])?;
-                stage.record(recorder, &[&bench.view])
+                smooth(recorder, &[&bench.view], true)?;
+                edges(recorder, &[&bench.view], &settings)
             });
             let mut expected = BitImage::new(201, 99);
             EdgeDetector::default().detect(&picture, &near, &settings, &mut expected);
@@ -397,6 +396,6 @@ fn canny_is_the_processor_s() {
             assert_eq!(bench.get(Plane::Edges), expected, "{settings:?}");
         }
     }
-    drop((smooth, bench, device));
+    drop((bench, device));
     assert_eq!(log.messages(), Vec::<String>::new());
 }
