@@ -48,15 +48,6 @@ const KNOWN_CIRCLES: &[&[&str]] = &[
     &["body::retarget", "body::retarget::ground"],
     &["check", "check::exchanges", "check::person", "check::timing", "check::turns"],
     &["command", "command::convert", "command::score"],
-    &[
-        "evaluate",
-        "evaluate::mesh_raster",
-        "evaluate::objective",
-        "evaluate::reference",
-        "evaluate::segments",
-        "evaluate::device::device_evaluator",
-    ],
-    &["evaluate::device::graphics", "evaluate::device::graphics::room"],
     &["features::device", "features::extractor"],
     &["geometry::camera", "geometry::tsai"],
     &[

@@ -4,8 +4,7 @@
 #ifndef EVALUATE_ARITHMETIC
 #define EVALUATE_ARITHMETIC
 
-// Corners farther from the origin than this, in x or y, have no image.
-const float FARTHEST_PIXEL = 16384.0;
+#include "evaluate/constants.glsl"
 
 // Sine in x, cosine in y: reduction by multiples of pi/2 in three pieces, then minimax polynomials (Cephes).
 vec2 sin_cos(float x) {

@@ -3,6 +3,11 @@
 #ifndef EVALUATE_CONSTANTS
 #define EVALUATE_CONSTANTS
 
+// Largest side of a picture, pixels.
+const uint LARGEST_SIDE = 16384u;
+// Corners farther from the origin than this, in x or y, have no image.
+const float FARTHEST_PIXEL = 16384.0;
+
 // Invocations of a workgroup of the projection; also the most parts that a body may have there.
 const uint PROJECT_GROUP = 128u;
 // Invocations of a workgroup that places images in the framebuffer.

@@ -47,8 +47,8 @@ uvec4 number_bits(uint number) {
 
 // Parts that are kept at once.
 const uint TILE = 32u;
-// Chunks of the widest picture, 16384 pixels.
-const uint MOST_CHUNKS = (16384u + 32u * RASTER_WORDS - 1u) / (32u * RASTER_WORDS);
+// Chunks of the widest picture.
+const uint MOST_CHUNKS = (LARGEST_SIDE + 32u * RASTER_WORDS - 1u) / (32u * RASTER_WORDS);
 
 // Corners of the parts of the tile, 1/256 pixel.
 shared ivec4 part_x[TILE];

@@ -5,7 +5,7 @@
 use anyhow::{Result, ensure};
 
 use crate::body::Body;
-use crate::evaluate::{Components, Evaluator, Footprint, Objective, PartQuad, Projector};
+use crate::evaluate::{Components, Evaluator, Footprint, PartQuad, Projector};
 use crate::features::Observation;
 use crate::geometry::Camera;
 
@@ -90,16 +90,6 @@ impl Evaluator for Yardstick {
                 scope.spawn(move || this.run(poses, out));
             }
         });
-        Ok(())
-    }
-
-    fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
-        let views = self.view_count();
-        let mut components = vec![Components::default(); fitness.len() * views];
-        self.components(poses, &mut components)?;
-        for (value, row) in fitness.iter_mut().zip(components.chunks_exact(views)) {
-            *value = objective.fitness(row);
-        }
         Ok(())
     }
 

@@ -12,7 +12,7 @@ use crate::calibrate::{
     parse_pairs, parse_tracks,
 };
 use crate::files::{OutputFolder, Overwrite};
-use crate::geometry::Camera;
+use crate::geometry::{Camera, LARGEST_SIDE};
 use crate::motion::read_points;
 use crate::report::{Arrow, arrow_chart};
 use crate::sequence::write_cameras_toml;
@@ -103,7 +103,7 @@ impl FromStr for PictureSize {
             None => (None, text),
         };
         let sides = size.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
-        let sane = sides.filter(|sides: &[u32; 2]| sides.iter().all(|side| (1..=16384).contains(side)));
+        let sane = sides.filter(|sides: &[u32; 2]| sides.iter().all(|side| (1..=LARGEST_SIDE).contains(side)));
         let size = sane.ok_or_else(|| anyhow!("{text:?} is no size, expected WIDTHxHEIGHT or NAME=WIDTHxHEIGHT"))?;
         Ok(Self { camera, size })
     }

@@ -4,7 +4,7 @@ use anyhow::{Result, ensure};
 
 use crate::body::Body;
 use crate::features::Observation;
-use crate::geometry::Camera;
+use crate::geometry::{Camera, LARGEST_SIDE};
 
 /// Holds `poses` (rows of `dof_count`) to `results` values, `per_pose` for each pose.
 pub(crate) fn check_batch(poses: &[f32], dof_count: usize, results: usize, per_pose: usize) -> Result<()> {
@@ -32,8 +32,8 @@ pub(crate) fn check_pictures(cameras: &[Camera]) -> Result<()> {
     for camera in cameras {
         let [width, height] = camera.size;
         ensure!(
-            (1..=16384).contains(&width) && (1..=16384).contains(&height),
-            "camera {} has pictures of {width}x{height}, expected 1 to 16384 pixels a side",
+            (1..=LARGEST_SIDE).contains(&width) && (1..=LARGEST_SIDE).contains(&height),
+            "camera {} has pictures of {width}x{height}, expected 1 to {LARGEST_SIDE} pixels a side",
             camera.name
         );
     }

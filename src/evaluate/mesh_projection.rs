@@ -6,18 +6,19 @@ use anyhow::{Result, ensure};
 use crate::body::{Body, Mesh, Skinning};
 use crate::geometry::Camera;
 
-use super::Projector;
+use super::projection::Projector;
 use super::rig::{Affine, affine, compose, snap, transform};
+use super::shaders;
 
 /// The depth of a point at camera-space z is `1 - NEAR / z`, mm.
-pub const NEAR: f32 = 100.0;
+pub const NEAR: f32 = shaders::MESH_NEAR;
 
 /// By how much silhouette edges are drawn nearer than they are, mm: at a silhouette the surface turns away, so that half a pixel
 /// inside it is already nearer to the camera than its edge.
-pub const EDGE_BIAS: f32 = 30.0;
+pub const EDGE_BIAS: f32 = shaders::MESH_EDGE_BIAS;
 
 /// Vertices nearer than this along the camera's axis have no image, mm: depths stay between 0 and 1 with the bias, too.
-pub const NEAREST: f32 = 2.0 * NEAR;
+pub const NEAREST: f32 = shaders::MESH_NEAREST;
 
 /// A vertex of the mesh model as one camera sees it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

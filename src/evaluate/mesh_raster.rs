@@ -3,8 +3,8 @@
 
 use crate::body::{Mesh, MeshEdge};
 
-use super::reference::for_each_line_pixel;
-use super::{CandidateImage, ProjectedVertex};
+use super::mesh_projection::ProjectedVertex;
+use super::raster::{CandidateImage, for_each_line_pixel};
 
 /// Draws a mesh whose vertices one camera sees as `vertices`.
 pub fn draw_mesh(vertices: &[ProjectedVertex], mesh: &Mesh, width: u32, height: u32) -> CandidateImage {

@@ -6,117 +6,27 @@ mod bit_planes;
 mod components;
 pub mod cpu;
 pub mod device;
+mod device_evaluator;
+mod evaluator;
 mod mesh_projection;
 mod mesh_raster;
 mod objective;
 mod projection;
+mod raster;
 mod reference;
 mod rig;
 mod score;
 mod segments;
-
-use std::sync::Arc;
-
-use anyhow::Result;
+mod shaders;
 
 pub use components::Components;
-use device::DeviceEvaluator;
+pub use device_evaluator::DeviceEvaluator;
+pub use evaluator::{Evaluator, Footprint};
 pub use mesh_projection::{EDGE_BIAS, MeshProjector, NEAR, NEAREST, ProjectedVertex};
 pub use mesh_raster::draw_mesh;
 pub use objective::{Objective, ObjectiveKind};
 pub use projection::{PartQuad, Projector};
-pub use reference::{CandidateImage, Reference, compare, draw_quads};
+pub use raster::{CandidateImage, draw_quads};
+pub use reference::{Reference, compare};
 pub use score::score;
 pub use segments::SegmentSums;
-
-use crate::features::{Observation, Segments};
-use crate::gpu::DevicePass;
-
-/// Scores candidate poses against the observations of one frame.
-///
-/// A pose is a row of [`crate::body::Body::dof_count`] single-precision values (mm, radians) in state-vector order; a
-/// batch is such rows one after the other.
-pub trait Evaluator: Send {
-    /// Its name as `--backend` takes it.
-    fn name(&self) -> &'static str;
-
-    /// How it does it on this machine: `avx512`, `avx2`, `portable`, …
-    fn variant(&self) -> &'static str;
-
-    /// The number of views.
-    fn view_count(&self) -> usize;
-
-    /// The length of a pose.
-    fn dof_count(&self) -> usize;
-
-    /// Takes the observations of a frame, one a view, in the order of the cameras.
-    ///
-    /// # Errors
-    /// When there are not as many as views, or one's size is not its camera's; when some tell body parts apart and others do not.
-    fn observe(&mut self, observations: &[Observation]) -> Result<()>;
-
-    /// The components of every candidate in every view: `components[candidate * views + view]`.
-    ///
-    /// # Errors
-    /// When the slices' lengths do not fit each other, or the device fails.
-    fn components(&mut self, poses: &[f32], components: &mut [Components]) -> Result<()>;
-
-    /// The segments that silhouettes are compared by, those of the newest observations; none where silhouettes are whole.
-    fn segments(&self) -> Option<&Arc<Segments>> {
-        None
-    }
-
-    /// The sums of every candidate in every view and segment: `sums[(candidate * views + view) * segments + segment]`.
-    ///
-    /// # Errors
-    /// As [`Self::components`]; also when there are no segments.
-    fn segment_sums(&mut self, _poses: &[f32], _sums: &mut [SegmentSums]) -> Result<()> {
-        Err(segments::no_segments())
-    }
-
-    /// One pose in one view as this evaluator itself draws it; none where it keeps no picture.
-    ///
-    /// # Errors
-    /// When the pose has another length, there is no such view, or the device fails.
-    fn drawn(&mut self, _pose: &[f32], _view: usize) -> Result<Option<CandidateImage>> {
-        Ok(None)
-    }
-
-    /// The fitness of every candidate, in [0, 1].
-    ///
-    /// # Errors
-    /// As [`Self::components`].
-    fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()>;
-
-    /// The evaluator as a search on its device records it, where it works on one.
-    fn on_device(&mut self) -> Option<&mut dyn DeviceEvaluator> {
-        None
-    }
-
-    /// From now on measures, or no longer, the passes it runs on a device, which takes time of its own.
-    ///
-    /// # Errors
-    /// When the device fails.
-    fn measure_passes(&mut self, _measured: bool) -> Result<()> {
-        Ok(())
-    }
-
-    /// The passes that ran on a device since the last call, in order; none where nothing is measured or nothing ran there.
-    fn device_passes(&mut self) -> Vec<DevicePass> {
-        Vec::new()
-    }
-
-    /// How a candidate's picture is kept in memory; none where that is not told.
-    fn footprint(&self) -> Option<Footprint> {
-        None
-    }
-}
-
-/// How the picture of a candidate in a view is kept in memory.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Footprint {
-    /// Width and height of the piece that is worked on at once, pixels.
-    pub tile: [u32; 2],
-    /// Memory written for a pixel of it, bytes.
-    pub bytes_per_pixel: f64,
-}

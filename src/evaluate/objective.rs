@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::{Components, SegmentSums};
+use super::components::Components;
+use super::segments::SegmentSums;
 use crate::features::{Segment, Segments};
 
 /// How the silhouette and the edge terms of the cameras are combined.
@@ -73,6 +74,25 @@ impl Objective {
             };
             segments.iter().enumerate().map(term).sum()
         })
+    }
+
+    /// The fitness of every candidate from `components[candidate * views + view]`; where there are segments, the segmented form
+    /// with `sums[(candidate * views + view) * segments + segment]`.
+    pub(crate) fn score(
+        &self,
+        views: usize,
+        components: &[Components],
+        segments: Option<(&Segments, &[SegmentSums])>,
+        fitness: &mut [f32],
+    ) {
+        let rows = fitness.iter_mut().zip(components.chunks_exact(views));
+        match segments {
+            None => rows.for_each(|(value, row)| *value = self.fitness(row)),
+            Some((segments, sums)) => {
+                let sums = sums.chunks_exact(views * segments.as_slice().len());
+                rows.zip(sums).for_each(|((value, row), sums)| *value = self.segmented_fitness(row, segments, sums));
+            }
+        }
     }
 
     /// f1 and f2 (SPEC A7) of one camera by itself.

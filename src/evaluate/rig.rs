@@ -10,6 +10,8 @@ use glam::{DAffine3, DMat3};
 use crate::body::Body;
 use crate::geometry::{Camera, Lens};
 
+pub(crate) use super::shaders::FARTHEST_PIXEL;
+
 /// A 3x4 matrix, row by row: `[r00 r01 r02 tx, r10 …]`.
 pub(crate) type Affine = [f32; 12];
 
@@ -227,7 +229,7 @@ impl RigCamera {
     }
 
     /// A point of the world to pixels, and whether it has an image: in front of the camera, inside the distortion's
-    /// branch, at most 16384 pixels from the origin in x and in y.
+    /// branch, at most [`FARTHEST_PIXEL`] from the origin in x and in y.
     #[inline(always)]
     pub(crate) fn project(&self, point: [f32; 3]) -> ([f32; 2], bool) {
         let [x, y, z] = transform(&self.camera_from_world, point);
@@ -261,9 +263,6 @@ impl RigCamera {
         (pixel, has_image)
     }
 }
-
-/// A corner farther than this from the origin, in x or y, has no image.
-pub(crate) const FARTHEST_PIXEL: f32 = 16384.0;
 
 pub(crate) fn affine(transform: &DAffine3) -> Affine {
     let rows: DMat3 = transform.matrix3.transpose();

@@ -2,8 +2,9 @@
 
 use anyhow::{Result, ensure};
 
+use super::components::Components;
 use super::cpu::Cpu;
-use super::{Components, Evaluator};
+use super::evaluator::Evaluator;
 use crate::body::Body;
 use crate::features::Observation;
 use crate::geometry::Camera;

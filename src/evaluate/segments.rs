@@ -4,8 +4,6 @@ use std::sync::Arc;
 
 use anyhow::{Error, Result, anyhow, ensure};
 
-use super::Evaluator;
-use super::batch::check_batch;
 use crate::features::{Observation, Segmentation, Segments};
 
 /// Sums over the pixels of one candidate in one view and one segment. A drawn pixel belongs to the segment of the part that is
@@ -48,12 +46,4 @@ pub(crate) fn segments_of(observations: &[Observation]) -> Result<Option<Arc<Seg
 /// What is said where sums of segments are asked for and there are none.
 pub(super) fn no_segments() -> Error {
     anyhow!("the observations do not tell body parts apart: there are no sums of segments")
-}
-
-/// Holds `poses` to `results` sums of segments: how many a pose has.
-pub(crate) fn check_segment_batch(evaluator: &dyn Evaluator, poses: &[f32], results: usize) -> Result<usize> {
-    let segments = evaluator.segments().ok_or_else(no_segments)?;
-    let a_pose = evaluator.view_count() * segments.as_slice().len();
-    check_batch(poses, evaluator.dof_count(), results, a_pose)?;
-    Ok(a_pose)
 }

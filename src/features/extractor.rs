@@ -10,10 +10,8 @@ use super::foreground::Foreground;
 use super::morphology::Morphology;
 use super::segment::Segmenter;
 use super::{BitImage, DistanceMap, FeatureSettings, Observation, Region};
+use crate::geometry::LARGEST_SIDE;
 use crate::gpu::{Device, PassTiming};
-
-/// Larger working pictures are a mistake in the scale, and their memory would be too.
-const LARGEST_SIDE: u32 = 16384;
 
 /// What the extractor must know of a view.
 #[derive(Clone, Debug)]

@@ -4,6 +4,9 @@ use glam::{DAffine3, DVec2, DVec3};
 
 use super::{BrownConrady, Tsai, rodrigues_matrix};
 
+/// Largest side of a picture, pixels: places in it are told apart to 1/256 pixel in 32 bits.
+pub const LARGEST_SIDE: u32 = 16384;
+
 /// A calibrated camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {

@@ -7,6 +7,6 @@ mod rotation;
 mod tsai;
 
 pub use brown_conrady::BrownConrady;
-pub use camera::{Camera, Lens};
+pub use camera::{Camera, LARGEST_SIDE, Lens};
 pub use rotation::{EulerOrder, euler_matrix, rodrigues_matrix, rodrigues_vector};
 pub use tsai::{Tsai, TsaiConstants};

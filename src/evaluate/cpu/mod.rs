@@ -25,9 +25,12 @@ use crate::features::{Observation, Segments};
 use crate::geometry::Camera;
 
 use super::batch::{check_batch, check_observations, check_pictures};
+use super::components::Components;
+use super::evaluator::{Evaluator, Footprint, check_segment_batch};
+use super::objective::Objective;
+use super::projection::Projector;
 use super::rig::Rig;
-use super::segments::{check_segment_batch, segments_of};
-use super::{Components, Evaluator, Footprint, Objective, Projector, SegmentSums};
+use super::segments::{SegmentSums, segments_of};
 
 use front::{Front, LANES, QuadChunk};
 use kernel::{Canvas, Cell, SegmentedCell};
@@ -348,17 +351,8 @@ impl Evaluator for Cpu {
         check_batch(poses, self.dof_count(), fitness.len(), 1)?;
         ensure!(views > 0, "there are no views, expected at least one camera");
         let segments = self.segments.clone();
-        self.run(poses, fitness, 1, |found, segment_sums, results| {
-            let rows = results.iter_mut().zip(found.chunks_exact(views));
-            match &segments {
-                None => rows.for_each(|(value, row)| *value = objective.fitness(row)),
-                Some(segments) => {
-                    let sums = segment_sums.chunks_exact(views * segments.as_slice().len());
-                    for ((value, row), sums) in rows.zip(sums) {
-                        *value = objective.segmented_fitness(row, segments, sums);
-                    }
-                }
-            }
+        self.run(poses, fitness, 1, |found, sums, results| {
+            objective.score(views, found, segments.as_deref().map(|segments| (segments, sums)), results);
         })
     }
 

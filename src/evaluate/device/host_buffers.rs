@@ -2,13 +2,22 @@
 
 use anyhow::Result;
 
-use super::generated::layout;
 use super::scene::DeviceScene;
 use super::workspace::Workspace;
-use crate::evaluate::Components;
+use crate::evaluate::shaders::layout;
+use crate::evaluate::{Components, SegmentSums};
 use crate::gpu::{Buffer, Memory, Recorder};
 
-/// The fitness of a number of candidates, and the host's ends of poses, fitness and sums.
+/// What the host itself compared of a run.
+#[derive(Debug, Default)]
+pub(crate) struct HostCounts {
+    /// `[candidate][view]`, none for images that the device scored.
+    pub(super) sums: Vec<Option<layout::Sums>>,
+    /// `[candidate][view][segment]`, where there are segments.
+    pub(super) segments: Vec<SegmentSums>,
+}
+
+/// The fitness of a number of candidates, and the host's buffers for poses, fitness and sums.
 #[derive(Debug)]
 pub(super) struct HostBuffers {
     pub(super) fitness: Buffer,
@@ -59,11 +68,11 @@ impl HostBuffers {
         recorder.copy("read sums", (&workspace.sums, 0), (&self.sums_out, 0), bytes)
     }
 
-    /// The components of a finished run; what the host `counted` itself stands for the device's sums.
+    /// The components of a finished run; what the host itself counted stands for the device's sums.
     pub(super) fn read_components(
         &self,
         model: &DeviceScene,
-        counted: &[Option<layout::Sums>],
+        counts: &HostCounts,
         components: &mut [Components],
     ) -> Result<()> {
         let mut sums: Vec<layout::Sums> = bytemuck::zeroed_vec(components.len());
@@ -71,7 +80,7 @@ impl HostBuffers {
         let areas: Vec<u32> = model.observed_areas().collect();
         for (index, (components, sums)) in components.iter_mut().zip(&sums).enumerate() {
             let layout::Sums { area_model, overlap, edges, proximity } =
-                counted.get(index).copied().flatten().unwrap_or(*sums);
+                counts.sums.get(index).copied().flatten().unwrap_or(*sums);
             *components = Components { area_obs: areas[index % areas.len()], area_model, overlap, edges, proximity };
         }
         Ok(())

@@ -2,11 +2,11 @@
 
 use anyhow::Result;
 
-use super::generated::{
-    OBJECTIVE_AOSP, OBJECTIVE_AOWS, OBJECTIVE_GROUP, OBJECTIVE_POSP, OBJECTIVE_SP, OBJECTIVE_WS, layout, objective_comp,
-};
 use super::scene::DeviceScene;
 use super::workspace::Workspace;
+use crate::evaluate::shaders::{
+    OBJECTIVE_AOSP, OBJECTIVE_AOWS, OBJECTIVE_GROUP, OBJECTIVE_POSP, OBJECTIVE_SP, OBJECTIVE_WS, layout, objective_comp,
+};
 use crate::evaluate::{Objective, ObjectiveKind};
 use crate::gpu::{Buffer, ComputeStage, Device, Groups, Recorder, Stage};
 

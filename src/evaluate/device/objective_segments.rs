@@ -2,11 +2,11 @@
 
 use anyhow::Result;
 
-use super::generated::{OBJECTIVE_GROUP, objective_segments_comp};
 use super::objective::scoring;
 use super::scene::DeviceScene;
 use super::workspace::Workspace;
 use crate::evaluate::Objective;
+use crate::evaluate::shaders::{OBJECTIVE_GROUP, objective_segments_comp};
 use crate::gpu::{Buffer, ComputeStage, Device, Groups, Recorder, Stage};
 
 /// The stage.

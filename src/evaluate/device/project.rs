@@ -2,9 +2,9 @@
 
 use anyhow::Result;
 
-use super::generated::{PROJECT_GROUP, project_comp};
 use super::scene::{DeviceScene, Share};
 use super::workspace::Workspace;
+use crate::evaluate::shaders::{PROJECT_GROUP, project_comp};
 use crate::gpu::{ComputeStage, Device, Groups, Recorder, Stage};
 
 /// The stage.

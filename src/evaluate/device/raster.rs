@@ -2,9 +2,9 @@
 
 use anyhow::Result;
 
-use super::generated::{RASTER_GROUP, RASTER_WORDS, raster_comp, raster_shared_comp};
 use super::scene::{DeviceScene, Share};
 use super::workspace::Workspace;
+use crate::evaluate::shaders::{RASTER_GROUP, RASTER_WORDS, raster_comp, raster_shared_comp};
 use crate::gpu::{Buffer, ComputeStage, Device, Groups, Recorder, Stage};
 
 /// The stage.

@@ -2,9 +2,9 @@
 
 use anyhow::Result;
 
-use super::generated::raster_segments_comp;
 use super::scene::{DeviceScene, Share};
 use super::workspace::Workspace;
+use crate::evaluate::shaders::raster_segments_comp;
 use crate::gpu::{Buffer, ComputeStage, Device, Groups, Recorder, Stage};
 
 /// The stage.

@@ -2,12 +2,12 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use super::generated::layout;
 use super::raster::RasterStage;
 use super::scene::{DeviceScene, Share};
 use super::tests::{cameras, device, fetch, set_up_with};
 use super::workspace::Workspace;
 use crate::body::Body;
+use crate::evaluate::shaders::layout;
 use crate::evaluate::{PartQuad, compare, draw_quads};
 use crate::features::Observation;
 use crate::geometry::Camera;

@@ -5,7 +5,7 @@ use std::time::Instant;
 use anyhow::Result;
 
 use crate::evaluate::Objective;
-use crate::gpu::{DevicePass, OutOfMemory, PassTiming, Recording, Timing};
+use crate::gpu::{DevicePass, PassTiming, Recording, Timing};
 
 use super::scene::DeviceScene;
 
@@ -78,9 +78,11 @@ impl Runs {
         self.is_uploaded = false;
     }
 
-    /// Gives up what was recorded, and with it the memory that it holds.
-    pub(super) fn forget(&mut self) {
+    /// Gives up what was recorded, and with it the memory that it holds; whether there was anything.
+    pub(super) fn clear(&mut self) -> bool {
+        let is_any = !self.recorded.is_empty();
         self.recorded.clear();
+        is_any
     }
 
     /// Makes the run of `key` the latest; false when it is not recorded.
@@ -92,16 +94,6 @@ impl Runs {
         place.is_some()
     }
 
-    /// Whether what was just recorded failed for want of memory that other runs held, which now give it up: it is to be recorded
-    /// again.
-    pub(super) fn gave_way_to(&mut self, recorded: &Result<Vec<Recording>>) -> bool {
-        let is_short = recorded.as_ref().is_err_and(|error| error.is::<OutOfMemory>()) && !self.recorded.is_empty();
-        if is_short {
-            self.forget();
-        }
-        is_short
-    }
-
     /// Takes a run, now the latest.
     pub(super) fn add(&mut self, key: RunKey, recordings: Vec<Recording>) {
         if self.recorded.len() == MOST_RUNS {
@@ -111,7 +103,7 @@ impl Runs {
     }
 
     /// Runs the latest, with the newest upload ahead of it; `after` is called when its recording of that number is done.
-    pub(super) fn run(&mut self, model: &DeviceScene, mut after: impl FnMut(usize) -> Result<()>) -> Result<()> {
+    pub(super) fn run(&mut self, scene: &DeviceScene, mut after: impl FnMut(usize) -> Result<()>) -> Result<()> {
         if !self.is_uploaded {
             // The run that follows waits for it on the device.
             self.upload.submit()?;
@@ -124,6 +116,6 @@ impl Runs {
             }
             after(number)?;
         }
-        model.device.validation_log().check()
+        scene.device.validation_log().check()
     }
 }

@@ -2,12 +2,13 @@
 
 use anyhow::{Result, ensure};
 
-use super::generated::{PROJECT_GROUP, layout};
-use crate::evaluate::Projector;
-use crate::evaluate::batch::check_observations;
+use crate::body::Body;
+use crate::evaluate::batch::{check_observations, check_scene};
 use crate::evaluate::bit_planes::{WORD_PIXELS, bit_planes};
 use crate::evaluate::rig::{Rig, RigCamera, RigLens};
+use crate::evaluate::shaders::{PROJECT_GROUP, layout};
 use crate::features::Observation;
+use crate::geometry::Camera;
 use crate::gpu::{Buffer, Device, Memory, Recorder};
 
 /// Most parts of a body: a workgroup holds all parts of an image.
@@ -82,12 +83,15 @@ const PLANES: usize = 3;
 const PIXELS: usize = 4;
 
 impl DeviceScene {
-    /// For a body with these labels and its cameras. Observations are of nothing at first.
+    /// For a body and its cameras. Observations are of nothing at first.
     ///
     /// # Errors
-    /// When there are more parts than a workgroup takes, or the device has no room.
-    pub(crate) fn new(device: &Device, projector: &Projector, labels: Vec<u8>) -> Result<Self> {
-        let rig = &projector.rig;
+    /// When a picture has no pixel or is too large, the body has no part or more than a workgroup takes, or the device has no room.
+    pub(crate) fn new(device: &Device, body: &Body, cameras: &[Camera]) -> Result<Self> {
+        check_scene(body, cameras)?;
+        let rig = &Rig::new(body);
+        let labels: Vec<u8> = body.parts.iter().map(|part| part.label).collect();
+        let cameras: Vec<RigCamera> = cameras.iter().map(RigCamera::new).collect();
         ensure!(!rig.parts.is_empty(), "the body has no parts, expected at least one to draw");
         ensure!(
             rig.parts.len() <= MOST_PARTS,
@@ -95,14 +99,14 @@ impl DeviceScene {
             rig.parts.len()
         );
         let counts = Counts {
-            views: projector.cameras.len() as u32,
+            views: cameras.len() as u32,
             bones: rig.bones.len() as u32,
             parts: rig.parts.len() as u32,
             dofs: rig.dof_count as u32,
         };
         let mut camera_rows = Vec::new();
         let (mut planes, mut pixels) = (0, 0);
-        for camera in &projector.cameras {
+        for camera in &cameras {
             let [width, height] = camera.size;
             camera_rows.push(camera_row(camera, planes, pixels));
             planes += width.div_ceil(32) * height;
@@ -119,7 +123,7 @@ impl DeviceScene {
         Ok(Self {
             device: device.clone(),
             counts,
-            sizes: projector.cameras.iter().map(|camera| camera.size).collect(),
+            sizes: cameras.iter().map(|camera| camera.size).collect(),
             labels,
             bones: target(BONES),
             parts: target(PARTS),
@@ -132,7 +136,8 @@ impl DeviceScene {
     }
 
     /// Takes another body of as many bones, parts and degrees of freedom.
-    pub(crate) fn set_rig(&mut self, rig: &Rig) -> Result<()> {
+    pub(crate) fn set_body(&mut self, body: &Body) -> Result<()> {
+        let rig = &Rig::new(body);
         let found = (rig.bones.len() as u32, rig.parts.len() as u32, rig.dof_count as u32);
         ensure!(
             found == (self.counts.bones, self.counts.parts, self.counts.dofs),

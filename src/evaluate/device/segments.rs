@@ -4,20 +4,19 @@ use std::sync::Arc;
 
 use anyhow::Result;
 
-use super::generated::{MOST_SEGMENTS, layout};
+use super::host_buffers::HostCounts;
 use super::objective_segments::ObjectiveSegmentsStage;
 use super::raster_segments::RasterSegmentsStage;
 use super::scene::{DeviceScene, Share, Uploaded};
 use super::workspace::Workspace;
+use crate::evaluate::shaders::layout;
 use crate::evaluate::{Objective, SegmentSums};
 use crate::features::{Observation, Segments};
 use crate::gpu::{Buffer, Memory, Recorder};
 
-const _: () = assert!(Segments::MOST == MOST_SEGMENTS as usize, "the stages have as many segments as observations may");
-
 /// The segments of a frame's observations, what scores by them, and the sums of a run.
 #[derive(Debug)]
-pub(super) struct DeviceSegments {
+pub(crate) struct DeviceSegments {
     segments: Arc<Segments>,
     objective: ObjectiveSegmentsStage,
     /// Weights, the number of each label, observed areas.
@@ -133,8 +132,9 @@ impl DeviceSegments {
         recorder.copy("read segment sums", (&self.sums, 0), (&self.sums_out, 0), self.sums.size())
     }
 
-    /// The sums of a finished run, `[candidate][view][segment]` of the segments that there are.
-    pub(super) fn read(&self, sums: &mut [SegmentSums]) -> Result<()> {
+    /// The sums of a finished run, `[candidate][view][segment]` of the segments that there are; what the host itself counted stands
+    /// for the device's sums.
+    pub(super) fn read(&self, counts: &HostCounts, sums: &mut [SegmentSums]) -> Result<()> {
         let count = self.segments.as_slice().len();
         let mut found: Vec<layout::SegmentSum> = bytemuck::zeroed_vec(sums.len() / count * Segments::MOST);
         self.sums_out.read(0, &mut found)?;
@@ -143,6 +143,11 @@ impl DeviceSegments {
                 let place = image * Segments::MOST + segment;
                 let area_obs = self.areas[place % self.areas.len()];
                 *sums = SegmentSums { area_obs, area_model: found.area_model, overlap: found.overlap };
+            }
+            if counts.sums.get(image).is_some_and(Option::is_some) {
+                for (sums, found) in row.iter_mut().zip(&counts.segments[image * count..]) {
+                    *sums = SegmentSums { area_obs: sums.area_obs, ..*found };
+                }
             }
         }
         Ok(())

@@ -4,13 +4,13 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-use super::device_evaluator::DeviceEvaluator;
-use super::generated::layout;
 use super::pose::PoseStage;
 use super::project::ProjectStage;
 use super::scene::{DeviceScene, Share};
 use super::workspace::Workspace;
 use crate::body::Body;
+use crate::evaluate::device_evaluator::DeviceEvaluator;
+use crate::evaluate::shaders::layout;
 use crate::evaluate::{Objective, Projector};
 use crate::geometry::{BrownConrady, Camera, Lens, Tsai};
 pub(super) use crate::gpu::test_device::device;
@@ -111,8 +111,7 @@ pub(super) fn set_up_with(
     poses: &[f32],
 ) -> (Projector, DeviceScene, Workspace, Share) {
     let projector = Projector::new(body, cameras);
-    let labels = body.parts.iter().map(|part| part.label).collect();
-    let model = DeviceScene::new(device, &projector, labels).unwrap();
+    let model = DeviceScene::new(device, body, cameras).unwrap();
     let candidates = (poses.len() / body.dof_count()) as u32;
     let workspace = Workspace::new(device, model.counts, candidates).unwrap();
     let staging = device.buffer::<f32>("poses staging", poses.len(), Memory::Upload).unwrap();

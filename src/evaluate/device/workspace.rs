@@ -2,8 +2,8 @@
 
 use anyhow::{Result, ensure};
 
-use super::generated::layout;
 use super::scene::Counts;
+use crate::evaluate::shaders::layout;
 use crate::gpu::{Buffer, Device, Memory, OutOfMemory};
 
 /// Memory that a batch of candidates works in, and the poses and results of a whole run.

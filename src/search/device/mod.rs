@@ -17,8 +17,8 @@ use anyhow::{Context, Result, bail, ensure};
 use super::hierarchical::SwarmStage;
 use super::shaders::{SEARCH_GROUP, layout, spread_comp};
 use super::{Estimate, SearchKind, SearchSettings, SearchSpace, check_start};
+use crate::evaluate::DeviceEvaluator;
 use crate::evaluate::Objective;
-use crate::evaluate::device::DeviceEvaluator;
 use crate::gpu::{Buffer, Device, DevicePass, Groups, Memory, PassTiming, Recorder, Recording, StagedBuffer, Timing};
 
 /// What a search on a device found in a frame.

@@ -7,17 +7,14 @@ use anyhow::{Result, anyhow, bail, ensure};
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use roxmltree::Document;
 
-use crate::geometry::{BrownConrady, Camera, Lens, rodrigues_matrix};
-
-/// No camera has more pixels a side, and no picture that large can be worked on.
-const LARGEST_SIDE: f64 = 16384.0;
+use crate::geometry::{BrownConrady, Camera, LARGEST_SIDE, Lens, rodrigues_matrix};
 
 /// A length in the file's own unit beyond which a number is damage, not a place.
 const FARTHEST: f64 = 1e9;
 
 /// A picture's size, which some programs write as 1088.0.
 pub(super) fn picture_size([width, height]: [f64; 2]) -> Result<[u32; 2]> {
-    let sane = |side: f64| side.fract() == 0.0 && (1.0..=LARGEST_SIDE).contains(&side);
+    let sane = |side: f64| side.fract() == 0.0 && (1.0..=f64::from(LARGEST_SIDE)).contains(&side);
     ensure!(
         sane(width) && sane(height),
         "size is [{width}, {height}], expected whole numbers from 1 to {LARGEST_SIDE}: width, then height"

@@ -4,9 +4,9 @@ use anyhow::Result;
 
 use super::framebuffer::Framebuffer;
 use super::settings::Gathering;
-use crate::evaluate::device::generated::{compare_shared_comp, compare_subgroup_comp, compare_texels_comp};
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::workspace::Workspace;
+use crate::evaluate::shaders::{compare_shared_comp, compare_subgroup_comp, compare_texels_comp};
 use crate::gpu::{ComputeStage, Device, Groups, Recorder, Shader, Stage};
 
 impl Gathering {

@@ -4,11 +4,11 @@ use anyhow::Result;
 
 use super::framebuffer::Framebuffer;
 use super::settings::{Gathering, Packing};
-use crate::evaluate::device::generated::{
-    LABELS, SHORT_CODES, compare_shared_segments_comp, compare_subgroup_segments_comp, compare_texels_segments_comp,
-};
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::workspace::Workspace;
+use crate::evaluate::shaders::{
+    LABELS, SHORT_CODES, compare_shared_segments_comp, compare_subgroup_segments_comp, compare_texels_segments_comp,
+};
 use crate::gpu::{Buffer, ComputeStage, Device, Groups, Recorder, Shader, Stage};
 
 /// The stage.

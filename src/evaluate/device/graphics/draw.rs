@@ -5,11 +5,11 @@ use anyhow::Result;
 
 use super::framebuffer::Framebuffer;
 use super::settings::{Coverage, Packing};
-use crate::evaluate::device::generated::{
-    draw_border_vert, draw_exact_frag, draw_exact_vert, draw_fill_vert, draw_plain_frag, layout,
-};
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::workspace::Workspace;
+use crate::evaluate::shaders::{
+    draw_border_vert, draw_exact_frag, draw_exact_vert, draw_fill_vert, draw_plain_frag, layout,
+};
 use crate::gpu::{
     Blend, Buffer, Clear, Device, Draw, Drawing, Format, Memory, Pipeline, Recorder, Stage, Target, Topology, Viewport,
 };

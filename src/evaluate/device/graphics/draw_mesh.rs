@@ -6,10 +6,8 @@ use anyhow::Result;
 use super::framebuffer::Framebuffer;
 use super::mesh::{DeviceMesh, MeshWorkspace};
 use super::tiles::CANDIDATES_A_TILE;
-use crate::evaluate::device::generated::{
-    MESH_GROUP, PACK_DEPTH, draw_plain_frag, mesh_edge_vert, mesh_fill_vert, outline_comp,
-};
 use crate::evaluate::device::scene::{DeviceScene, Share};
+use crate::evaluate::shaders::{MESH_GROUP, PACK_DEPTH, draw_plain_frag, mesh_edge_vert, mesh_fill_vert, outline_comp};
 use crate::gpu::{
     Blend, Clear, ComputeStage, Device, Draw, Drawing, Format, Groups, Pipeline, Recorder, Stage, Target, Topology,
     Viewport,

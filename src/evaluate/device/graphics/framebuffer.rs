@@ -4,7 +4,7 @@ use anyhow::Result;
 
 use super::settings::Packing;
 use super::tiles::TileLayout;
-use crate::evaluate::device::generated::layout;
+use crate::evaluate::shaders::layout;
 use crate::gpu::{Buffer, Device, Format, Image, ImageUse, Memory};
 
 /// The memory of a [`TileLayout`].

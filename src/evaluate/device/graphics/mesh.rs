@@ -5,8 +5,8 @@ use anyhow::{Result, ensure};
 use super::tiles::CANDIDATES_A_TILE;
 use crate::body::Skinning;
 use crate::evaluate::MeshProjector;
-use crate::evaluate::device::generated::{OUTLINE_VERTICES, layout};
 use crate::evaluate::device::scene::{Counts, Share, Uploaded};
+use crate::evaluate::shaders::{OUTLINE_VERTICES, layout};
 use crate::gpu::{Buffer, Device, Memory, OutOfMemory, Recorder};
 
 /// Most workgroups in y on any device.

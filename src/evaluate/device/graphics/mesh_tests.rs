@@ -18,12 +18,12 @@ use super::settings::{Comparison, Gathering, GraphicsSettings, HostComparison, P
 use super::skin::SkinStage;
 use super::tiles::TileLayout;
 use crate::body::{Body, FrustumBase, Mesh, Skinning};
-use crate::evaluate::device::device_evaluator::DeviceEvaluator;
-use crate::evaluate::device::generated::layout;
 use crate::evaluate::device::pose::PoseStage;
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::tests::{device, fetch, poses, recorded_fitness};
 use crate::evaluate::device::workspace::Workspace;
+use crate::evaluate::device_evaluator::DeviceEvaluator;
+use crate::evaluate::shaders::layout;
 use crate::evaluate::{
     CandidateImage, Components, EDGE_BIAS, Evaluator, MeshProjector, NEAR, NEAREST, Objective, Reference, compare,
 };
@@ -104,9 +104,8 @@ struct Scene {
 }
 
 impl Scene {
-    fn new(device: &Device, projector: &MeshProjector, body: &Body, poses: &[f32]) -> Self {
-        let labels = body.parts.iter().map(|part| part.label).collect();
-        let model = DeviceScene::new(device, &projector.projector, labels).unwrap();
+    fn new(device: &Device, cameras: &[Camera], body: &Body, poses: &[f32]) -> Self {
+        let model = DeviceScene::new(device, body, cameras).unwrap();
         let candidates = (poses.len() / body.dof_count()) as u32;
         let workspace = Workspace::new(device, model.counts, candidates).unwrap();
         let staging = device.buffer::<f32>("poses staging", poses.len(), Memory::Upload).unwrap();
@@ -154,9 +153,8 @@ impl Scene {
 }
 
 #[test]
-fn the_shaders_numbers_are_the_reference_s() {
-    use crate::evaluate::device::generated::{MESH_EDGE_BIAS, MESH_NEAR, MESH_NEAREST};
-    assert_eq!([MESH_NEAR, MESH_EDGE_BIAS, MESH_NEAREST], [NEAR, EDGE_BIAS, NEAREST]);
+fn depths_are_those_of_the_definition() {
+    assert_eq!([NEAR, EDGE_BIAS, NEAREST], [100.0, 30.0, 200.0]);
 }
 
 #[test]
@@ -168,7 +166,7 @@ fn vertices_are_the_reference_s() {
     meshes.extend(person("vertices_are_the_reference_s", &body));
     for (name, mesh) in meshes {
         let projector = MeshProjector::new(&body, mesh, &cameras).unwrap();
-        let scene = Scene::new(&device, &projector, &body, &poses);
+        let scene = Scene::new(&device, &cameras, &body, &poses);
         let Scene { model, workspace, share, .. } = &scene;
         let mesh = DeviceMesh::new(&device, &projector).unwrap();
         let room = MeshWorkspace::new(&device, model.counts, &mesh, share.candidates).unwrap();
@@ -303,7 +301,7 @@ fn pictures_are_the_reference_s_on_every_rung_and_of_a_person() {
     let mut all = Worst::default();
     for (name, mesh) in ladder(&body).into_iter().chain(person(test, &body)) {
         let projector = MeshProjector::new(&body, mesh.clone(), &cameras).unwrap();
-        let scene = Scene::new(&device, &projector, &body, &poses);
+        let scene = Scene::new(&device, &cameras, &body, &poses);
         let (images, words, size) = scene.pictures(&projector);
         let reference = Reference::of_mesh(&body, mesh, &cameras).unwrap();
         let seen: Vec<Observation> =
@@ -384,10 +382,9 @@ fn channels_do_not_touch_each_other() {
     let distances = [-1500.0, -500.0, 500.0, 1500.0];
     for order in [[0, 1, 2, 3], [3, 2, 1, 0], [1, 3, 0, 2]] {
         let poses: Vec<f32> = order.iter().flat_map(|&place| standing(&body, distances[place], 0.0)).collect();
-        let (together, ..) = Scene::new(&device, &projector, &body, &poses).pictures(&projector);
+        let (together, ..) = Scene::new(&device, &cameras, &body, &poses).pictures(&projector);
         for candidate in 0..4 {
-            let (alone, ..) =
-                Scene::new(&device, &projector, &body, row(&poses, &body, candidate)).pictures(&projector);
+            let (alone, ..) = Scene::new(&device, &cameras, &body, row(&poses, &body, candidate)).pictures(&projector);
             for view in 0..2 {
                 let [fill, edge, label] = differences(&together[2 * candidate + view], &alone[view]);
                 // A channel's depths are rounded a bit coarser or finer than another's.
@@ -419,7 +416,7 @@ fn a_moved_vertex_is_noticed() {
         let mut moved = mesh.clone();
         moved.vertices[5].position.y += by;
         let projector = MeshProjector::new(&body, moved, &cameras).unwrap();
-        let (images, ..) = Scene::new(&device, &projector, &body, &pose).pictures(&projector);
+        let (images, ..) = Scene::new(&device, &cameras, &body, &pose).pictures(&projector);
         let expected = reference.draw(&pose, 0);
         let seen = observed(&expected);
         let tolerance = Tolerance::of(&device);
@@ -491,7 +488,7 @@ fn the_backend_follows_the_reference_whatever_the_settings_and_limits() {
         check_backend(&mut graphics, &mut reference, &close, &what);
         assert_eq!(graphics.tiles().1 < 13, lower.is_some(), "batches of {}", graphics.tiles().1);
         if lower.is_none() {
-            let drawn = graphics.draw(&close[..body.dof_count()], 1).unwrap();
+            let drawn = graphics.drawn(&close[..body.dof_count()], 1).unwrap().unwrap();
             let [fill, edge, _] = differences(&drawn, &reference.draw(&close[..body.dof_count()], 1));
             assert!(!Tolerance::of(&device).is_exact || fill + edge <= 1, "{fill}, {edge}");
         }

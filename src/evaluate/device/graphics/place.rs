@@ -3,9 +3,9 @@
 use anyhow::Result;
 
 use super::framebuffer::Framebuffer;
-use crate::evaluate::device::generated::{PLACE_GROUP, place_comp};
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::workspace::Workspace;
+use crate::evaluate::shaders::{PLACE_GROUP, place_comp};
 use crate::gpu::{ComputeStage, Device, Groups, Recorder, Stage};
 
 /// The stage.

@@ -3,9 +3,9 @@
 
 use anyhow::Result;
 
-use crate::evaluate::device::generated::{PROJECT_GROUP, layout, order_comp, project_feedback_vert};
 use crate::evaluate::device::scene::{Counts, DeviceScene, Share};
 use crate::evaluate::device::workspace::Workspace;
+use crate::evaluate::shaders::{PROJECT_GROUP, layout, order_comp, project_feedback_vert};
 use crate::gpu::{
     Blend, Buffer, ComputeStage, Device, Draw, Drawing, Feedback, Groups, Memory, Pipeline, Recorder, Stage, Topology,
     Viewport,

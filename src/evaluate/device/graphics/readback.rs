@@ -7,7 +7,7 @@ use super::framebuffer::Framebuffer;
 use super::settings::HostComparison;
 use super::tiles::{CANDIDATES_A_TILE, TileLayout};
 use crate::evaluate::SegmentSums;
-use crate::evaluate::device::generated::layout;
+use crate::evaluate::shaders::layout;
 use crate::features::{Observation, Segments};
 use crate::gpu::{Buffer, Device, Memory, Recorder};
 

@@ -1,8 +1,6 @@
 //! Segments compared in a framebuffer: the part of a drawn pixel is read from its byte, a label, or a rank that the image's parts in
 //! their order tell the label of.
 
-use std::sync::Arc;
-
 use anyhow::Result;
 
 use super::compare_segments::{CompareSegmentsStage, ObservedSegments};
@@ -10,19 +8,18 @@ use super::drawn::Drawn;
 use super::framebuffer::Framebuffer;
 use super::readback::{ByteNumbers, Pictures};
 use super::settings::{Gathering, HostComparison, Packing};
-use crate::evaluate::device::generated::layout;
 use crate::evaluate::device::raster_segments::RasterSegmentsStage;
 use crate::evaluate::device::scene::{DeviceScene, Share, Uploaded, packed};
 use crate::evaluate::device::segments::DeviceSegments;
 use crate::evaluate::device::workspace::Workspace;
-use crate::evaluate::{Objective, SegmentSums};
+use crate::evaluate::segments::SegmentSums;
+use crate::evaluate::shaders::layout;
 use crate::features::{Observation, Segments};
 use crate::gpu::{Buffer, Memory, Recorder};
 
-/// The segments of a frame's observations and the stages that compare a framebuffer with them.
+/// The stages that compare a framebuffer segment by segment, and what they need beside the segments themselves.
 #[derive(Debug)]
 pub(super) struct GraphicsSegments {
-    scored: DeviceSegments,
     compare: CompareSegmentsStage,
     /// The number of every observed pixel, packed as the model's bytes.
     numbers: Uploaded,
@@ -48,7 +45,7 @@ impl GraphicsSegments {
     pub(super) fn new(
         (model, workspace): (&DeviceScene, &Workspace),
         drawn: &Drawn,
-        segments: &Arc<Segments>,
+        segments: &Segments,
         how: Comparing,
     ) -> Result<Self> {
         let device = &model.device;
@@ -65,7 +62,6 @@ impl GraphicsSegments {
         );
         let words = model.pixels.size() as usize / size_of::<u32>();
         let mut made = Self {
-            scored: DeviceSegments::new(model, segments, workspace.candidates)?,
             compare: compare?,
             numbers: Uploaded::new(device, "observed segment numbers", &vec![0_u32; words])?,
             listed: listed?,
@@ -83,16 +79,12 @@ impl GraphicsSegments {
         model.device.buffer::<layout::Quad>("quads readback", count, Memory::Readback)
     }
 
-    /// Makes room for the runs and batches of another workspace.
+    /// Makes room for the batches of another workspace.
     pub(super) fn reserve(&mut self, model: &DeviceScene, workspace: &Workspace) -> Result<()> {
         if self.quads_out.is_some() {
             self.quads_out = Some(Self::quads_room(model, workspace)?);
         }
-        self.scored.reserve(model, workspace.candidates)
-    }
-
-    pub(super) fn segments(&self) -> &Arc<Segments> {
-        self.scored.segments()
+        Ok(())
     }
 
     /// Takes the observations of a frame, which have these segments.
@@ -102,18 +94,12 @@ impl GraphicsSegments {
             let rows = segmentation.numbers().chunks_exact(segmentation.dimensions().0 as usize);
             self.numbers.staging.write(first as usize, &rows.flat_map(packed).collect::<Vec<u32>>())?;
         }
-        self.scored.observe(model, observations)
+        Ok(())
     }
 
     /// Records the copies to the device's own memory.
     pub(super) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
-        self.scored.record_upload(recorder)?;
         self.numbers.record(recorder)
-    }
-
-    /// Records an empty start of a run: batches add to it.
-    pub(super) fn record_start(&self, recorder: &mut Recorder) -> Result<()> {
-        recorder.fill("clear segments", &self.scored.sums, 0)
     }
 
     /// Records the comparison of a share on the device.
@@ -121,11 +107,12 @@ impl GraphicsSegments {
         &self,
         recorder: &mut Recorder,
         scene: (&DeviceScene, &Workspace),
+        segments: &DeviceSegments,
         framebuffer: &Framebuffer,
         share: Share,
     ) -> Result<()> {
-        let observed = ObservedSegments { table: &self.scored.table.target, numbers: &self.numbers.target };
-        self.compare.record(recorder, scene, framebuffer, observed, &self.scored.sums, share)
+        let observed = ObservedSegments { table: &segments.table.target, numbers: &self.numbers.target };
+        self.compare.record(recorder, scene, framebuffer, observed, &segments.sums, share)
     }
 
     /// Records what the comparison of a share on the host needs beside the framebuffer.
@@ -146,41 +133,25 @@ impl GraphicsSegments {
         &self,
         recorder: &mut Recorder,
         scene: (&DeviceScene, &Workspace),
+        segments: &DeviceSegments,
         framebuffer: &Framebuffer,
         share: Share,
     ) -> Result<()> {
         match &self.listed {
-            Some(raster) => self.scored.record_sums(recorder, raster, scene, &framebuffer.listed, share),
+            Some(raster) => segments.record_sums(recorder, raster, scene, &framebuffer.listed, share),
             None => Ok(()),
         }
     }
 
-    /// Records the fitness of the run.
-    pub(super) fn record_objective(
-        &self,
-        recorder: &mut Recorder,
-        scene: (&DeviceScene, &Workspace),
-        run: (&Objective, u32),
-        fitness: &Buffer,
-    ) -> Result<()> {
-        self.scored.record_objective(recorder, scene, run, fitness)
-    }
-
-    /// Records the copy of the sums to the host.
-    pub(super) fn record_readback(&self, recorder: &mut Recorder) -> Result<()> {
-        self.scored.record_readback(recorder)
-    }
-
-    /// What the host counts in the pictures of a finished batch, `[image][segment]`; anything of images that are not drawn there.
+    /// What the host counts in the pictures of a finished batch of a body of `parts` parts, `[image][segment]`; anything of images that are not drawn there.
     pub(super) fn count(
         &self,
-        model: &DeviceScene,
+        segments: &Segments,
+        parts: usize,
         pictures: &Pictures<'_>,
         observations: &[Observation],
         how: HostComparison,
     ) -> Result<Vec<SegmentSums>> {
-        let segments = self.segments();
-        let parts = model.counts.parts as usize;
         let mut quads: Vec<layout::Quad> = Vec::new();
         if let Some(quads_out) = &self.quads_out {
             quads = bytemuck::zeroed_vec(pictures.count() * parts);
@@ -197,10 +168,5 @@ impl GraphicsSegments {
         };
         let numbers = |image| if self.packing == Packing::Max { by_rank(image) } else { by_label };
         Ok(pictures.compare_segments(observations, segments.as_slice().len(), numbers, how))
-    }
-
-    /// The sums of a finished run, `[candidate][view][segment]`.
-    pub(super) fn read(&self, sums: &mut [SegmentSums]) -> Result<()> {
-        self.scored.read(sums)
     }
 }

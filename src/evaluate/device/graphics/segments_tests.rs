@@ -16,10 +16,12 @@ use super::segments::{Comparing, GraphicsSegments};
 use super::settings::{Comparison, Coverage, Gathering, GraphicsSettings, HostComparison, Packing, Tiling};
 use super::tests::{exact_settings, lowered, pictures};
 use crate::body::{Body, Mesh};
-use crate::evaluate::device::device_evaluator::DeviceEvaluator;
-use crate::evaluate::device::generated::layout;
+use crate::evaluate::device::host_buffers::HostCounts;
 use crate::evaluate::device::raster_tests::{Random, body_of, observations, odd_cameras};
+use crate::evaluate::device::segments::DeviceSegments;
 use crate::evaluate::device::tests::{cameras, device, fetch, poses, recorded_fitness, set_up_with};
+use crate::evaluate::device_evaluator::DeviceEvaluator;
+use crate::evaluate::shaders::layout;
 use crate::evaluate::{Components, Evaluator, Objective, ObjectiveKind, Reference, SegmentSums};
 use crate::features::{Observation, Segment, Segmentation, Segments};
 use crate::gpu::{DeviceSettings, Memory, Timing};
@@ -114,18 +116,21 @@ fn segments_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
                     let how = Comparing { packing, gathering, bands, on_host: true };
                     let scene = (&model, &workspace);
                     let mut compared = GraphicsSegments::new(scene, &drawn, &segments, how).unwrap();
+                    let mut scored = DeviceSegments::new(&model, &segments, candidates).unwrap();
+                    scored.observe(&model, &seen).unwrap();
                     compared.observe(&model, &seen).unwrap();
                     let sums = |texels: &[u32]| {
                         staging.write(0, texels).unwrap();
                         let mut recorder = device.recorder(Timing::Off).unwrap();
+                        scored.record_upload(&mut recorder).unwrap();
                         compared.record_upload(&mut recorder).unwrap();
                         place.record(&mut recorder, &model, &workspace, &framebuffer, share).unwrap();
                         let area = [0, 0, width, height];
                         recorder.write_image("texels", &framebuffer.colour, area, (&staging, 0)).unwrap();
-                        compared.record_start(&mut recorder).unwrap();
-                        compared.record_comparison(&mut recorder, scene, &framebuffer, share).unwrap();
+                        recorder.fill("clear segments", &scored.sums, 0).unwrap();
+                        compared.record_comparison(&mut recorder, scene, &scored, &framebuffer, share).unwrap();
                         compared.record_orders(&mut recorder, scene, share).unwrap();
-                        compared.record_readback(&mut recorder).unwrap();
+                        scored.record_readback(&mut recorder).unwrap();
                         copy.record(&mut recorder, &framebuffer).unwrap();
                         recorder.finish().unwrap().run().unwrap();
                         let drawn = copy.read(&framebuffer, candidates).unwrap();
@@ -135,10 +140,10 @@ fn segments_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
                             .map(|sums| sums.unwrap_or(bytemuck::Zeroable::zeroed()))
                             .collect();
                         let expected = [HostComparison::Scalar, HostComparison::Simd]
-                            .map(|how| compared.count(&model, &drawn, &seen, how).unwrap());
+                            .map(|how| compared.count(&segments, parts, &drawn, &seen, how).unwrap());
                         assert_eq!(expected[0], expected[1]);
                         let mut found = vec![SegmentSums::default(); images * count];
-                        compared.read(&mut found).unwrap();
+                        scored.read(&HostCounts::default(), &mut found).unwrap();
                         found.iter_mut().for_each(|sums| sums.area_obs = 0);
                         let [expected, _] = expected;
                         let whole_found: Vec<layout::Sums> = fetch(&device, &workspace.sums, images);

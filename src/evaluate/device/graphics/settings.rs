@@ -1,6 +1,6 @@
 //! The choices of the graphics backend: each is a row of the benchmark.
 
-use crate::evaluate::device::generated::{PACK_DEPTH, PACK_MAX};
+use crate::evaluate::shaders::{PACK_DEPTH, PACK_MAX};
 use crate::gpu::Capabilities;
 
 /// How four candidates share a framebuffer.

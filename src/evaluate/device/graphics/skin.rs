@@ -4,9 +4,9 @@ use anyhow::Result;
 
 use super::mesh::{DeviceMesh, MeshWorkspace};
 use crate::body::Skinning;
-use crate::evaluate::device::generated::{MESH_GROUP, bind_comp, skin_comp};
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::workspace::Workspace;
+use crate::evaluate::shaders::{MESH_GROUP, bind_comp, skin_comp};
 use crate::gpu::{ComputeStage, Device, Groups, Recorder, Stage};
 
 /// The stage.

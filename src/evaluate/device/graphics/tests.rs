@@ -12,12 +12,12 @@ use super::readback::FramebufferCopy;
 use super::settings::{Comparison, Coverage, Gathering, GraphicsSettings, HostComparison, Packing, Projection, Tiling};
 use super::tiles::TileLayout;
 use crate::body::Body;
-use crate::evaluate::device::device_evaluator::DeviceEvaluator;
-use crate::evaluate::device::generated::layout;
 use crate::evaluate::device::pose::PoseStage;
 use crate::evaluate::device::project::ProjectStage;
 use crate::evaluate::device::raster_tests::{Random, image, observations, odd_cameras, put};
 use crate::evaluate::device::tests::{cameras, device, fetch, poses, recorded_fitness, set_up, set_up_with};
+use crate::evaluate::device_evaluator::DeviceEvaluator;
+use crate::evaluate::shaders::layout;
 use crate::evaluate::{Components, Evaluator, Objective, ObjectiveKind, Reference, draw_quads};
 use crate::features::Observation;
 use crate::geometry::Camera;
@@ -220,12 +220,15 @@ fn one_pose_is_drawn_as_the_reference_draws_it() {
         let mut graphics = Graphics::on(&device, &body, &cameras, settings).unwrap();
         for pose in poses.chunks_exact(body.dof_count()) {
             for view in 0..cameras.len() {
-                assert!(graphics.draw(pose, view).unwrap() == reference.draw(pose, view), "{packing:?}, view {view}");
+                assert!(
+                    graphics.drawn(pose, view).unwrap().unwrap() == reference.draw(pose, view),
+                    "{packing:?}, view {view}"
+                );
             }
         }
-        let error = graphics.draw(&poses[..body.dof_count()], 2).unwrap_err().to_string();
+        let error = graphics.drawn(&poses[..body.dof_count()], 2).unwrap_err().to_string();
         assert_eq!(error, "there are 2 views, and view 2 was asked for");
-        assert!(graphics.draw(&poses[..3], 0).is_err());
+        assert!(graphics.drawn(&poses[..3], 0).is_err());
     }
     drop(device);
     assert_eq!(log.messages(), Vec::<String>::new());

@@ -1,9 +1,10 @@
 //! How the images of a batch share a framebuffer: tiles of four candidates of one view, one a channel (SPEC A9). Arithmetic
-//! alone; the memory is the [`super::Framebuffer`]'s.
+//! alone; the memory is the framebuffer's.
 
 use anyhow::{Result, bail};
 
-use crate::evaluate::device::generated::layout;
+use crate::evaluate::shaders::layout;
+use crate::features::Observation;
 
 /// Candidates of a tile, one a channel.
 pub(crate) const CANDIDATES_A_TILE: u32 = 4;
@@ -116,9 +117,62 @@ impl TileLayout {
     }
 }
 
+/// The tiles of views of which only the observation is known: its silhouette, a quarter larger; the picture when there is none.
+/// Where a search has recorded itself with tiles, those, as long as they are large enough.
+pub(crate) fn first_tiles(observations: &[Observation], recorded: Option<&Vec<[u32; 2]>>) -> Vec<[u32; 2]> {
+    let first = |observation: &Observation| {
+        let picture = [observation.width, observation.height];
+        observation.silhouette().bounds().map_or(picture, |seen| {
+            let sides = [seen.x1 - seen.x0, seen.y1 - seen.y0];
+            [0, 1].map(|axis| (sides[axis] + sides[axis] / 4 + 16).min(picture[axis]))
+        })
+    };
+    let seen: Vec<[u32; 2]> = observations.iter().map(first).collect();
+    let Some(recorded) = recorded else { return seen };
+    let is_outgrown = seen.iter().zip(recorded).any(|(seen, tile)| seen[0] > tile[0] || seen[1] > tile[1]);
+    if !is_outgrown {
+        return recorded.clone();
+    }
+    // With room to grow into, so that this does not happen in every frame of an approach.
+    let grown = seen.iter().zip(observations).map(|(seen, observation)| {
+        let picture = [observation.width, observation.height];
+        [0, 1].map(|axis| (seen[axis] + seen[axis] / 4).min(picture[axis]))
+    });
+    grown.collect()
+}
+
+/// The tiles that views need for what their images touched, `bounds[candidate][view]`, one image in `spare` left out; and whether
+/// one was too small. `pictures` are the sizes of the views' pictures.
+pub(crate) fn fitted_tiles(
+    tiles: &[[u32; 2]],
+    bounds: &[layout::Bounds],
+    pictures: &[[u32; 2]],
+    spare: usize,
+) -> (Vec<[u32; 2]>, bool) {
+    let mut tiles = tiles.to_vec();
+    let mut is_outgrown = false;
+    for (view, tile) in tiles.iter_mut().enumerate() {
+        let mut extents: Vec<[u32; 2]> = bounds
+            .iter()
+            .skip(view)
+            .step_by(pictures.len())
+            .filter(|bounds| bounds.low[0] < bounds.high[0] && bounds.low[1] < bounds.high[1])
+            .map(|bounds| {
+                let side = |axis: usize, low: i32| (bounds.high[axis] - low).unsigned_abs();
+                [side(0, bounds.low[0] & !3), side(1, bounds.low[1])]
+            })
+            .collect();
+        if let Some(needed) = fitting_tile(&mut extents, spare) {
+            is_outgrown |= needed[0] > tile[0].next_multiple_of(4) || needed[1] > tile[1];
+            *tile = next_tile(*tile, needed, pictures[view]);
+        }
+    }
+    (tiles, is_outgrown)
+}
+
 /// The tile that a view needs so that all but one in `spare` of its images fit: `extents` are what the images touch, [width, height]
 /// from the word of four pixels on where they begin, pixels. None when nothing is seen.
-pub(crate) fn fitting_tile(extents: &mut [[u32; 2]], spare: usize) -> Option<[u32; 2]> {
+fn fitting_tile(extents: &mut [[u32; 2]], spare: usize) -> Option<[u32; 2]> {
     let last = extents.len().checked_sub(1)?;
     let place = last - extents.len() / spare;
     let mut side = |axis: usize| {
@@ -130,7 +184,7 @@ pub(crate) fn fitting_tile(extents: &mut [[u32; 2]], spare: usize) -> Option<[u3
 
 /// What becomes of a tile of size `now` when `needed` is what its images took: nothing while they fit it and do not waste half
 /// of it, else their need and a margin, at most the picture.
-pub(crate) fn next_tile(now: [u32; 2], needed: [u32; 2], picture: [u32; 2]) -> [u32; 2] {
+fn next_tile(now: [u32; 2], needed: [u32; 2], picture: [u32; 2]) -> [u32; 2] {
     const MARGIN: u32 = 8;
     let wide = picture[0].next_multiple_of(4);
     let wanted = [(needed[0] + MARGIN).next_multiple_of(4).min(wide), (needed[1] + MARGIN).min(picture[1])];

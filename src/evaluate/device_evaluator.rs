@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 
-use crate::evaluate::Objective;
+use super::objective::Objective;
 use crate::gpu::{Buffer, Device, Recorder};
 
 /// An evaluator whose poses and fitness stay on the device, so that all iterations of a frame need no host between them.

@@ -1,0 +1,330 @@
+//! The evaluator on a Vulkan device, whichever way candidates are drawn: uploads, recorded runs, segments, the objective, and what
+//! a search on the device records.
+
+use std::sync::Arc;
+
+use anyhow::{Result, ensure};
+
+use super::host_buffers::{HostBuffers, HostCounts};
+use super::rasteriser::Rasteriser;
+use super::resources::Resources;
+use super::runs::Runs;
+use super::scene::DeviceScene;
+use super::segments::DeviceSegments;
+use super::workspace::Workspace;
+use crate::body::Body;
+use crate::evaluate::batch::check_batch;
+use crate::evaluate::components::Components;
+use crate::evaluate::device_evaluator::DeviceEvaluator;
+use crate::evaluate::evaluator::{Evaluator, Footprint, check_segment_batch};
+use crate::evaluate::objective::Objective;
+use crate::evaluate::raster::CandidateImage;
+use crate::evaluate::segments::{SegmentSums, segments_of};
+use crate::features::{Observation, Segments};
+use crate::gpu::{Buffer, Device, DeviceFacts, DevicePass, OutOfMemory, PassTiming, Recorder, Recording, Timing};
+
+/// An evaluator on a Vulkan device that draws by `R`.
+#[derive(Debug)]
+pub struct DeviceBackend<R> {
+    pub(super) resources: Resources,
+    pub(super) rasteriser: R,
+    runs: Runs,
+    /// Whether a search has recorded itself with these segments and this memory, and whether the newest observations have others
+    /// or have outgrown it since.
+    is_recorded: bool,
+    is_outgrown: bool,
+}
+
+impl<R> DeviceBackend<R> {
+    /// The device it works on.
+    pub fn facts(&self) -> &DeviceFacts {
+        self.resources.scene.device.facts()
+    }
+
+    /// Has every evaluation from now on timed by stage ([`Self::timings`]).
+    pub fn time_stages(&mut self, timing: Timing) {
+        self.runs.time_stages(timing);
+    }
+
+    /// The times of the last evaluation's passes.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn timings(&self) -> Result<Vec<PassTiming>> {
+        self.runs.timings()
+    }
+}
+
+#[allow(private_bounds, reason = "the ways to draw are the house's own")]
+impl<R: Rasteriser> DeviceBackend<R> {
+    /// For a scene, drawn as `rasteriser` makes it.
+    pub(super) fn with(scene: DeviceScene, rasteriser: impl FnOnce(&DeviceScene) -> Result<R>) -> Result<Self> {
+        let mut rasteriser = rasteriser(&scene)?;
+        let resources = Resources::new(scene)?;
+        rasteriser.set_workspace(&resources.scene, &resources.workspace)?;
+        let upload = record_upload(&resources, &rasteriser)?;
+        Ok(Self { resources, rasteriser, runs: Runs::new(upload), is_recorded: false, is_outgrown: false })
+    }
+
+    /// Exchanges the body for another one of as many bones, parts and degrees of freedom; what was observed stays.
+    ///
+    /// # Errors
+    /// When their numbers differ, or a mesh is drawn, which belongs to its body.
+    pub fn set_body(&mut self, body: &Body) -> Result<()> {
+        self.rasteriser.check_exchange()?;
+        self.resources.scene.set_body(body)?;
+        self.runs.outdate_upload();
+        Ok(())
+    }
+
+    /// Host to host: the poses, all stages, fitness or sums. One recording, or with the comparison on the host one a batch.
+    fn record_run(&self, objective: Option<&Objective>, candidates: u32) -> Result<Vec<Recording>> {
+        let Resources { scene, workspace, host, segments, pose, .. } = &self.resources;
+        let on_host = self.rasteriser.compares_on_host();
+        let mut recorder = scene.device.recorder(self.runs.timing())?;
+        host.record_poses(&mut recorder, (scene, workspace), candidates)?;
+        let mut recorded = Vec::new();
+        for share in self.resources.shares(candidates, self.rasteriser.batch(workspace))? {
+            if on_host && share.first > 0 {
+                let next = scene.device.recorder(self.runs.timing())?;
+                recorded.push(std::mem::replace(&mut recorder, next));
+            }
+            pose.record(&mut recorder, scene, workspace, share)?;
+            self.rasteriser.record_host_share(&mut recorder, &self.resources, share)?;
+        }
+        match objective.filter(|_| !on_host) {
+            Some(objective) => {
+                self.resources.record_objective(&mut recorder, objective, candidates)?;
+                host.record_fitness(&mut recorder, candidates)?;
+            }
+            None => {
+                host.record_sums(&mut recorder, (scene, workspace), candidates)?;
+                segments.as_ref().map_or(Ok(()), |segments| segments.record_readback(&mut recorder))?;
+            }
+        }
+        recorded.push(recorder);
+        recorded.into_iter().map(Recorder::finish).collect()
+    }
+
+    /// Room for runs of so many candidates.
+    fn make_room(&mut self, candidates: u32) -> Result<()> {
+        let Resources { scene, workspace, host, segments, .. } = &mut self.resources;
+        if candidates > workspace.candidates {
+            // Recordings hold the old memory; without them it is free before the new one is taken.
+            self.runs.clear();
+            *host = HostBuffers::new(scene, candidates)?;
+            self.rasteriser.reserve(scene, candidates)?;
+            // The workspace last: it takes what is left.
+            *workspace = Workspace::new(&scene.device, scene.counts, candidates)?;
+            self.rasteriser.set_workspace(scene, workspace)?;
+            segments.as_mut().map_or(Ok(()), |segments| segments.reserve(scene, candidates))?;
+        }
+        Ok(())
+    }
+
+    /// Takes the memory that the rasteriser asks for, if it does; whether it did.
+    pub(super) fn refit(&mut self) -> Result<bool> {
+        let is_outgrown = self.rasteriser.is_outgrown();
+        if is_outgrown {
+            self.runs.clear();
+            self.rasteriser.refit(&self.resources)?;
+        }
+        Ok(is_outgrown)
+    }
+
+    /// Compares by these segments from now on; by whole silhouettes without.
+    fn set_segments(&mut self, segments: Option<&Arc<Segments>>) -> Result<()> {
+        if self.segments() == segments {
+            return Ok(());
+        }
+        // Recordings hold the old ones.
+        self.runs.clear();
+        let Resources { scene, workspace, segments: own, .. } = &mut self.resources;
+        *own = segments.map(|segments| DeviceSegments::new(scene, segments, workspace.candidates)).transpose()?;
+        self.rasteriser.set_segments(scene, workspace, own.as_ref())?;
+        self.runs.set_upload(record_upload(&self.resources, &self.rasteriser)?);
+        self.is_outgrown = self.is_recorded;
+        Ok(())
+    }
+
+    /// Runs poses through the device. The results then lie in the host's buffers; what the host itself compared comes back.
+    fn run(&mut self, poses: &[f32], objective: Option<&Objective>) -> Result<HostCounts> {
+        let candidates = u32::try_from(poses.len() / self.dof_count())?;
+        self.make_room(candidates)?;
+        self.resources.host.poses_in.write(0, poses)?;
+        let key = (candidates, objective.copied());
+        if !self.runs.select(key) {
+            let mut recorded = self.record_run(objective, candidates);
+            // Other runs may hold the memory that it wants.
+            if recorded.as_ref().is_err_and(|error| error.is::<OutOfMemory>()) && self.runs.clear() {
+                recorded = self.record_run(objective, candidates);
+            }
+            self.runs.add(key, recorded?);
+        }
+        let Self { resources, rasteriser, runs, .. } = self;
+        let shares = resources.shares(candidates, rasteriser.batch(&resources.workspace))?;
+        let mut counts = HostCounts::default();
+        runs.run(&resources.scene, |batch| rasteriser.count(resources, shares[batch], &mut counts))?;
+        let again = rasteriser.learn(&resources.scene, candidates)?;
+        self.refit()?;
+        if again { self.run(poses, objective) } else { Ok(counts) }
+    }
+
+    /// The sums of the segments of a finished run.
+    fn read_segments(&self, counts: &HostCounts, sums: &mut [SegmentSums]) -> Result<()> {
+        self.resources.segments.as_ref().map_or(Ok(()), |segments| segments.read(counts, sums))
+    }
+}
+
+/// The passes that bring everything to the device.
+fn record_upload(resources: &Resources, rasteriser: &impl Rasteriser) -> Result<Recording> {
+    let mut recorder = resources.scene.device.recorder(Timing::Off)?;
+    resources.record_upload(&mut recorder)?;
+    rasteriser.record_upload(&mut recorder)?;
+    recorder.finish()
+}
+
+impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
+    fn name(&self) -> &'static str {
+        R::NAME
+    }
+
+    fn variant(&self) -> &'static str {
+        self.rasteriser.variant()
+    }
+
+    fn view_count(&self) -> usize {
+        self.resources.scene.counts.views as usize
+    }
+
+    fn dof_count(&self) -> usize {
+        self.resources.scene.counts.dofs as usize
+    }
+
+    fn observe(&mut self, observations: &[Observation]) -> Result<()> {
+        let segments = segments_of(observations)?;
+        self.resources.scene.observe(observations)?;
+        self.set_segments(segments.as_ref())?;
+        let Resources { scene, segments, .. } = &mut self.resources;
+        segments.as_mut().map_or(Ok(()), |segments| segments.observe(scene, observations))?;
+        self.rasteriser.observe(scene, observations, self.is_recorded)?;
+        self.runs.outdate_upload();
+        let is_refitted = self.refit()?;
+        self.is_outgrown |= is_refitted && self.is_recorded;
+        Ok(())
+    }
+
+    fn components(&mut self, poses: &[f32], components: &mut [Components]) -> Result<()> {
+        check_batch(poses, self.dof_count(), components.len(), self.view_count())?;
+        if components.is_empty() {
+            return Ok(());
+        }
+        let counts = self.run(poses, None)?;
+        self.resources.host.read_components(&self.resources.scene, &counts, components)
+    }
+
+    fn segments(&self) -> Option<&Arc<Segments>> {
+        self.resources.segments.as_ref().map(DeviceSegments::segments)
+    }
+
+    fn segment_sums(&mut self, poses: &[f32], sums: &mut [SegmentSums]) -> Result<()> {
+        check_segment_batch(self, poses, sums.len())?;
+        if sums.is_empty() {
+            return Ok(());
+        }
+        let counts = self.run(poses, None)?;
+        self.read_segments(&counts, sums)
+    }
+
+    fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
+        check_batch(poses, self.dof_count(), fitness.len(), 1)?;
+        if fitness.is_empty() {
+            return Ok(());
+        }
+        if !self.rasteriser.compares_on_host() {
+            self.run(poses, Some(objective))?;
+            return self.resources.host.fitness_out.read(0, fitness);
+        }
+        let counts = self.run(poses, None)?;
+        let views = self.view_count();
+        let mut components = vec![Components::default(); fitness.len() * views];
+        self.resources.host.read_components(&self.resources.scene, &counts, &mut components)?;
+        let segments = self.segments();
+        let count = segments.map_or(0, |segments| segments.as_slice().len());
+        let mut sums = vec![SegmentSums::default(); components.len() * count];
+        self.read_segments(&counts, &mut sums)?;
+        objective.score(views, &components, segments.map(|segments| (&**segments, &sums[..])), fitness);
+        Ok(())
+    }
+
+    fn drawn(&mut self, pose: &[f32], view: usize) -> Result<Option<CandidateImage>> {
+        let views = self.view_count();
+        check_batch(pose, self.dof_count(), 1, 1)?;
+        ensure!(view < views, "there are {views} views, and view {view} was asked for");
+        self.rasteriser.draw(&self.resources, pose, view)
+    }
+
+    fn on_device(&mut self) -> Option<&mut dyn DeviceEvaluator> {
+        if self.rasteriser.compares_on_host() { None } else { Some(self) }
+    }
+
+    fn measure_passes(&mut self, measured: bool) -> Result<()> {
+        self.runs.measure_passes(measured);
+        Ok(())
+    }
+
+    fn device_passes(&mut self) -> Vec<DevicePass> {
+        self.runs.take_passes()
+    }
+
+    fn footprint(&self) -> Option<Footprint> {
+        Some(self.rasteriser.footprint())
+    }
+}
+
+impl<R: Rasteriser> DeviceEvaluator for DeviceBackend<R> {
+    fn device(&self) -> &Device {
+        &self.resources.scene.device
+    }
+
+    fn poses(&self) -> &Buffer {
+        &self.resources.workspace.poses
+    }
+
+    fn fitness(&self) -> &Buffer {
+        &self.resources.host.fitness
+    }
+
+    fn views(&self) -> usize {
+        self.view_count()
+    }
+
+    fn sums(&self) -> &Buffer {
+        &self.resources.workspace.sums
+    }
+
+    fn has_outgrown_its_recording(&self) -> bool {
+        self.is_outgrown
+    }
+
+    fn reserve(&mut self, candidates: u32) -> Result<()> {
+        (self.is_recorded, self.is_outgrown) = (true, false);
+        self.rasteriser.prepare_search(&self.resources.scene);
+        self.refit()?;
+        self.make_room(candidates)
+    }
+
+    fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
+        self.resources.record_upload(recorder)?;
+        self.rasteriser.record_upload(recorder)
+    }
+
+    fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
+        let Resources { scene, workspace, pose, .. } = &self.resources;
+        for share in self.resources.shares(candidates, self.rasteriser.batch(workspace))? {
+            pose.record(recorder, scene, workspace, share)?;
+            self.rasteriser.record_share(recorder, &self.resources, share)?;
+        }
+        self.resources.record_objective(recorder, objective, candidates)
+    }
+}

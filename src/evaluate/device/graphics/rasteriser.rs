@@ -1,0 +1,409 @@
+//! Drawing with the graphics pipeline and comparing in its framebuffer, in tiles as large as candidates need.
+
+use anyhow::{Result, ensure};
+
+use super::compare::CompareStage;
+use super::drawn::Drawn;
+use super::framebuffer::Framebuffer;
+use super::place::PlaceStage;
+use super::project_feedback::ProjectFeedbackStage;
+use super::readback::FramebufferCopy;
+use super::segments::{Comparing, GraphicsSegments};
+use super::settings::{Comparison, Coverage, Gathering, GraphicsSettings, HostComparison, Packing, Projection, Tiling};
+use super::target::Target;
+use super::tiles::{first_tiles, fitted_tiles};
+use crate::body::{Body, Mesh};
+use crate::evaluate::device::backend::DeviceBackend;
+use crate::evaluate::device::host_buffers::HostCounts;
+use crate::evaluate::device::open::open_device;
+use crate::evaluate::device::rasteriser::Rasteriser;
+use crate::evaluate::device::resources::Resources;
+use crate::evaluate::device::scene::{DeviceScene, Share};
+use crate::evaluate::device::segments::DeviceSegments;
+use crate::evaluate::device::workspace::Workspace;
+use crate::evaluate::evaluator::Footprint;
+use crate::evaluate::mesh_projection::MeshProjector;
+use crate::evaluate::raster::CandidateImage;
+use crate::evaluate::shaders::layout;
+use crate::features::Observation;
+use crate::geometry::Camera;
+use crate::gpu::{Buffer, Device, DeviceKind, Memory, Recorder, Timing};
+
+/// The evaluator that draws with the graphics pipeline of a Vulkan device.
+pub type Graphics = DeviceBackend<GraphicsRasteriser>;
+
+/// Draws into a framebuffer and compares there, or on the host.
+#[derive(Debug)]
+pub struct GraphicsRasteriser {
+    settings: GraphicsSettings,
+    drawn: Drawn,
+    /// What projects by transform feedback, and where to.
+    feedback: Option<(ProjectFeedbackStage, Option<Buffer>)>,
+    place: PlaceStage,
+    compare: CompareStage,
+    /// How segments are compared, where the newest observations have them.
+    segments: Option<GraphicsSegments>,
+    gathering: Gathering,
+    /// Workgroups that compare a tile.
+    bands: u32,
+    target: Target,
+    /// Tile sizes of the views, pixels: those of the framebuffer, and those that are better.
+    tiles: Vec<[u32; 2]>,
+    better_tiles: Vec<[u32; 2]>,
+    /// Whether they were measured on candidates.
+    is_measured: bool,
+    /// Whether they stay as they are.
+    is_fixed: bool,
+    /// Kept for the comparison on the host.
+    observations: Vec<Observation>,
+}
+
+impl Graphics {
+    /// For a body and its cameras at working size, with the default settings, on the device of [`open_device`].
+    ///
+    /// # Errors
+    /// As [`open_device`] and [`Self::on`].
+    pub fn new(body: &Body, cameras: &[Camera]) -> Result<Self> {
+        Self::on(&open_device()?, body, cameras, GraphicsSettings::default())
+    }
+
+    /// On a device. Subgroup shuffles that it does not have become an exchange through shared memory, transform feedback a compute
+    /// stage.
+    ///
+    /// # Errors
+    /// When a picture has no pixel or is too large, the body has no or too many parts, or the device fails.
+    pub fn on(device: &Device, body: &Body, cameras: &[Camera], settings: GraphicsSettings) -> Result<Self> {
+        ensure!(
+            body.parts.len() <= 127,
+            "the body has {} parts, and the backend graphics tells at most 127 apart",
+            body.parts.len()
+        );
+        Self::with(DeviceScene::new(device, body, cameras)?, |scene| {
+            let drawn = Drawn::flat(device, scene.counts.parts, settings.packing, settings.coverage)?;
+            GraphicsRasteriser::new(scene, drawn, settings)
+        })
+    }
+
+    /// The mesh model of a body, drawn from `mesh`, which is bound to this body. It has a depth a pixel: whatever the settings say,
+    /// candidates are packed by depth and the device's own triangles cover the pixels.
+    ///
+    /// # Errors
+    /// As [`Self::on`]; also when the mesh is bound to another number of bones, or a picture is larger than a framebuffer may be.
+    pub fn of_mesh(
+        device: &Device,
+        body: &Body,
+        mesh: Mesh,
+        cameras: &[Camera],
+        settings: GraphicsSettings,
+    ) -> Result<Self> {
+        let most = device.capabilities().max_image / 4 * 4;
+        for camera in cameras {
+            let [width, height] = camera.size;
+            ensure!(
+                width <= most && height <= most,
+                "camera {} has pictures of {width}x{height}, and this device draws at most {most} pixels a side",
+                camera.name
+            );
+        }
+        let settings = GraphicsSettings {
+            packing: Packing::Depth,
+            coverage: Coverage::Hardware,
+            projection: Projection::Compute,
+            ..settings
+        };
+        Self::with(DeviceScene::new(device, body, cameras)?, |scene| {
+            let drawn = Drawn::mesh(device, scene, &MeshProjector::new(body, mesh, cameras)?)?;
+            GraphicsRasteriser::new(scene, drawn, settings)
+        })
+    }
+
+    /// How it works: as asked for, but for what the device does not have.
+    pub fn settings(&self) -> GraphicsSettings {
+        self.rasteriser.settings
+    }
+
+    /// Tile sizes of the views, [width, height] in pixels, and candidates a batch.
+    pub fn tiles(&self) -> (&[[u32; 2]], u32) {
+        (&self.rasteriser.tiles, self.rasteriser.batch(&self.resources.workspace))
+    }
+
+    #[cfg(test)]
+    pub(super) fn set_tiles(&mut self, tiles: Vec<[u32; 2]>) -> Result<()> {
+        self.rasteriser.better_tiles = tiles;
+        self.refit().map(|_| ())
+    }
+}
+
+impl GraphicsRasteriser {
+    fn new(scene: &DeviceScene, drawn: Drawn, mut settings: GraphicsSettings) -> Result<Self> {
+        let device = &scene.device;
+        let gathering = match &mut settings.comparison {
+            Comparison::Device(gathering) => {
+                if !gathering.works_on(device.capabilities()) {
+                    *gathering = Gathering::Shared;
+                }
+                *gathering
+            }
+            Comparison::Host(_) => Gathering::Texels,
+        };
+        if !device.capabilities().transform_feedback {
+            settings.projection = Projection::Compute;
+        }
+        // A real device has room for more workgroups than there are tiles; for a processor each is work.
+        let bands = if device.facts().kind == DeviceKind::Cpu { 1 } else { 4 };
+        let tiles = scene.sizes.clone();
+        Ok(Self {
+            drawn,
+            feedback: match settings.projection {
+                Projection::Compute => None,
+                Projection::Feedback => Some((ProjectFeedbackStage::new(device)?, None)),
+            },
+            place: PlaceStage::new(device)?,
+            compare: CompareStage::new(device, gathering, settings.packing.edge_bit(), bands)?,
+            segments: None,
+            gathering,
+            bands,
+            target: Target::new(scene, &settings, &tiles, 1)?,
+            better_tiles: tiles.clone(),
+            tiles,
+            is_measured: false,
+            is_fixed: settings.tiling == Tiling::Pictures,
+            observations: scene.sizes.iter().map(|&[width, height]| Observation::empty(width, height)).collect(),
+            settings,
+        })
+    }
+
+    /// Bone matrices to pictures.
+    fn record_drawing(
+        &self,
+        recorder: &mut Recorder,
+        (scene, workspace): (&DeviceScene, &Workspace),
+        framebuffer: &Framebuffer,
+        share: Share,
+    ) -> Result<()> {
+        let feedback = self.feedback.as_ref().and_then(|(stage, captured)| Some((stage, captured.as_ref()?)));
+        self.drawn.record(recorder, (scene, workspace), feedback, (&self.place, framebuffer), share)
+    }
+
+    /// Bone matrices to the sums of a share; with a copy, to that, and the sums of the images that fit no tile.
+    fn record_comparison(
+        &self,
+        recorder: &mut Recorder,
+        resources: &Resources,
+        share: Share,
+        copy: Option<&FramebufferCopy>,
+    ) -> Result<()> {
+        let (model, workspace) = (&resources.scene, &resources.workspace);
+        let framebuffer = &self.target.framebuffer;
+        let scene = (model, workspace);
+        let segments = resources.segments.as_ref().zip(self.segments.as_ref());
+        if let Some((scored, _)) = segments.filter(|_| share.first == 0) {
+            // Batches add to it.
+            recorder.fill("clear segments", &scored.sums, 0)?;
+        }
+        self.record_drawing(recorder, scene, framebuffer, share)?;
+        // What fits no tile is scored without a framebuffer.
+        let Some((scored, segments)) = segments else {
+            match copy {
+                Some(copy) => copy.record(recorder, framebuffer)?,
+                None => self.compare.record(recorder, model, workspace, framebuffer, share)?,
+            }
+            return self.drawn.record_unplaced(recorder, scene, framebuffer, share);
+        };
+        match copy {
+            Some(copy) => {
+                copy.record(recorder, framebuffer)?;
+                segments.record_orders(recorder, scene, share)?;
+            }
+            None => segments.record_comparison(recorder, scene, scored, framebuffer, share)?,
+        }
+        segments.record_unplaced(recorder, scene, scored, framebuffer, share)
+    }
+}
+
+impl Rasteriser for GraphicsRasteriser {
+    const NAME: &'static str = "graphics";
+
+    fn variant(&self) -> &'static str {
+        self.settings.name()
+    }
+
+    fn footprint(&self) -> Footprint {
+        let tile = [0, 1].map(|axis| self.tiles.iter().map(|tile| tile[axis]).max().unwrap_or(0));
+        // A channel of a texel, and a quarter of its depth.
+        let bytes_per_pixel = if self.settings.packing == Packing::Depth { 2.0 } else { 1.0 };
+        Footprint { tile, bytes_per_pixel }
+    }
+
+    fn reserve(&mut self, scene: &DeviceScene, candidates: u32) -> Result<()> {
+        self.drawn.reserve(scene, candidates)?;
+        self.target = Target::new(scene, &self.settings, &self.tiles, candidates)?;
+        Ok(())
+    }
+
+    fn set_workspace(&mut self, scene: &DeviceScene, workspace: &Workspace) -> Result<()> {
+        if let Some((_, captured)) = &mut self.feedback {
+            *captured = Some(ProjectFeedbackStage::room(&scene.device, scene.counts, workspace.batch)?);
+        }
+        self.segments.as_mut().map_or(Ok(()), |segments| segments.reserve(scene, workspace))
+    }
+
+    fn batch(&self, workspace: &Workspace) -> u32 {
+        workspace.batch.min(self.target.framebuffer.layout.candidates).min(self.drawn.most())
+    }
+
+    fn set_segments(
+        &mut self,
+        scene: &DeviceScene,
+        workspace: &Workspace,
+        segments: Option<&DeviceSegments>,
+    ) -> Result<()> {
+        let how = Comparing {
+            packing: self.settings.packing,
+            gathering: self.gathering,
+            bands: self.bands,
+            on_host: self.compares_on_host(),
+        };
+        let scene = (scene, workspace);
+        self.segments =
+            segments.map(|own| GraphicsSegments::new(scene, &self.drawn, own.segments(), how)).transpose()?;
+        Ok(())
+    }
+
+    fn observe(&mut self, scene: &DeviceScene, observations: &[Observation], is_recorded: bool) -> Result<()> {
+        if let Some(segments) = &mut self.segments {
+            segments.observe(scene, observations)?;
+        }
+        if self.compares_on_host() {
+            self.observations = observations.to_vec();
+        }
+        // Until candidates have told, they are taken to be about as large as what is seen.
+        if !self.is_measured && !self.is_fixed {
+            self.better_tiles = first_tiles(observations, is_recorded.then_some(&self.tiles));
+        }
+        Ok(())
+    }
+
+    fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
+        self.segments.as_ref().map_or(Ok(()), |segments| segments.record_upload(recorder))?;
+        self.drawn.record_upload(recorder)
+    }
+
+    /// With tiles of the size that the newest observations or candidates told; images that outgrow them later are still scored,
+    /// the slower way. The comparison is on the device, whatever the settings say.
+    fn record_share(&self, recorder: &mut Recorder, resources: &Resources, share: Share) -> Result<()> {
+        self.record_comparison(recorder, resources, share, None)
+    }
+
+    fn record_host_share(&self, recorder: &mut Recorder, resources: &Resources, share: Share) -> Result<()> {
+        self.record_comparison(recorder, resources, share, self.target.copy.as_ref())?;
+        let a_candidate = u64::from(resources.scene.counts.views) * size_of::<layout::Bounds>() as u64;
+        let (from, bytes) = (u64::from(share.first) * a_candidate, u64::from(share.candidates) * a_candidate);
+        recorder.copy("read bounds", (&resources.workspace.bounds, 0), (&self.target.bounds_out, from), bytes)
+    }
+
+    fn compares_on_host(&self) -> bool {
+        matches!(self.settings.comparison, Comparison::Host(_))
+    }
+
+    fn count(&self, resources: &Resources, share: Share, counts: &mut HostCounts) -> Result<()> {
+        let (Some(copy), Comparison::Host(how)) = (&self.target.copy, self.settings.comparison) else { return Ok(()) };
+        let pictures = copy.read(&self.target.framebuffer, share.candidates)?;
+        counts.sums.extend(pictures.compare(&self.observations, self.settings.packing.edge_bit(), how));
+        if let Some((scored, segments)) = resources.segments.as_ref().zip(self.segments.as_ref()) {
+            let parts = resources.scene.counts.parts as usize;
+            counts.segments.extend(segments.count(scored.segments(), parts, &pictures, &self.observations, how)?);
+        }
+        Ok(())
+    }
+
+    /// Fits the tiles to what the images of the last run touched. The run is repeated where a tile was too small and what fits none
+    /// is not scored: tiles grow up to the pictures, which everything fits.
+    fn learn(&mut self, scene: &DeviceScene, candidates: u32) -> Result<bool> {
+        if self.is_fixed {
+            return Ok(false);
+        }
+        let is_spared = self.drawn.scores_what_fits_no_tile();
+        let spare = if is_spared { 50 } else { usize::MAX };
+        let mut bounds: Vec<layout::Bounds> = bytemuck::zeroed_vec(candidates as usize * scene.sizes.len());
+        self.target.bounds_out.read(0, &mut bounds)?;
+        let (tiles, is_outgrown) = fitted_tiles(&self.tiles, &bounds, &scene.sizes, spare);
+        self.better_tiles = tiles;
+        self.is_measured = true;
+        Ok(is_outgrown && !is_spared)
+    }
+
+    fn prepare_search(&mut self, scene: &DeviceScene) {
+        if !self.drawn.scores_what_fits_no_tile() && !self.is_fixed {
+            // Nobody looks between what is recorded: every image must fit.
+            self.better_tiles.clone_from(&scene.sizes);
+            self.is_fixed = true;
+        }
+    }
+
+    fn is_outgrown(&self) -> bool {
+        self.better_tiles != self.tiles
+    }
+
+    fn refit(&mut self, resources: &Resources) -> Result<()> {
+        let Resources { scene, workspace, .. } = resources;
+        self.target.refit(&scene.device, &self.settings, &self.better_tiles, workspace.candidates)?;
+        self.tiles.clone_from(&self.better_tiles);
+        Ok(())
+    }
+
+    fn draw(&self, resources: &Resources, pose: &[f32], view: usize) -> Result<Option<CandidateImage>> {
+        let scene = &resources.scene;
+        let (device, parts) = (&scene.device, scene.counts.parts as usize);
+        let workspace = Workspace::new(device, scene.counts, 1)?;
+        let settings = GraphicsSettings { comparison: Comparison::Host(HostComparison::Scalar), ..self.settings };
+        let Target { framebuffer, copy, .. } = Target::new(scene, &settings, &scene.sizes, 1)?;
+        let [width, height] = scene.sizes[view];
+        let held = framebuffer.layout.views[view].size;
+        ensure!(
+            held[0] >= width && held[1] >= height,
+            "a picture of {width}x{height} is larger than the {}x{} that this device draws at once",
+            held[0],
+            held[1]
+        );
+        let staging = device.buffer::<f32>("pose staging", pose.len(), Memory::Upload)?;
+        staging.write(0, pose)?;
+        let quads = scene.sizes.len() * parts;
+        let quads_out = device.buffer::<layout::Quad>("quads readback", quads, Memory::Readback)?;
+        let share = Share { first: 0, candidates: 1 };
+        let mut recorder = device.recorder(Timing::Off)?;
+        scene.record_upload(&mut recorder)?;
+        self.drawn.record_upload(&mut recorder)?;
+        recorder.copy("upload poses", (&staging, 0), (&workspace.poses, 0), staging.size())?;
+        resources.pose.record(&mut recorder, scene, &workspace, share)?;
+        self.record_drawing(&mut recorder, (scene, &workspace), &framebuffer, share)?;
+        recorder.copy("read quads", (&workspace.quads, 0), (&quads_out, 0), quads_out.size())?;
+        let Some(copy) = copy else { return Ok(None) };
+        copy.record(&mut recorder, &framebuffer)?;
+        recorder.finish()?.run()?;
+        let mut quads: Vec<layout::Quad> = bytemuck::zeroed_vec(quads);
+        quads_out.read(0, &mut quads)?;
+        let drawn = copy.read(&framebuffer, 1)?.image(0, view, [width, height]);
+        let labels = &quads[view * parts..][..parts];
+        let bytes = match self.settings.packing {
+            Packing::Depth => drawn,
+            // 2 rank + edge, ranks counted from the farthest part on, 1 the farthest.
+            Packing::Max => drawn
+                .iter()
+                .map(|&byte| match usize::from(byte >> 1) {
+                    0 => 0,
+                    rank => labels[parts - rank.min(parts)].label as u8 | byte << 7,
+                })
+                .collect(),
+        };
+        Ok(Some(CandidateImage { width, height, bytes }))
+    }
+
+    fn check_exchange(&self) -> Result<()> {
+        ensure!(
+            self.drawn.scores_what_fits_no_tile(),
+            "a mesh is bound to the body it was made with: another body needs an evaluator of its own"
+        );
+        Ok(())
+    }
+}

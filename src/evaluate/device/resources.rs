@@ -1,0 +1,71 @@
+//! What an evaluation works with on a device, whichever way candidates are drawn.
+
+use anyhow::{Result, ensure};
+
+use super::host_buffers::HostBuffers;
+use super::objective::ObjectiveStage;
+use super::pose::PoseStage;
+use super::scene::{DeviceScene, Share};
+use super::segments::DeviceSegments;
+use super::workspace::Workspace;
+use crate::evaluate::objective::Objective;
+use crate::gpu::Recorder;
+
+/// Body, cameras and observations, and the memory for a number of candidates.
+#[derive(Debug)]
+pub(crate) struct Resources {
+    pub(super) scene: DeviceScene,
+    pub(super) workspace: Workspace,
+    pub(super) host: HostBuffers,
+    /// Where the newest observations have them.
+    pub(super) segments: Option<DeviceSegments>,
+    pub(super) pose: PoseStage,
+    pub(super) objective: ObjectiveStage,
+}
+
+impl Resources {
+    /// For one candidate at first.
+    pub(super) fn new(scene: DeviceScene) -> Result<Self> {
+        Ok(Self {
+            workspace: Workspace::new(&scene.device, scene.counts, 1)?,
+            host: HostBuffers::new(&scene, 1)?,
+            segments: None,
+            pose: PoseStage::new(&scene.device)?,
+            objective: ObjectiveStage::new(&scene.device)?,
+            scene,
+        })
+    }
+
+    /// Records the copies that bring body, cameras and observations to the device.
+    pub(super) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
+        self.scene.record_upload(recorder)?;
+        self.segments.as_ref().map_or(Ok(()), |segments| segments.record_upload(recorder))
+    }
+
+    /// Records the fitness of a run from its sums.
+    pub(super) fn record_objective(
+        &self,
+        recorder: &mut Recorder,
+        objective: &Objective,
+        candidates: u32,
+    ) -> Result<()> {
+        let Self { scene, workspace, host, .. } = self;
+        match &self.segments {
+            None => self.objective.record(recorder, scene, workspace, objective, candidates, &host.fitness),
+            Some(segments) => {
+                segments.record_objective(recorder, (scene, workspace), (objective, candidates), &host.fitness)
+            }
+        }
+    }
+
+    /// The batches of at most `batch` candidates of a run.
+    pub(super) fn shares(&self, candidates: u32, batch: u32) -> Result<Vec<Share>> {
+        ensure!(
+            candidates <= self.workspace.candidates,
+            "there is room for {} candidates, and {candidates} were asked for",
+            self.workspace.candidates
+        );
+        let firsts = (0..candidates).step_by(batch as usize);
+        Ok(firsts.map(|first| Share { first, candidates: batch.min(candidates - first) }).collect())
+    }
+}
