@@ -58,7 +58,7 @@ portability: toolchain shaderc vulkan
 # 185 crates more, which no other target compiles.
 rerun-test: toolchain shaderc
 	$(CARGO) clippy --locked --features rerun --all-targets -- -D warnings
-	$(CARGO) test --locked --features rerun --test rerun
+	$(CARGO) test --locked --features rerun --test program rerun::
 
 fuzz: toolchain shaderc
 	tests/fuzz/run.sh all $(SECONDS_EACH)

@@ -6,7 +6,9 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
 
-use super::{command, journalled, refused, sequence, stderr, succeeded, track};
+use super::{command, journalled, track};
+use crate::support::{has_ffmpeg, refused, sequence, stderr, succeeded};
+use crate::walk;
 
 const RESULTS: [&str; 7] =
     ["poses.csv", "joints.csv", "joints.trc", "markers.c3d", "motion.bvh", "confidence.csv", "journal.txt"];
@@ -79,7 +81,7 @@ fn no_room_is_one_sentence_and_loses_nothing() {
     let few = ["--particles", "20", "--iterations", "3", "--overlay-every", "0", "--backend", "cpu"];
     let whole = folder.path().join("whole");
     succeeded(&track(sequence(), &whole, &few));
-    let line = fs::read(whole.join("journal.txt")).unwrap().len() / super::walk::FRAMES;
+    let line = fs::read(whole.join("journal.txt")).unwrap().len() / walk::FRAMES;
     for more in [&[][..], &["--realtime"]] {
         let output = folder.path().join(format!("full{}", more.len()));
         // Room for run.toml, and for some frames of the journal, not all: a block is 512 or 1024 bytes.
@@ -93,7 +95,7 @@ fn no_room_is_one_sentence_and_loses_nothing() {
         let full = limited((3 * line + line / 2).max(record).div_ceil(512));
         refused(&full, &["cannot write"]);
         let kept = journalled(&output);
-        assert!(kept < super::walk::FRAMES, "{kept} frames were kept: {}", stderr(&full));
+        assert!(kept < walk::FRAMES, "{kept} frames were kept: {}", stderr(&full));
         let mut arguments = few.to_vec();
         arguments.extend(more);
         arguments.push("--resume");
@@ -114,7 +116,7 @@ fn no_room_is_one_sentence_and_loses_nothing() {
 #[test]
 fn a_source_that_stalls_is_named() {
     use std::os::unix::fs::PermissionsExt;
-    if !super::has_ffmpeg("a_source_that_stalls_is_named") {
+    if !has_ffmpeg("a_source_that_stalls_is_named") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();

@@ -1,17 +1,17 @@
 //! `pantin devices` and `pantin bench` from outside: what other programs read, and machines without Vulkan.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test says what went wrong by panicking")]
-
-use std::process::{Command, Output};
+use std::process::Output;
 
 use serde_json::Value;
 
+use super::support::{NO_DRIVER, program, stderr, stdout};
+
 fn pantin(arguments: &[&str], variables: &[(&str, &str)]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pantin")).args(arguments).envs(variables.iter().copied()).output().unwrap()
+    program().args(arguments).envs(variables.iter().copied()).output().unwrap()
 }
 
 fn object(output: &Output) -> Value {
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{}", stderr(output));
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
@@ -20,9 +20,6 @@ fn keys(value: &Value) -> Vec<&str> {
     keys.sort_unstable();
     keys
 }
-
-/// Variables under which the loader finds no driver, by its old and its new name for them.
-const NO_DRIVER: [(&str, &str); 2] = [("VK_ICD_FILENAMES", "/nonexistent"), ("VK_DRIVER_FILES", "/nonexistent")];
 
 #[test]
 fn devices_are_listed_as_the_contract_says() {
@@ -68,7 +65,7 @@ fn devices_are_listed_as_the_contract_says() {
     } else {
         assert!(reason.contains("measured on"), "{reason}");
     }
-    let table = String::from_utf8(pantin(&["devices"], &[]).stdout).unwrap();
+    let table = stdout(&pantin(&["devices"], &[]));
     assert!(table.contains(list[0]["name"].as_str().unwrap()) && table.contains("with --backend auto: "), "{table}");
 }
 
@@ -79,7 +76,7 @@ fn a_machine_without_a_driver_is_told_so() {
     assert_eq!(found["auto"]["backend"], "cpu");
     let table = pantin(&["devices"], &NO_DRIVER);
     assert!(table.status.success());
-    let text = String::from_utf8(table.stdout).unwrap();
+    let text = stdout(&table);
     let first = text.lines().next().unwrap();
     // Either is right: without a loader, too, there is no driver.
     let is_either = first.starts_with("Vulkan finds no driver on this machine: install one");
@@ -98,7 +95,7 @@ fn a_machine_without_a_loader_is_told_so() {
     assert_eq!(found["devices"], Value::Array(Vec::new()));
     assert_eq!(found["auto"]["backend"], "cpu");
     assert!(found["auto"]["reason"].as_str().unwrap().contains("there is no Vulkan on this machine"), "{found}");
-    let text = String::from_utf8(pantin(&["devices"], &hidden).stdout).unwrap();
+    let text = stdout(&pantin(&["devices"], &hidden));
     assert!(text.starts_with("there is no Vulkan on this machine ("), "{text}");
     assert!(text.contains("install a driver with its loader"), "{text}");
 }
@@ -157,6 +154,6 @@ fn the_benchmark_prints_the_rows_of_the_contract() {
 fn an_unknown_preset_is_named() {
     let failed = pantin(&["bench", "--preset", "slow"], &[]);
     assert_eq!(failed.status.code(), Some(2));
-    let text = String::from_utf8(failed.stderr).unwrap();
+    let text = stderr(&failed);
     assert!(text.contains("there is no preset `slow`, expected one of quick, thesis"), "{text}");
 }

@@ -1,25 +1,18 @@
 //! `pantin synth` from the outside.
 
-#![allow(clippy::unwrap_used, reason = "a helper of tests may unwrap as they do")]
-
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
+
+use super::support::{NO_DRIVER, program, stderr as message, stdout};
 
 fn synth(arguments: &[&str], folder: &Path) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pantin")).arg("synth").args(arguments).arg("-o").arg(folder).output().unwrap()
+    program().arg("synth").args(arguments).arg("-o").arg(folder).output().unwrap()
 }
 
-/// The same on a machine without a Vulkan driver, by the loader's old and its new name for the variable.
+/// The same on a machine without a Vulkan driver.
 fn synth_without_vulkan(arguments: &[&str], folder: &Path) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_pantin"));
-    let none = "/nonexistent";
-    command.arg("synth").args(arguments).arg("-o").arg(folder).env("VK_ICD_FILENAMES", none);
-    command.env("VK_DRIVER_FILES", none).output().unwrap()
-}
-
-fn message(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
+    program().arg("synth").args(arguments).arg("-o").arg(folder).envs(NO_DRIVER).output().unwrap()
 }
 
 #[test]
@@ -29,7 +22,7 @@ fn a_preset_is_made_once_and_goes_on_when_asked() {
     let arguments = ["--preset", "demo", "--frames", "2"];
     let done = synth(&arguments, &folder);
     assert!(done.status.success(), "{}", message(&done));
-    assert!(String::from_utf8_lossy(&done.stdout).contains("made 2 frames in 4 views"));
+    assert!(stdout(&done).contains("made 2 frames in 4 views"));
     let picture = folder.join("frames/cam3_0001.png");
     let bytes = fs::read(&picture).unwrap();
 

@@ -1,16 +1,12 @@
 //! `pantin texture` from the outside.
 
-#![allow(clippy::unwrap_used, reason = "a helper of tests may unwrap as they do")]
-
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
+
+use super::support::{program, stderr as message, stdout};
 
 fn texture(arguments: &[&str], folder: &Path) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pantin")).arg("texture").args(arguments).current_dir(folder).output().unwrap()
-}
-
-fn message(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
+    program().arg("texture").args(arguments).current_dir(folder).output().unwrap()
 }
 
 #[test]
@@ -19,7 +15,7 @@ fn materials_are_listed_drawn_and_shown_on_objects() {
     let run = |arguments: &[&str]| {
         let output = texture(arguments, folder.path());
         assert!(output.status.success(), "{arguments:?}: {}", message(&output));
-        String::from_utf8_lossy(&output.stdout).into_owned()
+        stdout(&output)
     };
     let open = |name: &str| image::open(folder.path().join(name)).unwrap();
     assert_eq!(run(&["--list"]).lines().count(), 11);

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use super::{has_ffmpeg, journalled, refused, sequence, stderr, succeeded, track};
+use super::{journalled, track};
+use crate::support::{has_ffmpeg, refused, sequence, stderr, succeeded};
 
 /// Lays the walk out as one lossless video a camera, with a plate: what a live source needs.
 pub fn as_videos(folder: &Path) {

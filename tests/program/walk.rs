@@ -5,8 +5,7 @@ use std::path::Path;
 use pantin::body::{Body, PoseTable};
 use pantin::geometry::Camera;
 
-#[path = "drawn.rs"]
-mod drawn;
+use super::drawn;
 
 /// Frames of the sequence.
 pub const FRAMES: usize = 6;

@@ -1,12 +1,12 @@
 //! `pantin demo` from the outside: the sequence, the track and the report, from nothing.
 
-#![allow(clippy::unwrap_used, reason = "a helper of tests may unwrap as they do")]
-
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
+
+use super::support::{program, stderr, stdout};
 
 fn demo(folder: &Path, more: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_pantin"));
+    let mut command = program();
     command.args(["demo", "-o"]).arg(folder).args(["--frames", "12"]).args(more);
     command.output().unwrap()
 }
@@ -16,7 +16,7 @@ fn a_walk_is_made_tracked_and_scored() {
     let temporary = tempfile::tempdir().unwrap();
     let folder = temporary.path().join("demo");
     let done = demo(&folder, &["--particles", "300", "--iterations", "12"]);
-    let (out, err) = (String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));
+    let (out, err) = (stdout(&done), stderr(&done));
     assert!(done.status.success(), "{err}");
     let line = out.lines().find(|line| line.starts_with("error ")).unwrap_or_else(|| panic!("no error in {out}"));
     let error: f64 = line.split_whitespace().nth(1).unwrap().parse().unwrap();
@@ -31,7 +31,7 @@ fn a_walk_is_made_tracked_and_scored() {
 
     let poses = std::fs::read(folder.join("poses.csv")).unwrap();
     let refused = demo(&folder, &[]);
-    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    let message = stderr(&refused);
     assert_eq!(refused.status.code(), Some(1));
     assert!(message.contains("--force"), "{message}");
     let again = demo(&folder, &["--force", "--particles", "300", "--iterations", "12"]);
@@ -46,14 +46,13 @@ fn impossible_numbers_are_named_before_anything_is_written() {
     for (arguments, expected) in [(["--particles", "0"], "particles is 0"), (["--iterations", "0"], "iterations is 0")]
     {
         let failed = demo(&folder, &arguments);
-        let message = String::from_utf8_lossy(&failed.stderr).into_owned();
+        let message = stderr(&failed);
         assert_eq!(failed.status.code(), Some(1), "{message}");
         assert!(message.contains(expected) && message.trim().lines().count() == 1, "{message}");
         assert!(!folder.exists(), "{arguments:?} wrote something");
     }
-    let failed =
-        Command::new(env!("CARGO_BIN_EXE_pantin")).args(["demo", "--frames", "0", "-o"]).arg(&folder).output().unwrap();
-    assert!(String::from_utf8_lossy(&failed.stderr).contains("frames is 0"));
+    let failed = program().args(["demo", "--frames", "0", "-o"]).arg(&folder).output().unwrap();
+    assert!(stderr(&failed).contains("frames is 0"));
 }
 
 #[cfg(not(feature = "rerun"))]
@@ -62,7 +61,7 @@ fn a_build_without_recordings_says_so_before_anything_is_written() {
     let temporary = tempfile::tempdir().unwrap();
     let folder = temporary.path().join("demo");
     let failed = demo(&folder, &["--rerun"]);
-    let message = String::from_utf8_lossy(&failed.stderr).into_owned();
+    let message = stderr(&failed);
     assert_eq!(failed.status.code(), Some(1), "{message}");
     assert!(message.contains("cargo build --release --features rerun"), "{message}");
     assert!(message.trim().lines().count() == 1 && !folder.exists(), "{message}");

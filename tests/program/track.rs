@@ -1,18 +1,6 @@
 //! `pantin track` from outside: the same files whatever computes them and however often it was killed, files that read
 //! back, and one sentence for everything that is wrong.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::panic,
-    clippy::print_stdout,
-    reason = "a test says what went wrong by panicking"
-)]
-
-mod evaluate;
-mod outcome;
-mod walk;
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -20,17 +8,15 @@ use std::process::{Command, Output, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use outcome::{refused, sequence, stderr};
 use pantin::body::{Body, PoseTable};
 use pantin::motion::{read_bvh, read_points};
 use tempfile::TempDir;
 
+use super::support::{has_vulkan, pantin, program, refused, sequence, stderr, succeeded};
+use super::walk;
+
 /// Enough to follow the walk, little enough for the reference.
 const SEARCH: [&str; 6] = ["--particles", "40", "--iterations", "6", "--overlay-every", "2"];
-
-fn pantin(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pantin")).args(arguments).output().unwrap()
-}
 
 fn track_with(sequence: &Path, output: &Path, more: &[&str]) -> Output {
     let mut arguments = vec!["track", sequence.to_str().unwrap(), "-o", output.to_str().unwrap()];
@@ -41,7 +27,7 @@ fn track_with(sequence: &Path, output: &Path, more: &[&str]) -> Output {
 
 fn tracked(output: &Path, more: &[&str]) {
     let done = track_with(sequence(), output, more);
-    assert!(done.status.success(), "{}", stderr(&done));
+    succeeded(&done);
 }
 
 /// Every file of a track that must not depend on time, machine or interruption.
@@ -133,7 +119,7 @@ fn the_number_of_threads_changes_nothing() {
         command.args(["-c", "0", env!("CARGO_BIN_EXE_pantin")]);
         command
     } else {
-        Command::new(env!("CARGO_BIN_EXE_pantin"))
+        program()
     };
     let done = command
         .env("RAYON_NUM_THREADS", "1")
@@ -141,7 +127,7 @@ fn the_number_of_threads_changes_nothing() {
         .args(SEARCH)
         .output()
         .unwrap();
-    assert!(done.status.success(), "{}", stderr(&done));
+    succeeded(&done);
     same(&result_files(&output), &result_files(&whole()));
 }
 
@@ -229,7 +215,7 @@ fn a_kill_at_any_frame_loses_nothing_but_time() {
 /// Starts a run that is slow enough to be caught at work, and waits until it has done a frame.
 #[cfg(unix)]
 fn caught_at_work(output: &Path) -> std::process::Child {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_pantin"))
+    let mut child = program()
         .args(["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap()])
         .args(["--particles", "150", "--iterations", "20", "--overlay-every", "2", "--backend", "reference"])
         .stderr(Stdio::piped())
@@ -260,7 +246,7 @@ fn killed_or_interrupted_it_goes_on() {
     child.wait().unwrap();
     assert!(!output.join("poses.csv").exists(), "complete or absent");
     // What was killed once may be interrupted next.
-    let mut child = Command::new(env!("CARGO_BIN_EXE_pantin"))
+    let mut child = program()
         .args(["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap()])
         .args(slow)
         .arg("--resume")
@@ -276,7 +262,7 @@ fn killed_or_interrupted_it_goes_on() {
     let stopped = child.wait_with_output().unwrap();
     refused(&stopped, &["stopped before frame", "frames are safe", "--resume"]);
     let done = run(&output, &["--resume"]);
-    assert!(done.status.success(), "{}", stderr(&done));
+    succeeded(&done);
     let other = folder.path().join("whole");
     assert!(run(&other, &[]).status.success());
     same(&result_files(&output), &result_files(&other));
@@ -289,7 +275,7 @@ fn auto_keeps_to_what_the_run_began_with() {
     tracked(&output, &["--backend", "reference"]);
     let files = result_files(&output);
     let again = track_with(sequence(), &output, &["--resume"]);
-    assert!(again.status.success(), "{}", stderr(&again));
+    succeeded(&again);
     assert!(stderr(&again).contains("reference, which this run began with"), "{}", stderr(&again));
     same(&result_files(&output), &files);
     let parts = ["another backend: \"reference\" there, \"cpu\" now"];
@@ -332,7 +318,7 @@ fn a_trace_of_the_device_is_missed_where_nothing_runs_on_one() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("track");
     let done = track_with(sequence(), &output, &["--backend", "cpu", "--trace"]);
-    assert!(done.status.success(), "{}", stderr(&done));
+    succeeded(&done);
     assert!(stderr(&done).contains("the trace holds no device passes: cpu ("), "{}", stderr(&done));
 }
 
@@ -363,7 +349,7 @@ fn the_mesh_model_is_tracked_and_resumed_as_such() {
         pantin(&arguments)
     };
     let done = run(&["--model", "mesh", "--overlay-every", "1"]);
-    assert!(done.status.success(), "{}", stderr(&done));
+    succeeded(&done);
     let record = fs::read_to_string(output.join("run.toml")).unwrap();
     assert!(record.contains("model = \"mesh\"") && record.contains("--model mesh"), "{record}");
     assert!(output.join("overlay/cam1_000001.png").exists());
@@ -489,16 +475,6 @@ fn wrong_inputs_are_one_sentence() {
     assert!(!output.join("run.toml").exists(), "nothing is written before all is checked");
 }
 
-/// Whether there is a Vulkan device for the backends that need one; none is a failure in CI.
-fn has_vulkan(test: &str) -> bool {
-    let opened = pantin::evaluate::device::open_device();
-    if let Err(error) = &opened {
-        assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
-        println!("SKIPPED {test}: {error:#}");
-    }
-    opened.is_ok()
-}
-
 #[test]
 fn compute_tracks_like_the_processor_and_survives_the_loss_of_its_device() {
     if !has_vulkan("compute_tracks_like_the_processor_and_survives_the_loss_of_its_device") {
@@ -506,14 +482,14 @@ fn compute_tracks_like_the_processor_and_survives_the_loss_of_its_device() {
     }
     let folder = tempfile::tempdir().unwrap();
     let run = |output: &Path, passes: Option<&str>, more: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_pantin"));
+        let mut command = program();
         command.args(["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap(), "--backend", "compute"]);
         command.args(SEARCH).args(more).env("PANTIN_VALIDATION", "sync").env("XDG_CACHE_HOME", folder.path());
         command.envs(passes.map(|passes| ("PANTIN_LOSE_DEVICE_AFTER", passes))).output().unwrap()
     };
     let output = folder.path().join("whole");
     let done = run(&output, None, &[]);
-    assert!(done.status.success(), "{}", stderr(&done));
+    succeeded(&done);
     assert!(stderr(&done).contains("compute on the Vulkan device"), "{}", stderr(&done));
     let record: toml::Table = fs::read_to_string(output.join("run.toml")).unwrap().parse().unwrap();
     assert_eq!(record["settings"]["backend"].as_str(), Some("compute"));
@@ -536,7 +512,7 @@ fn compute_tracks_like_the_processor_and_survives_the_loss_of_its_device() {
     let other = track_with(sequence(), &output, &["--resume", "--backend", "cpu"]);
     refused(&other, &["another backend", "compute", "cpu"]);
     let done = run(&output, None, &["--resume"]);
-    assert!(done.status.success(), "{}", stderr(&done));
+    succeeded(&done);
     same(&result_files(&output), &result_files(&folder.path().join("whole")));
 }
 
@@ -544,7 +520,7 @@ fn compute_tracks_like_the_processor_and_survives_the_loss_of_its_device() {
 fn without_vulkan_the_backend_says_what_to_do() {
     let folder = tempfile::tempdir().unwrap();
     let run = |name: &str, value: &str| {
-        Command::new(env!("CARGO_BIN_EXE_pantin"))
+        program()
             .args(["track", sequence().to_str().unwrap(), "-o", folder.path().join("track").to_str().unwrap()])
             .args(["--backend", "compute", "--force"])
             .env(name, value)

@@ -1,11 +1,7 @@
 //! `pantin calibrate` as a user runs it.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "helpers of tests fail as tests do")]
-
 use std::fmt::Write as _;
 use std::fs;
-use std::path::Path;
-use std::process::Command;
 
 use glam::{DVec2, DVec3};
 use pantin::files::Overwrite;
@@ -13,22 +9,8 @@ use pantin::geometry::Camera;
 use pantin::motion::{PointTrajectory, read_points, write_points};
 use pantin::sequence::read_cameras;
 
-#[allow(dead_code, reason = "a module of several tests")]
-mod scene;
-
-/// Exit status, standard output, standard error.
-fn pantin(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_pantin")).current_dir(folder).args(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
-
-fn refused(folder: &Path, arguments: &[&str], expected: &str) {
-    let (status, _, error) = pantin(folder, arguments);
-    assert_eq!(status, 1, "{error}");
-    assert!(error.contains(expected), "{error}\nshould say: {expected}");
-    assert_eq!(error.trim_end().lines().count(), 1, "one sentence: {error}");
-}
+use super::scene;
+use super::support::{pantin_in as pantin, refused_in as refused, shared};
 
 fn truth() -> Vec<Camera> {
     let target = DVec3::new(0.0, 0.0, 900.0);
@@ -145,11 +127,7 @@ fn wrong_usage_is_said() {
 /// of a man on a beam, all within a metre's breadth; the pixels are the calibration's own, with noise.
 #[test]
 fn cameras_of_a_real_recording_come_back() {
-    let data = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/beam"));
-    if !data.is_dir() {
-        println!("SKIPPED cameras_of_a_real_recording_come_back: ../shared/data is absent");
-        return;
-    }
+    let Some(data) = shared("cameras_of_a_real_recording_come_back", "beam") else { return };
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     let text = fs::read_to_string(data.join("cameras.toml")).unwrap();

@@ -27,6 +27,7 @@ use re_sdk_types::datatypes::TensorBuffer;
 use tempfile::TempDir;
 
 use super::read_back::Read;
+use crate::support::{program, refused, stderr, stdout, succeeded};
 
 const FRAMES: usize = 8;
 const FIRST: usize = 2;
@@ -233,19 +234,9 @@ fn curves_stages_and_texts_are_the_report_s() {
 }
 
 fn pantin(arguments: &[&str], sequence: &Path, output: &Path) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_pantin"));
+    let mut command = program();
     command.arg("track").arg(sequence).arg("-o").arg(output);
     command.args(["--particles", "40", "--iterations", "3", "--backend", "cpu"]).args(arguments).output().unwrap()
-}
-
-#[track_caller]
-fn refused(output: &Output, parts: &[&str]) {
-    let text = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{text}");
-    let sentence = text.lines().last().unwrap_or_default();
-    for part in parts {
-        assert!(sentence.contains(part), "`{sentence}` lacks `{part}`");
-    }
 }
 
 #[test]
@@ -258,10 +249,10 @@ fn the_program_records_when_asked_and_says_why_it_cannot() {
     let run = |more: &[&str]| pantin(&[&few, more].concat(), &sequence, &output);
 
     let done = run(&[]);
-    assert!(done.status.success() && !recording.exists(), "{}", String::from_utf8_lossy(&done.stderr));
+    assert!(done.status.success() && !recording.exists(), "{}", stderr(&done));
     // A finished run gets its recording later.
     let done = run(&["--resume", "--rerun"]);
-    let told = String::from_utf8_lossy(&done.stdout).into_owned();
+    let told = stdout(&done);
     assert!(done.status.success() && told.contains(&format!("rerun {}", recording.display())), "{told}");
     assert_eq!(
         Read::file(&recording)
@@ -288,7 +279,7 @@ fn no_room_is_one_sentence() {
     let output = folder.path().join("result");
     let few = ["--frames", "0..6", "--overlay-every", "1"];
     let done = pantin(&[&few[..], &["--rerun"]].concat(), &sequence, &output);
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    succeeded(&done);
     let size = |name: &str| fs::metadata(output.join(name)).unwrap().len();
     let (recording, page) = (size("report.rrd"), size("report.html"));
     // Room for the page and not for the recording, which has no stage times this time.

@@ -1,28 +1,13 @@
 //! `pantin score` and `pantin convert` as a user runs them.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "helpers of tests fail as tests do")]
-
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::PathBuf;
 
 use glam::DVec3;
 use pantin::files::Overwrite;
 use pantin::motion::{PointTrajectory, read_points, write_points};
 
-/// Exit status, standard output, standard error.
-fn pantin(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_pantin")).current_dir(folder).args(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
-
-fn refused(folder: &Path, arguments: &[&str], expected: &str) {
-    let (status, _, error) = pantin(folder, arguments);
-    assert_eq!(status, 1, "{error}");
-    assert!(error.contains(expected), "{error}\nshould say: {expected}");
-    assert_eq!(error.trim_end().lines().count(), 1, "one sentence: {error}");
-}
+use super::support::{pantin_in as pantin, refused_in as refused, shared};
 
 fn points(names: &[&str], frames: usize, offset: DVec3) -> PointTrajectory {
     PointTrajectory {
@@ -145,15 +130,11 @@ fn convert_refuses_in_one_sentence() {
 
 #[test]
 fn two_triangulations_of_the_beam_agree() {
-    let reference = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/beam/reference"));
-    if !reference.is_dir() {
-        println!("SKIPPED two_triangulations_of_the_beam_agree: ../shared/data is absent");
-        return;
-    }
+    let Some(reference) = shared("two_triangulations_of_the_beam_agree", "beam/reference") else { return };
     let truth = "authors_Balancing_for_IK.trc";
     let arguments =
         ["score", "openpose_body25b_3d_filt6hz.csv", "--truth", truth, "--truth-y-up", "--remove-offset", "--json"];
-    let (status, out, error) = pantin(reference, &arguments);
+    let (status, out, error) = pantin(&reference, &arguments);
     assert_eq!(status, 0, "{error}");
     let object: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!((&object["frames"], &object["missing"]), (&100.into(), &0.into()));

@@ -5,7 +5,8 @@ use std::fs;
 use pantin::body::{Body, PoseTable};
 use pantin::motion::{read_bvh, read_points};
 
-use super::{command, journalled, refused, sequence, stderr, succeeded, track};
+use super::{command, journalled, track};
+use crate::support::{has_vulkan, refused, sequence, stderr, succeeded};
 
 const FEW: [&str; 7] = ["--realtime", "--backend", "cpu", "--particles", "100", "--iterations", "8"];
 
@@ -115,9 +116,7 @@ fn killed_in_real_time_it_keeps_its_rows_and_goes_on() {
 
 #[test]
 fn a_device_lost_in_real_time_loses_nothing_done() {
-    if let Err(error) = pantin::evaluate::device::open_device() {
-        assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
-        println!("SKIPPED a_device_lost_in_real_time_loses_nothing_done: {error:#}");
+    if !has_vulkan("a_device_lost_in_real_time_loses_nothing_done") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();

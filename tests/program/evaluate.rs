@@ -8,7 +8,8 @@ use pantin::evaluate::Reference;
 use pantin::features::Observation;
 use pantin::files::Overwrite;
 
-use super::{pantin, refused, sequence, walk};
+use super::support::{has_vulkan, pantin, refused, sequence, stderr, stdout, succeeded};
+use super::walk;
 
 /// The true poses, which frame 2 is compared with.
 fn evaluate(output: &Path, more: &[&str]) -> std::process::Output {
@@ -25,9 +26,9 @@ fn both_backends_write_the_same_and_the_truth_scores_best() {
     for backend in ["reference", "cpu"] {
         let output = folder.path().join(backend);
         let done = evaluate(&output, &[&of_frame[..], &["--backend", backend, "--images"]].concat());
-        assert!(done.status.success(), "{}", super::stderr(&done));
-        let says = super::stderr(&done).contains("the images are drawn by the reference");
-        assert_eq!(says, backend == "cpu", "{}", super::stderr(&done));
+        succeeded(&done);
+        let says = stderr(&done).contains("the images are drawn by the reference");
+        assert_eq!(says, backend == "cpu", "{}", stderr(&done));
     }
     let read = |backend: &str, name: &str| fs::read_to_string(folder.path().join(backend).join(name)).unwrap();
     for name in ["components.csv", "fitness.csv"] {
@@ -56,7 +57,7 @@ fn both_backends_write_the_same_and_the_truth_scores_best() {
 /// Graphics writes what the device drew, compute says that it has nothing to write.
 #[test]
 fn devices_write_the_pictures_they_have() {
-    if !super::has_vulkan("devices_write_the_pictures_they_have") {
+    if !has_vulkan("devices_write_the_pictures_they_have") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -66,9 +67,9 @@ fn devices_write_the_pictures_they_have() {
     for backend in ["graphics", "compute"] {
         let output = folder.path().join(backend);
         let done = evaluate(&output, &[&of_frame[..], &["--backend", backend]].concat());
-        assert!(done.status.success(), "{}", super::stderr(&done));
-        let says = super::stderr(&done).contains("the images are drawn by the reference");
-        assert_eq!(says, backend == "compute", "{}", super::stderr(&done));
+        succeeded(&done);
+        let says = stderr(&done).contains("the images are drawn by the reference");
+        assert_eq!(says, backend == "compute", "{}", stderr(&done));
         for (frame, pose) in walk::poses(&body).poses.iter().enumerate() {
             let pose: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
             let image = image::open(output.join(format!("images/pose_{frame:06}_cam1.png"))).unwrap().into_luma8();
@@ -115,8 +116,8 @@ fn packed_observations_instead_of_a_sequence() {
     };
     let run = |arguments: &[String]| pantin(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
     let done = run(&arguments(folder.path()));
-    assert!(done.status.success(), "{}", super::stderr(&done));
-    let text = String::from_utf8(done.stdout).unwrap();
+    succeeded(&done);
+    let text = stdout(&done);
     assert_eq!(text, "pose,fitness\n0,1\n1,1\n", "drawn from this very pose");
 
     let wrong = folder.path().join("cam2.png");
@@ -133,7 +134,7 @@ fn the_mesh_model_is_drawn_and_scored() {
     let output = folder.path().join("mesh");
     let of_frame = ["--sequence", sequence().to_str().unwrap(), "--frame", "2", "--model", "mesh"];
     let done = evaluate(&output, &[&of_frame[..], &["--images"]].concat());
-    assert!(done.status.success(), "{}", super::stderr(&done));
+    succeeded(&done);
     let body = Body::adult(1750.0).unwrap();
     let reference = Reference::of_mesh(&body, Mesh::of_body(&body).unwrap(), &walk::cameras()).unwrap();
     let pose: Vec<f32> = walk::poses(&body).poses[3].iter().map(|value| *value as f32).collect();

@@ -1,14 +1,15 @@
 //! A real recording: a man balancing on a beam, four videos of 100 frames (docs/BEAM.md). Needs ../shared/data and ffmpeg.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 use std::time::Instant;
 
 use pantin::body::{Body, PoseTable};
 use pantin::motion::{PointPairs, TrajectoryError, read_points};
+
+use super::support::{self, beam_fixture as fixture, copy, has_ffmpeg, lay_out_beam, shared, stdout, succeeded};
 
 /// Joints of the reference and ours. Its nose is unusable, its hips are off by 40 to 50 mm.
 const JOINTS: [(&str, &str); 12] = [
@@ -31,52 +32,16 @@ const LIMIT: f64 = 60.0;
 /// A track is lost in a frame whose joints are farther off than this on average, mm.
 const LOST: f64 = 150.0;
 
-fn data() -> PathBuf {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/beam")).to_path_buf()
-}
-
-fn fixture(name: &str) -> PathBuf {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/beam")).join(name)
-}
-
-/// Whether the test can run; says so if not.
-fn is_ready(test: &str) -> bool {
-    let missing = if !data().is_dir() {
-        "../shared/data is absent"
-    } else if Command::new("ffmpeg").arg("-version").output().is_err() {
-        "ffmpeg is absent"
-    } else {
-        return true;
-    };
-    println!("SKIPPED {test}: {missing}");
-    false
-}
-
-fn copy(from: &Path, to: &Path) {
-    fs::copy(from, to).unwrap_or_else(|error| panic!("{} to {}: {error}", from.display(), to.display()));
-}
-
-/// The recording as a sequence: the fixture's manifest, body and start pose beside the recording's files.
-fn lay_out_walk(folder: &Path) {
-    fs::create_dir_all(folder).unwrap();
-    for name in ["sequence.toml", "body.toml", "start.csv"] {
-        copy(&fixture(name), &folder.join(name));
-    }
-    for camera in ["cam01", "cam02", "cam03", "cam04"] {
-        copy(&data().join(format!("videos/{camera}.mp4")), &folder.join(format!("{camera}.mp4")));
-        let plate = format!("bg_{camera}.png");
-        copy(&data().join("background").join(&plate), &folder.join(&plate));
-    }
-    // The calibration does not say its unit.
-    let cameras = fs::read_to_string(data().join("cameras.toml")).unwrap();
-    fs::write(folder.join("cameras.toml"), format!("{cameras}\n[metadata]\nunits = \"mm\"\n")).unwrap();
+/// The recording, where the test can run; says so if not.
+fn data(test: &str) -> Option<PathBuf> {
+    shared(test, "beam").filter(|_| has_ffmpeg(test))
 }
 
 /// The T-pose as a sequence. Its videos are cut to other sizes than the recording's, so they have matrices of their own.
-fn lay_out_tpose(folder: &Path) {
+fn lay_out_tpose(data: &Path, folder: &Path) {
     fs::create_dir_all(folder.join("masks")).unwrap();
     copy(&fixture("tpose.toml"), &folder.join("sequence.toml"));
-    let text = fs::read_to_string(data().join("cameras.json")).unwrap();
+    let text = fs::read_to_string(data.join("cameras.json")).unwrap();
     let calibration: serde_json::Value = serde_json::from_str(&text).unwrap();
     let mut cameras = "[metadata]\nunits = \"mm\"\n".to_string();
     for camera in calibration["cameras"].as_array().unwrap() {
@@ -86,24 +51,24 @@ fn lay_out_tpose(folder: &Path) {
             .unwrap();
         write!(cameras, "distortions = {}\nrotation = {}\n", camera["dist"], camera["rvec"]).unwrap();
         writeln!(cameras, "translation = {}", camera["t"]).unwrap();
-        copy(&data().join(format!("tpose/{name}.mp4")), &folder.join(format!("{name}.mp4")));
+        copy(&data.join(format!("tpose/{name}.mp4")), &folder.join(format!("{name}.mp4")));
         for frame in 0..11 {
             let mask = format!("masks/{name}_{frame:02}.png");
-            copy(&data().join("tpose").join(&mask), &folder.join(&mask));
+            copy(&data.join("tpose").join(&mask), &folder.join(&mask));
         }
     }
     fs::write(folder.join("cameras.toml"), cameras).unwrap();
 }
 
 fn pantin(arguments: &[&str]) -> Output {
-    let done = Command::new(env!("CARGO_BIN_EXE_pantin")).args(arguments).output().unwrap();
-    assert!(done.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&done.stderr));
+    let done = support::pantin(arguments);
+    succeeded(&done);
     done
 }
 
 /// The track in a folder against the reference; with `remove_offset`, less each joint's mean offset.
-fn error(track: &Path, remove_offset: bool) -> TrajectoryError {
-    let reference = read_points(&data().join("reference/openpose_body25b_3d_filt6hz.csv")).unwrap();
+fn error(data: &Path, track: &Path, remove_offset: bool) -> TrajectoryError {
+    let reference = read_points(&data.join("reference/openpose_body25b_3d_filt6hz.csv")).unwrap();
     let ours = read_points(&track.join("joints.csv")).unwrap();
     let map = JOINTS.map(|(theirs, ours)| (theirs.to_string(), ours.to_string()));
     let pairs = PointPairs::find(&ours, &reference, &map).unwrap();
@@ -117,15 +82,13 @@ fn worst_frame(error: &TrajectoryError) -> f64 {
 
 #[test]
 fn the_first_frames_stay_on_the_man() {
-    if !is_ready("the_first_frames_stay_on_the_man") {
-        return;
-    }
+    let Some(data) = data("the_first_frames_stay_on_the_man") else { return };
     let folder = tempfile::tempdir().unwrap();
     let (sequence, track) = (folder.path().join("beam"), folder.path().join("track"));
-    lay_out_walk(&sequence);
+    lay_out_beam(&data, &sequence);
     let [sequence, output] = [&sequence, &track].map(|path| path.to_str().unwrap());
     pantin(&["track", sequence, "-o", output, "--frames", "0..12", "--particles", "300", "--iterations", "15"]);
-    let error = error(&track, false);
+    let error = error(&data, &track, false);
     assert_eq!(error.points.len(), JOINTS.len());
     assert_eq!(error.frames.len(), 12);
     assert!(error.mean < LIMIT, "{} mm", error.mean);
@@ -134,16 +97,14 @@ fn the_first_frames_stay_on_the_man() {
     assert!(error.mean > 5.0, "{} mm", error.mean);
 }
 
-/// The measured table of docs/BEAM.md: `cargo test --release --test beam -- --ignored --nocapture all_frames`.
+/// The measured table of docs/BEAM.md: `cargo test --release --test program all_frames -- --ignored --nocapture`.
 #[test]
 #[ignore = "minutes; run it in release"]
 fn all_frames_with_ten_seeds() {
-    if !is_ready("all_frames_with_ten_seeds") {
-        return;
-    }
+    let Some(data) = data("all_frames_with_ten_seeds") else { return };
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("beam");
     let sequence = folder.join("walk");
-    lay_out_walk(&sequence);
+    lay_out_beam(&data, &sequence);
     println!("| seed | mean | without offsets | worst joint | worst frame | frames/s |\n|---|---|---|---|---|---|");
     let mut failures = Vec::new();
     for seed in 1..=10 {
@@ -153,7 +114,7 @@ fn all_frames_with_ten_seeds() {
         let search = ["--particles", "300", "--iterations", "15", "--seed", &seed, "--overlay-every", "9", "--force"];
         pantin(&[&["track", sequence, "-o", output], &search[..]].concat());
         let rate = 100.0 / begin.elapsed().as_secs_f64();
-        let [error, without] = [false, true].map(|remove_offset| error(&track, remove_offset));
+        let [error, without] = [false, true].map(|remove_offset| error(&data, &track, remove_offset));
         let worst = error.points.iter().max_by(|a, b| a.mean.total_cmp(&b.mean)).unwrap();
         let (mean, frame) = (error.mean, worst_frame(&error));
         println!(
@@ -172,19 +133,17 @@ fn all_frames_with_ten_seeds() {
 #[test]
 #[ignore = "half a minute; run it in release"]
 fn the_body_is_what_fit_measures() {
-    if !is_ready("the_body_is_what_fit_measures") {
-        return;
-    }
+    let Some(data) = data("the_body_is_what_fit_measures") else { return };
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("beam");
     let (tpose, walk) = (folder.join("tpose"), folder.join("walk"));
-    lay_out_tpose(&tpose);
-    lay_out_walk(&walk);
+    lay_out_tpose(&data, &tpose);
+    lay_out_beam(&data, &walk);
     let (body_file, start_file) = (folder.join("body.toml"), folder.join("start.csv"));
     let [tpose, walk, body, start] = [&tpose, &walk, &body_file, &start_file].map(|path| path.to_str().unwrap());
     let said = pantin(&["fit", tpose, "--height", "1720", "-o", body, "--force"]);
-    println!("{}", String::from_utf8_lossy(&said.stdout));
+    println!("{}", stdout(&said));
     let said = pantin(&["fit", walk, "--start-out", start, "--force"]);
-    println!("{}", String::from_utf8_lossy(&said.stdout));
+    println!("{}", stdout(&said));
     let [found, kept] = [&body_file, &fixture("body.toml")].map(|file| Body::load(file).unwrap());
     for (found, kept) in found.bones.iter().zip(&kept.bones) {
         assert!((found.offset - kept.offset).length() < 25.0, "{}: {} and {}", kept.name, found.offset, kept.offset);

@@ -1,5 +1,4 @@
 //! `pantin features` from a manifest to pictures, and the silhouettes of a real sequence.
-#![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 
 use std::fs;
 use std::path::Path;
@@ -7,6 +6,8 @@ use std::path::Path;
 use image::{GrayImage, Luma, Rgb, RgbImage};
 use pantin::features::{Extractor, FeatureSettings, Observation, ViewSource};
 use pantin::sequence::Sequence;
+
+use super::support::{self, has_vulkan, shared, stderr};
 
 const WIDTH: u32 = 80;
 const HEIGHT: u32 = 60;
@@ -64,8 +65,8 @@ fn write_sequence(folder: &Path, features: &str) {
 }
 
 fn pantin(arguments: &[&str]) -> (bool, String) {
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_pantin")).args(arguments).output().unwrap();
-    (output.status.success(), String::from_utf8_lossy(&output.stderr).into_owned())
+    let output = support::pantin(arguments);
+    (output.status.success(), stderr(&output))
 }
 
 #[test]
@@ -124,9 +125,7 @@ fn body_parts_and_other_operators_are_written_and_a_device_agrees() {
     let (top, rest) = (colours(10..20), colours(20..50));
     assert!(top.len() == 1 && rest.len() == 1 && top != rest && colours(0..10) == [[0; 3]], "{top:?}, {rest:?}");
 
-    if let Err(error) = pantin::gpu::Instance::open(pantin::gpu::Validation::Off) {
-        assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
-        println!("SKIPPED the device: {error:#}");
+    if !has_vulkan("the device of body_parts_and_other_operators_are_written_and_a_device_agrees") {
         return;
     }
     let device = folder.path().join("device");
@@ -161,11 +160,7 @@ fn what_is_wrong_is_named() {
 /// There is no true silhouette of this take, but joints triangulated from a keypoint detector: they must lie on it.
 #[test]
 fn silhouettes_of_a_real_sequence_hold_the_joints() {
-    let beam = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/beam"));
-    if !beam.is_dir() {
-        eprintln!("SKIPPED silhouettes_of_a_real_sequence_hold_the_joints: ../shared/data is absent");
-        return;
-    }
+    let Some(beam) = shared("silhouettes_of_a_real_sequence_hold_the_joints", "beam") else { return };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("sequence.toml");
     let at = |name: String| beam.join(name).display().to_string();
@@ -258,11 +253,8 @@ fn within(polygon: &[[i32; 2]], x: f64, y: f64) -> bool {
 /// and little beside her. A shirt as green and as dark as the trees' shade passes for their shadow, so both settings are asked.
 #[test]
 fn a_learnt_background_shows_a_walker_as_drawn_by_hand() {
-    let video = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/video/sports2d_demo.mp4"));
-    if !video.is_file() {
-        eprintln!("SKIPPED a_learnt_background_shows_a_walker_as_drawn_by_hand: ../shared/data is absent");
-        return;
-    }
+    let name = "a_learnt_background_shows_a_walker_as_drawn_by_hand";
+    let Some(video) = shared(name, "video/sports2d_demo.mp4") else { return };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("sequence.toml");
     let camera = "[metadata]\nunits = \"mm\"\n[cam]\nname = \"cam\"\nsize = [1768, 994]\n\

@@ -1,27 +1,22 @@
 //! A person imported from a skinned glTF file: `pantin convert person.glb body.toml` and `Body::from_gltf`.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use glam::{DVec2, DVec3};
 use pantin::body::{ADULT_HEIGHT, Body, Mesh};
 use pantin::evaluate::{CandidateImage, Reference};
 use pantin::synth::rig::four_cameras;
 
+use super::support::{pantin_in as pantin, shared};
+
 /// The person's height in the file, mm.
 const HEIGHT: f64 = 1780.0;
 
 /// The skinned person, or a line that says why the test is skipped.
 fn person(test: &str) -> Option<PathBuf> {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/mesh/human_male.glb"));
-    if !path.is_file() {
-        println!("SKIPPED {test}: ../shared/data is absent");
-        return None;
-    }
-    Some(path.to_path_buf())
+    shared(test, "mesh/human_male.glb")
 }
 
 fn imported(path: &Path) -> Body {
@@ -32,13 +27,6 @@ fn imported(path: &Path) -> Body {
 fn at_rest(body: &Body) -> BTreeMap<String, DVec3> {
     let bones = body.world_from_bones(&body.standing_pose()).unwrap();
     body.joint_names().into_iter().zip(body.joint_positions(&bones)).collect()
-}
-
-/// Runs the program in a folder; its status, what it said, and its complaint.
-fn pantin(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_pantin")).current_dir(folder).args(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }
 
 /// The file with a text replaced by another of the same length, so that its chunks stay as long as they say.

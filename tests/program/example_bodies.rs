@@ -1,9 +1,7 @@
 //! The example bodies of docs/bodies: read, drawn alike by both evaluators, and tracked in sequences of their own.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use glam::DVec3;
 use pantin::body::{Body, PoseTable, parse_body};
@@ -11,10 +9,8 @@ use pantin::evaluate::cpu::Cpu;
 use pantin::evaluate::{Components, Evaluator, Reference};
 use pantin::features::Observation;
 
-#[path = "track/drawn.rs"]
-mod drawn;
-
-use drawn::Ring;
+use super::drawn::{self, Ring};
+use super::support::{program, succeeded};
 
 const FRAMES: usize = 10;
 
@@ -167,10 +163,10 @@ fn check(example: &Example) {
     let folder = tempfile::tempdir().unwrap();
     drawn::write(folder.path(), &body.name, &body, &cameras, &truth);
     let result = folder.path().join("result");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_pantin"));
+    let mut command = program();
     command.arg("track").arg(folder.path()).arg("-o").arg(&result).args(["--particles", "150", "--iterations", "20"]);
     let done = command.output().unwrap();
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    succeeded(&done);
     let found = PoseTable::read(&result.join("poses.csv"), &body).unwrap();
     assert_eq!(found.frames, truth.frames);
     let errors: Vec<f64> =

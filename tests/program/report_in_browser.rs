@@ -1,12 +1,12 @@
 //! report.html in a real browser, without a screen and without a network: nothing fails in it, the slider shows another
 //! frame's overlays, the player draws.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "a helper of tests may fail as they do")]
-
 use std::path::Path;
 use std::process::Command;
 
 use serde_json::json;
+
+use super::support::{program, succeeded};
 
 const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
@@ -83,12 +83,12 @@ fn the_report_works_in_a_browser() {
     };
     let folder = tempfile::tempdir().unwrap();
     let demo = folder.path().join("demo");
-    let made = Command::new(env!("CARGO_BIN_EXE_pantin"))
+    let made = program()
         .args(["demo", "--frames", "11", "--particles", "40", "--iterations", "3", "-o"])
         .arg(&demo)
         .output()
         .unwrap();
-    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    succeeded(&made);
     let report = std::fs::read_to_string(demo.join("report.html")).unwrap();
     let page = |text: &str, name: &str| {
         let text =

@@ -1,15 +1,15 @@
 //! Scripted losses of a walking person in the synthetic room, and how well the tracker knows of them (docs/CONFIDENCE.md).
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
 use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use pantin::motion::{PointTrajectory, read_points};
 use plotters::prelude::*;
+
+use super::support::{self, succeeded};
 
 const CAMERAS: [&str; 4] = ["cam1", "cam2", "cam3", "cam4"];
 /// A frame is off when its joints are farther from the truth than this on average, mm.
@@ -49,8 +49,7 @@ const SCRIPTS: [Script; 6] = [
 ];
 
 fn pantin(arguments: &[&str]) {
-    let done = Command::new(env!("CARGO_BIN_EXE_pantin")).args(arguments).output().unwrap();
-    assert!(done.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&done.stderr));
+    succeeded(&support::pantin(arguments));
 }
 
 /// The walk of `frames` frames in a folder; `others` are more people, as TOML.
@@ -187,7 +186,7 @@ fn a_person_who_leaves_is_a_gap_and_is_found_again() {
 }
 
 /// The numbers and the plot of docs/CONFIDENCE.md, in `target/tmp/losses`:
-/// `cargo test --release --test losses -- --ignored --nocapture`.
+/// `cargo test --release --test program losses:: -- --ignored --nocapture`.
 #[test]
 #[ignore = "minutes; run it in release"]
 fn misses_against_false_alarms() {

@@ -1,10 +1,7 @@
 //! `pantin check` as a user runs it: on drawn silhouettes of a walking body, whose truth is exact, and on the beam.
 
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "helpers of tests fail as tests do")]
-
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 use std::sync::OnceLock;
 
 use glam::{DAffine3, DMat3, DVec3};
@@ -15,8 +12,8 @@ use pantin::files::Overwrite;
 use pantin::geometry::{Camera, rodrigues_matrix};
 use pantin::sequence::write_cameras_toml;
 
-#[allow(dead_code, reason = "a module of several tests")]
-mod scene;
+use super::scene;
+use super::support::{has_ffmpeg, lay_out_beam, pantin, shared, stderr, stdout};
 
 const SIZE: [u32; 2] = [320, 400];
 const FRAMES: usize = 24;
@@ -101,8 +98,8 @@ fn sequence(cameras: &[Camera], late: Option<&str>) -> tempfile::TempDir {
 
 /// Exit status, the report, and what stood on standard error.
 fn check(sequence: &Path) -> (i32, serde_json::Value, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_pantin")).args(["check", "--json"]).arg(sequence).output().unwrap();
-    let error = String::from_utf8(output.stderr).unwrap();
+    let output = pantin(&["check", "--json", sequence.to_str().unwrap()]);
+    let error = stderr(&output);
     let report = serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{error}"));
     (output.status.code().unwrap(), report, error)
 }
@@ -280,11 +277,8 @@ fn a_wrong_lens_and_too_few_frames_are_said() {
     assert!(finding(&report, "distortion", "c0")["found"].as_str().unwrap().contains("past the end"), "{report:#}");
     let folder = sequence(&self::cameras(), None);
     let run = |arguments: &[&str]| {
-        let output =
-            Command::new(env!("CARGO_BIN_EXE_pantin")).arg("check").arg(folder.path()).args(arguments).output();
-        let output = output.unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+        let output = pantin(&[&["check", folder.path().to_str().unwrap()], arguments].concat());
+        (output.status.code().unwrap(), stdout(&output), stderr(&output))
     };
     let (status, out, error) = run(&["--frames", "3..5"]);
     assert!(status == 0 && out.contains("-      timing c1") && out.contains("no three neighbours"), "{out}{error}");
@@ -296,24 +290,11 @@ fn a_wrong_lens_and_too_few_frames_are_said() {
 /// static points.
 #[test]
 fn the_calibrations_of_the_beam_are_told_apart() {
-    let data = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/beam"));
-    if !data.is_dir() || Command::new("ffmpeg").arg("-version").output().is_err() {
-        println!("SKIPPED the_calibrations_of_the_beam_are_told_apart: ../shared/data or ffmpeg is absent");
-        return;
-    }
+    let name = "the_calibrations_of_the_beam_are_told_apart";
+    let Some(data) = shared(name, "beam").filter(|_| has_ffmpeg(name)) else { return };
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    let fixture = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/beam"));
-    let copy = |from: PathBuf, name: &str| fs::write(at.join(name), fs::read(from).unwrap()).unwrap();
-    copy(fixture.join("body.toml"), "body.toml");
-    for camera in ["cam01", "cam02", "cam03", "cam04"] {
-        copy(data.join(format!("videos/{camera}.mp4")), &format!("{camera}.mp4"));
-        copy(data.join(format!("background/bg_{camera}.png")), &format!("bg_{camera}.png"));
-    }
-    copy(fixture.join("start.csv"), "start.csv");
-    copy(fixture.join("sequence.toml"), "sequence.toml");
-    let refined = fs::read_to_string(data.join("cameras.toml")).unwrap() + "\n[metadata]\nunits = \"mm\"\n";
-    fs::write(at.join("cameras.toml"), refined).unwrap();
+    lay_out_beam(&data, at);
     let refined = pantin::sequence::read_cameras(&at.join("cameras.toml")).unwrap();
     let (status, report, error) = check(at);
     assert_eq!((status, failed(&report)), (0, vec![]), "{error}");

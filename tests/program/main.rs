@@ -1,0 +1,35 @@
+//! The program from outside, as a user runs it: what every command writes, what it refuses, and what is left when it is killed.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a test says what went wrong by panicking"
+)]
+
+mod beam;
+mod body_import;
+mod calibrate;
+mod check;
+mod demo;
+mod devices_and_bench;
+mod drawn;
+mod evaluate;
+mod example_bodies;
+mod features;
+mod losses;
+mod reliability;
+mod report_in_browser;
+#[cfg(feature = "rerun")]
+mod rerun;
+#[path = "../scene/mod.rs"]
+#[allow(dead_code, reason = "the tests of evaluators take more of it")]
+mod scene;
+mod score_and_convert;
+mod support;
+mod synth;
+mod texture;
+mod track;
+mod walk;
