@@ -82,37 +82,20 @@ fn stages(criterion: &mut Criterion) {
     let mut detector = EdgeDetector::default();
     let mut edges = BitImage::new(WIDTH, HEIGHT);
     let whole = BitImage::from_fn(WIDTH, HEIGHT, |_, _| true);
-    for (id, operator) in OPERATORS {
+    for operator in Operator::ALL {
         let edge_settings = EdgeSettings { operator, ..settings.edges };
-        criterion.bench_function(&format!("edges, {id}"), |b| {
+        criterion.bench_function(&format!("edges, {operator}"), |b| {
             b.iter(|| detector.detect(black_box(&picture), &whole, &edge_settings, &mut edges));
         });
     }
     edges = silhouette.clone();
     let mut distance = DistanceMap::default();
-    for (id, metric) in METRICS {
-        criterion.bench_function(&format!("distance, {id}"), |b| {
+    for metric in Metric::ALL {
+        criterion.bench_function(&format!("distance, {metric}"), |b| {
             b.iter(|| distance.measure(black_box(&edges), metric, 16));
         });
     }
 }
-
-const OPERATORS: [(&str, Operator); 7] = [
-    ("sobel", Operator::Sobel),
-    ("prewitt", Operator::Prewitt),
-    ("roberts", Operator::Roberts),
-    ("laplace4", Operator::LaplaceFour),
-    ("laplace8", Operator::LaplaceEight),
-    ("laplace-product", Operator::LaplaceProduct),
-    ("canny", Operator::Canny),
-];
-
-const METRICS: [(&str, Metric); 4] = [
-    ("chessboard", Metric::Chessboard),
-    ("city-block", Metric::CityBlock),
-    ("euclidean", Metric::Euclidean),
-    ("quasi-euclidean", Metric::QuasiEuclidean),
-];
 
 /// Whole frames of `views` equal views.
 fn frames(criterion: &mut Criterion, id: &str, settings: FeatureSettings, plate: bool, views: usize, size: [u32; 2]) {

@@ -10,7 +10,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
-use pantin::body::{Body, FrustumBase, Mesh, Skinning};
+use pantin::body::{Body, Mesh, Model, Skinning};
 use pantin::evaluate::device::{Graphics, GraphicsSettings, open_device};
 use pantin::evaluate::{Components, Evaluator as _, Objective, Reference};
 use pantin::features::Observation;
@@ -61,15 +61,9 @@ fn swarm(body: &Body, count: usize) -> Vec<f32> {
 }
 
 fn meshes(body: &Body) -> Vec<(String, Mesh)> {
-    let elliptic = FrustumBase::LADDER.map(|vertices| FrustumBase::Elliptic { vertices });
-    let mut all: Vec<(String, Mesh)> = [FrustumBase::Square]
-        .into_iter()
-        .chain(elliptic)
-        .map(|base| {
-            let name = format!("{} {}", base.name(), base.vertices());
-            (name, Mesh::frusta(body, base, &BTreeMap::new()).unwrap())
-        })
-        .collect();
+    let frusta = Model::ladder().skip(1);
+    let mut all: Vec<(String, Mesh)> =
+        frusta.map(|model| (model.to_string(), model.mesh(body).unwrap().unwrap())).collect();
     let person = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data/mesh/human_male.glb"));
     if person.exists() {
         let mesh = Mesh::read(person, body, Skinning::Smooth, &BTreeMap::new()).unwrap();

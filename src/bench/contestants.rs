@@ -1,13 +1,11 @@
 //! Who is measured: every backend and variant that this machine runs, and why it does not run the others.
 
-use std::collections::BTreeMap;
-
 use anyhow::{Result, anyhow, bail};
 use serde::Serialize;
 
 use super::Scene;
 use super::yardstick::{Yardstick, YardstickKind};
-use crate::body::{FrustumBase, Mesh};
+use crate::body::Model;
 use crate::evaluate::cpu::{Cpu, InstructionSet};
 use crate::evaluate::device::{
     Comparison, Compute, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Tiling, device_settings,
@@ -27,31 +25,6 @@ pub struct Missing {
     pub model: String,
     /// Why not, in a sentence.
     pub reason: String,
-}
-
-/// What the body is drawn as.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Model {
-    /// Flat parts.
-    Flat,
-    /// Frusta.
-    Frusta(FrustumBase),
-}
-
-impl Model {
-    /// The name that rows carry.
-    pub(super) fn name(self) -> String {
-        match self {
-            Self::Flat => "flat".to_string(),
-            Self::Frusta(base) => format!("{} {}", base.name(), base.vertices()),
-        }
-    }
-
-    /// The flat model, the square frusta and every rung of the elliptic ones.
-    pub(super) fn ladder() -> Vec<Self> {
-        let elliptic = FrustumBase::LADDER.map(|vertices| Self::Frusta(FrustumBase::Elliptic { vertices }));
-        [Self::Flat, Self::Frusta(FrustumBase::Square)].into_iter().chain(elliptic).collect()
-    }
 }
 
 /// Who is measured on a scene, and who is not.
@@ -106,8 +79,8 @@ impl Contestants {
         let Scene { body, cameras, .. } = scene;
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let mut all = Self::default();
-        match model {
-            Model::Flat => {
+        match model.mesh(body)? {
+            None => {
                 all.add(model, "reference", "", Ok(Box::new(Reference::new(body, cameras))));
                 for kind in YardstickKind::ALL {
                     all.add(model, "cpu", kind.name(), Ok(Box::new(Yardstick::new(body, cameras, kind, threads))));
@@ -132,8 +105,7 @@ impl Contestants {
                     all.add(model, "graphics", &variant, graphics);
                 }
             }
-            Model::Frusta(base) => {
-                let mesh = Mesh::frusta(body, base, &BTreeMap::new())?;
+            Some(mesh) => {
                 all.add(model, "reference", "", Ok(Box::new(Reference::of_mesh(body, mesh.clone(), cameras)?)));
                 let settings = GraphicsSettings::default();
                 let graphics = variant_on(device, None)
@@ -155,7 +127,7 @@ impl Contestants {
             Err(error) => self.missing.push(Missing {
                 backend: backend.to_string(),
                 variant: variant.to_string(),
-                model: model.name(),
+                model: model.to_string(),
                 reason: format!("{error:#}"),
             }),
         }

@@ -4,12 +4,14 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 
-use super::contestants::{Contestants, Missing, Model};
+use super::contestants::{Contestants, Missing};
 use super::report::{BenchReport, Row, machine};
 use super::rounds::{Round, Times, interleaved};
 use super::scene::{Scene, swarm};
+use crate::body::Model;
 use crate::evaluate::device::open_device;
 use crate::evaluate::{Evaluator, Objective};
+use crate::files::choices;
 
 /// How far a fitness may lie from the first evaluator's.
 const TOLERANCE: f32 = 1e-3;
@@ -20,14 +22,15 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// Rounds that stages are measured in, after the others.
 const STAGE_ROUNDS: usize = 5;
 
-/// A set of tasks.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Preset {
-    /// 512 particles on both picture sizes, a few seconds.
-    #[default]
-    Quick,
-    /// The tasks of SPEC A10: 96, 304 and 512 particles on both picture sizes, and the model ladder.
-    Thesis,
+choices! {
+    /// A set of tasks.
+    #[derive(Default)]
+    "preset" pub enum Preset {
+        /// 512 particles on both picture sizes, a few seconds.
+        "quick" #[default] Quick,
+        /// 96, 304 and 512 particles on both picture sizes and the model ladder, beside published figures (SPEC A10).
+        "thesis" Thesis,
+    }
 }
 
 /// One task: a model, a number of candidates, and pictures in which the person is so tall.
@@ -43,28 +46,6 @@ const LARGE: ([u32; 2], f64) = ([640, 480], 280.0);
 const SMALL: ([u32; 2], f64) = ([480, 270], 150.0);
 
 impl Preset {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Quick, Self::Thesis];
-
-    /// The name as `--preset` takes it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Quick => "quick",
-            Self::Thesis => "thesis",
-        }
-    }
-
-    /// The preset of that name.
-    ///
-    /// # Errors
-    /// When there is none; the sentence names those there are.
-    pub fn from_name(name: &str) -> Result<Self> {
-        match Self::ALL.into_iter().find(|preset| preset.name() == name) {
-            Some(preset) => Ok(preset),
-            None => bail!("there is no preset `{name}`, expected one of {}", Self::ALL.map(Self::name).join(", ")),
-        }
-    }
-
     fn tasks(self) -> Vec<Task> {
         let counts: &[usize] = match self {
             Self::Quick => &[512],
@@ -74,11 +55,11 @@ impl Preset {
             counts.iter().map(move |&particles| Task { model: Model::Flat, particles, size, person })
         });
         let rungs = match self {
-            Self::Quick => vec![Model::ladder()[1]],
-            Self::Thesis => Model::ladder()[1..].to_vec(),
+            Self::Quick => 1,
+            Self::Thesis => Model::ALL.len(),
         };
         let (size, person) = LARGE;
-        let ladder = rungs.into_iter().map(|model| Task { model, particles: 304, size, person });
+        let ladder = Model::ladder().skip(1).take(rungs).map(|model| Task { model, particles: 304, size, person });
         flat.chain(ladder).collect()
     }
 
@@ -190,7 +171,7 @@ fn refusal(task: &Task, evaluator: &dyn Evaluator, error: &anyhow::Error) -> Mis
     Missing {
         backend: evaluator.name().to_string(),
         variant: evaluator.variant().to_string(),
-        model: task.model.name(),
+        model: task.model.to_string(),
         reason: format!("{error:#}"),
     }
 }
@@ -234,7 +215,7 @@ fn row(task: &Task, scene: &Scene, entry: &Entry, times: Times, stages: Vec<(Str
     Row {
         backend: evaluator.name().to_string(),
         variant: evaluator.variant().to_string(),
-        model: task.model.name(),
+        model: task.model.to_string(),
         particles,
         views: scene.cameras.len(),
         width,
@@ -265,11 +246,11 @@ mod tests {
                 assert_eq!(tasks.iter().filter(is_it).count(), 1);
             }
         }
-        let rungs: Vec<String> = tasks[6..].iter().map(|task| task.model.name()).collect();
-        let elliptic = [18, 34, 66, 130, 258, 514].map(|vertices| format!("elliptic {vertices}"));
-        assert_eq!(rungs, [vec!["square 8".to_string()], elliptic.to_vec()].concat());
+        let rungs: Vec<String> = tasks[6..].iter().map(|task| task.model.to_string()).collect();
+        let elliptic = [18, 34, 66, 130, 258, 514].map(|vertices| format!("elliptic-{vertices}"));
+        assert_eq!(rungs, [vec!["square".to_string()], elliptic.to_vec()].concat());
         let error = Preset::from_name("slow").unwrap_err().to_string();
-        assert_eq!(error, "there is no preset `slow`, expected one of quick, thesis");
+        assert_eq!(error, "unknown preset `slow`, the nearest is `quick` (known: quick, thesis)");
     }
 
     #[test]

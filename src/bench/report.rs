@@ -11,7 +11,7 @@ pub struct Row {
     pub backend: String,
     /// How it was done.
     pub variant: String,
-    /// `flat`, or frusta and their vertices a part: `square 8`, `elliptic 18`.
+    /// Its name: `flat`, or a rung of the ladder of frusta.
     pub model: String,
     /// Candidates scored at once.
     pub particles: usize,

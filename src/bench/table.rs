@@ -121,7 +121,7 @@ mod tests {
             rows: vec![
                 row("flat", [640, 480], 512),
                 row("flat", [480, 270], 512),
-                row("elliptic 514", [640, 480], 304),
+                row("elliptic-514", [640, 480], 304),
             ],
             unavailable: vec![Missing {
                 backend: "graphics".into(),

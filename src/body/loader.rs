@@ -11,7 +11,7 @@ use serde::Deserialize;
 use super::mesh::{MeshEntry, build_source};
 use super::{Body, Bone, Dof, DofAxis, Marker, MeshSource, Part};
 use crate::files::{parse_toml, read_toml, shortened};
-use crate::geometry::EulerOrder;
+use crate::geometry::{EulerOrder, LengthUnit};
 
 /// Longest length inside a body, mm. Larger ones are a mistaken unit, and would not survive single precision.
 const LONGEST: f64 = 1e5;
@@ -30,7 +30,7 @@ const DEFAULT_STEP: [f64; 2] = [40.0, 5.0];
 struct BodyFile {
     name: String,
     #[serde(default)]
-    units: Units,
+    units: LengthUnit,
     #[serde(default)]
     bone: Vec<BoneEntry>,
     #[serde(default)]
@@ -38,25 +38,6 @@ struct BodyFile {
     #[serde(default)]
     marker: Vec<MarkerEntry>,
     mesh: Option<MeshEntry>,
-}
-
-#[derive(Deserialize, Default, Clone, Copy)]
-#[serde(rename_all = "lowercase")]
-enum Units {
-    #[default]
-    Mm,
-    Cm,
-    M,
-}
-
-impl Units {
-    fn in_mm(self) -> f64 {
-        match self {
-            Self::Mm => 1.0,
-            Self::Cm => 10.0,
-            Self::M => 1000.0,
-        }
-    }
 }
 
 #[derive(Deserialize)]
@@ -123,7 +104,7 @@ pub fn parse_body(text: &str, name: &str) -> Result<Body> {
 }
 
 fn build(file: BodyFile) -> Result<Body> {
-    let mm = file.units.in_mm();
+    let mm = file.units.mm();
     ensure!(!file.bone.is_empty(), "it has no [[bone]], expected at least the root");
     let bone_index = unique_names("bone", file.bone.iter().map(|bone| bone.name.as_str()))?;
     let bones = file

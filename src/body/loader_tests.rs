@@ -127,7 +127,7 @@ fn every_bad_body_has_its_sentence() {
         (change("radius_b = 7", "radius_b = nan"), vec!["radius_b is NaN"]),
         (change("radius_b = 7", "radius_b = inf"), vec!["radius_b is inf"]),
         (change("b = [30, 0, 0]", "b = [0, 0, 0]"), vec!["part `tip`", "a and b are the same point"]),
-        (change("units = \"mm\"", "units = \"inch\""), vec!["line 3", "inch", "`mm`"]),
+        (change("units = \"mm\"", "units = \"inch\""), vec!["line 3", "unknown unit `inch`", "known: mm, cm, m"]),
         (change("radius_a = 9", "radius = 9"), vec!["line 29", "unknown key `radius`", "`radius_"]),
         (change("label = 2", ""), vec!["missing field `label`"]),
         (format!("{SMALL}[mesh]\nfiel = \"a.glb\"\n"), vec!["unknown key `fiel`", "`file`"]),

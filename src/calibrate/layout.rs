@@ -7,28 +7,20 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 use nalgebra::{Matrix3, SymmetricEigen};
 
 use super::pairs::Pair;
+use crate::files::choices;
 
 /// Thickness over extent below which points are a plane: a board is flat to a millimetre a metre.
 const PLANE: f64 = 2e-3;
 /// Width over extent below which points are a line, in the world and in the picture.
 const LINE: f64 = 1e-3;
 
-/// How the points of a camera lie (SPEC A2).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Layout {
-    /// In a plane: at least 5, and s_x must be held.
-    Coplanar,
-    /// In space: at least 7.
-    General,
-}
-
-impl Layout {
-    /// The number of points that Tsai's linear phase needs.
-    pub fn fewest(self) -> usize {
-        match self {
-            Self::Coplanar => 5,
-            Self::General => 7,
-        }
+choices! {
+    /// How the points of a camera lie (SPEC A2), and the number of them that Tsai's linear phase needs.
+    "layout" pub enum Layout => pub fewest: usize {
+        /// In a plane: at least 5, and s_x must be held.
+        "coplanar" Coplanar => 5,
+        /// In space: at least 7.
+        "non-coplanar" General => 7,
     }
 }
 

@@ -1,67 +1,34 @@
 //! A camera as a list of numbers that a solver moves, some of them held.
 
-use anyhow::{Result, bail};
+use crate::files::choices;
+use crate::geometry::{BrownConrady, Camera, Lens, Tsai, rodrigues_matrix};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-use crate::geometry::{BrownConrady, Camera, Lens, Tsai, rodrigues_matrix};
-
-/// Which lens a camera gets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LensModel {
-    /// Tsai's, with f, kappa, the centre and s_x.
-    Tsai,
-    /// OpenCV's, with two focal lengths, the principal point, k1 k2 k3 and p1 p2.
-    BrownConrady,
-}
-
-/// What is not estimated but kept at its start: the picture's middle, square pixels, no distortion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Held {
-    /// s_x, or the ratio fx / fy: 1.
-    Aspect,
-    /// The image centre or principal point: the picture's middle.
-    Centre,
-    /// Every distortion coefficient: 0.
-    Distortion,
-    /// k2: 0.
-    K2,
-    /// k3: 0.
-    K3,
-    /// p1 and p2: 0.
-    Tangential,
-}
-
-impl Held {
-    /// Every choice and the name it goes by.
-    pub const ALL: [(Self, &'static str); 6] = [
-        (Self::Aspect, "aspect"),
-        (Self::Centre, "centre"),
-        (Self::Distortion, "distortion"),
-        (Self::K2, "k2"),
-        (Self::K3, "k3"),
-        (Self::Tangential, "tangential"),
-    ];
-
-    /// From its name.
-    ///
-    /// # Errors
-    /// When it is none, with all names.
-    pub fn from_name(name: &str) -> Result<Self> {
-        match Self::ALL.iter().find(|(_, known)| *known == name) {
-            Some((held, _)) => Ok(*held),
-            None => bail!("found {name:?}, expected {}", Self::ALL.map(|(_, known)| known).join(", ")),
-        }
+choices! {
+    /// Which lens a camera gets.
+    "lens" pub enum LensModel {
+        /// Tsai's, with f, kappa, the centre and s_x.
+        "tsai" Tsai,
+        /// OpenCV's, with two focal lengths, the principal point, k1 k2 k3 and p1 p2.
+        "brown-conrady" BrownConrady,
     }
+}
 
-    fn names(self) -> &'static [&'static str] {
-        match self {
-            Self::Aspect => &["s_x", "fx/fy"],
-            Self::Centre => &["cx", "cy"],
-            Self::Distortion => &["kappa", "k1", "k2", "k3", "p1", "p2"],
-            Self::K2 => &["k2"],
-            Self::K3 => &["k3"],
-            Self::Tangential => &["p1", "p2"],
-        }
+choices! {
+    /// What is not estimated but kept at its start: the picture's middle, square pixels, no distortion.
+    "parameter to hold" pub enum Held => names: &'static [&'static str] {
+        /// s_x, or the ratio fx / fy: 1.
+        "aspect" Aspect => &["s_x", "fx/fy"],
+        /// The image centre or principal point: the picture's middle.
+        "centre" Centre => &["cx", "cy"],
+        /// Every distortion coefficient: 0.
+        "distortion" Distortion => &["kappa", "k1", "k2", "k3", "p1", "p2"],
+        /// k2: 0.
+        "k2" K2 => &["k2"],
+        /// k3: 0.
+        "k3" K3 => &["k3"],
+        /// p1 and p2: 0.
+        "tangential" Tangential => &["p1", "p2"],
     }
 }
 

@@ -9,8 +9,8 @@ use crate::bench::{self, Preset};
 /// first. A backend that cannot run here is listed with the reason.
 #[derive(clap::Args, Debug)]
 pub struct BenchArgs {
-    /// quick (512 particles, seconds) or thesis (96, 304 and 512 particles and the model ladder, beside published figures).
-    #[arg(long, value_name = "NAME", default_value = "quick", value_parser = Preset::from_name)]
+    /// What is measured.
+    #[arg(long, value_name = "NAME", default_value_t)]
     preset: Preset,
     /// Print JSON instead of tables.
     #[arg(long)]

@@ -12,7 +12,7 @@ use crate::calibrate::{
     parse_pairs, parse_tracks,
 };
 use crate::files::{OutputFolder, Overwrite};
-use crate::geometry::{Camera, LARGEST_SIDE};
+use crate::geometry::{Camera, LARGEST_SIDE, LengthUnit};
 use crate::motion::read_points;
 use crate::report::{Arrow, arrow_chart};
 use crate::sequence::write_cameras_toml;
@@ -42,15 +42,15 @@ pub struct CalibrateArgs {
     #[arg(long, value_name = "[NAME=]WxH", required = true)]
     size: Vec<PictureSize>,
     /// The lens.
-    #[arg(long, value_enum, default_value_t = Model::Tsai)]
-    model: Model,
+    #[arg(long, default_value_t = CalibrationSettings::default().model)]
+    model: LensModel,
     /// Unit of x, y, z in the table.
-    #[arg(long, value_enum, default_value_t = Unit::Mm)]
-    units: Unit,
+    #[arg(long, default_value_t)]
+    units: LengthUnit,
     /// How the points lie [default: as they do].
-    #[arg(long, value_enum)]
-    layout: Option<Arrangement>,
-    /// What is not estimated but kept at 0, 1 or the picture's middle: aspect, centre, distortion, k2, k3, tangential,
+    #[arg(long)]
+    layout: Option<Layout>,
+    /// What is not estimated but kept at 0, 1 or the picture's middle: some of the names that an unknown one is answered with,
     /// or none [default: k3; for points in a plane aspect,centre,tangential,k3].
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     hold: Option<Vec<String>>,
@@ -67,25 +67,6 @@ pub struct CalibrateArgs {
     /// Replace the files.
     #[arg(long)]
     force: bool,
-}
-
-#[derive(clap::ValueEnum, Clone, Copy, Debug)]
-enum Model {
-    Tsai,
-    BrownConrady,
-}
-
-#[derive(clap::ValueEnum, Clone, Copy, Debug)]
-enum Unit {
-    M,
-    Cm,
-    Mm,
-}
-
-#[derive(clap::ValueEnum, Clone, Copy, Debug)]
-enum Arrangement {
-    Coplanar,
-    NonCoplanar,
 }
 
 #[derive(Clone, Debug)]
@@ -147,14 +128,8 @@ fn settings(args: &CalibrateArgs) -> Result<CalibrationSettings> {
         names.map(|name| Held::from_name(name).context("--hold")).collect::<Result<Vec<_>>>()
     });
     Ok(CalibrationSettings {
-        model: match args.model {
-            Model::Tsai => LensModel::Tsai,
-            Model::BrownConrady => LensModel::BrownConrady,
-        },
-        layout: args.layout.map(|layout| match layout {
-            Arrangement::Coplanar => Layout::Coplanar,
-            Arrangement::NonCoplanar => Layout::General,
-        }),
+        model: args.model,
+        layout: args.layout,
         held: held.transpose()?,
         pitch: args.pitch,
         keep_outliers: args.keep_outliers,
@@ -171,12 +146,7 @@ fn pairs(args: &CalibrateArgs) -> Result<(String, Vec<CameraPairs>)> {
     }
     let Some(table) = &args.points else { bail!("there are no points, expected a table or --c3d with --tracks") };
     let source = table.display().to_string();
-    let unit = match args.units {
-        Unit::M => 1000.0,
-        Unit::Cm => 10.0,
-        Unit::Mm => 1.0,
-    };
-    let pairs = parse_pairs(&text(table)?, &source, unit)?;
+    let pairs = parse_pairs(&text(table)?, &source, args.units.mm())?;
     Ok((source, pairs))
 }
 

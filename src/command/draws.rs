@@ -3,17 +3,20 @@
 use anyhow::Result;
 
 use crate::evaluate::device::open_device;
+use crate::files::choices;
 use crate::gpu::{Device, DeviceKind};
 
-/// What draws.
-#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Draws {
-    /// The processor
-    Cpu,
-    /// The Vulkan device
-    Device,
-    /// A Vulkan device that is no processor itself, else the processor
-    Auto,
+choices! {
+    /// What draws.
+    #[derive(Default)]
+    "place to draw" pub enum Draws {
+        /// The processor (the default).
+        "cpu" #[default] Cpu,
+        /// The Vulkan device.
+        "device" Device,
+        /// A Vulkan device that is no processor itself, else the processor.
+        "auto" Auto,
+    }
 }
 
 impl Draws {

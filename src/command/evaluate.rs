@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use anyhow::{Result, anyhow};
 
 use super::objective_flags::ObjectiveFlags;
-use crate::body::{Body, PoseTable};
+use crate::body::{Body, Model, PoseTable};
 use crate::files::{OutputFolder, Overwrite};
 use crate::sequence::{Sequence, read_cameras};
-use crate::track::{Backend, Model, ScoredFrame, score_poses, write_fitness};
+use crate::track::{Backend, ScoredFrame, score_poses, write_fitness};
 
 /// Scores given poses against one frame: components.csv (counts of pixels a pose and view) and fitness.csv, and with --images
 /// every candidate as it was drawn, and segments.csv where body parts are told apart. Without -o the fitness goes to the standard output. The frame is one of a sequence, or
@@ -33,11 +33,11 @@ pub struct EvaluateArgs {
     /// The poses.
     #[arg(long, value_name = "poses.csv")]
     poses: PathBuf,
-    /// Who scores them: auto, reference, cpu, graphics or compute.
-    #[arg(long, value_name = "NAME", default_value = "auto", value_parser = Backend::from_name)]
+    /// Who scores them.
+    #[arg(long, value_name = "NAME", default_value_t)]
     backend: Backend,
-    /// What the body is drawn as: flat (cones as quadrilaterals) or mesh (the body's [mesh], else frusta).
-    #[arg(long, value_name = "NAME", default_value = "flat", value_parser = Model::from_name)]
+    /// What the body is drawn as.
+    #[arg(long, value_name = "NAME", default_value_t)]
     model: Model,
     #[command(flatten)]
     objective: ObjectiveFlags,

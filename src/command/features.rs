@@ -10,7 +10,7 @@ use super::progress::Progress;
 use crate::body::Body;
 use crate::evaluate::device::open_device;
 use crate::features::{Extractor, FeatureSettings, ViewSource};
-use crate::files::{OutputFolder, Overwrite};
+use crate::files::{OutputFolder, Overwrite, choices};
 use crate::sequence::Sequence;
 use crate::track::FrameRange;
 
@@ -29,19 +29,23 @@ pub struct FeaturesArgs {
     /// The folder to write into
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// What makes the features: the processor, or a Vulkan device, to the same bits
-    #[arg(long, value_enum, default_value_t = FeatureBackend::Cpu)]
+    /// What makes the features, to the same bits
+    #[arg(long, default_value_t)]
     backend: FeatureBackend,
     /// Write into a folder that is not empty, replacing its files
     #[arg(long)]
     force: bool,
 }
 
-/// Where features are made.
-#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-enum FeatureBackend {
-    Cpu,
-    Device,
+choices! {
+    /// What makes the features, to the same bits.
+    #[derive(Default)]
+    "place to make features" enum FeatureBackend {
+        /// The processor (the default).
+        "cpu" #[default] Cpu,
+        /// A Vulkan device.
+        "device" Device,
+    }
 }
 
 /// Runs the command.

@@ -1,16 +1,14 @@
 //! The flags that choose an objective function, shared by the commands that score poses.
 
-use anyhow::{Result, bail};
-
 use crate::evaluate::ObjectiveKind;
 use crate::track::ObjectiveChoice;
 
 /// Flags over a sequence's `[objective]` table over the defaults.
 #[derive(clap::Args, Clone, Debug)]
 pub struct ObjectiveFlags {
-    /// The objective function: ws, sp, aows, aosp or posp [default: the sequence's, else sp].
-    #[arg(long, value_name = "NAME", value_parser = kind_name)]
-    objective: Option<String>,
+    /// The objective function [default: the sequence's, else sp].
+    #[arg(long, value_name = "NAME")]
+    objective: Option<ObjectiveKind>,
     /// Share of "observed silhouette covered" against "drawn silhouette on the observed one" [default: 0.5].
     #[arg(long, value_name = "F")]
     beta: Option<f32>,
@@ -25,14 +23,6 @@ pub struct ObjectiveFlags {
 impl ObjectiveFlags {
     /// What they choose.
     pub fn choice(&self) -> ObjectiveChoice {
-        ObjectiveChoice { kind: self.objective.clone(), beta: self.beta, w1: self.w1, w2: self.w2 }
+        ObjectiveChoice { kind: self.objective, beta: self.beta, w1: self.w1, w2: self.w2 }
     }
-}
-
-fn kind_name(name: &str) -> Result<String> {
-    let names = ObjectiveKind::ALL.map(ObjectiveKind::name);
-    if !names.contains(&name) {
-        bail!("there is no objective `{name}`, expected one of {}", names.join(", "));
-    }
-    Ok(name.to_string())
 }

@@ -33,7 +33,7 @@ pub struct SynthArgs {
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
     /// What draws the pictures. A device's are nearly the processor's, not the same bytes; plates and truth are the same.
-    #[arg(long, value_enum, default_value = "cpu")]
+    #[arg(long, default_value_t)]
     backend: Draws,
     /// Replace what the folder holds.
     #[arg(long, conflicts_with = "resume")]

@@ -8,7 +8,7 @@ use image::{DynamicImage, RgbImage};
 
 use super::draws::Draws;
 use super::progress::Progress;
-use crate::files::{Overwrite, write_atomically};
+use crate::files::{Overwrite, choices, write_atomically};
 use crate::synth::portrait;
 use crate::texture::example::{Settings, patch_count, synthesise};
 use crate::texture::materials::{KINDS, Material, Parameters};
@@ -57,7 +57,7 @@ pub struct TextureArgs {
     #[arg(long, value_name = "FILE.toml")]
     params: Option<PathBuf>,
     /// Show the material on an object under a light
-    #[arg(long, value_enum, conflicts_with = "tile")]
+    #[arg(long, conflicts_with = "tile")]
     preview: Option<Preview>,
     /// With --preview person: a skinned glTF person instead of one of ellipsoids and capsules
     #[arg(long, value_name = "FILE.glb", requires = "preview")]
@@ -84,19 +84,25 @@ pub struct TextureArgs {
     #[arg(long, value_name = "FILE", requires = "example")]
     resynthesised: Option<PathBuf>,
     /// From an example: what measures how well patches fit; the texture is the same
-    #[arg(long, value_enum, default_value = "cpu", requires = "example")]
+    #[arg(long, default_value_t, requires = "example")]
     backend: Draws,
     /// Replace files that are there
     #[arg(long)]
     force: bool,
 }
 
-#[derive(clap::ValueEnum, Clone, Copy, Debug)]
-enum Preview {
-    Sphere,
-    Cube,
-    Plane,
-    Person,
+choices! {
+    /// An object under a light.
+    "preview" enum Preview => solid: Option<Solid> {
+        /// A ball.
+        "sphere" Sphere => Some(Solid::Sphere),
+        /// A cube, seen from above a corner.
+        "cube" Cube => Some(Solid::Cube),
+        /// A square leaning back.
+        "plane" Plane => Some(Solid::Plane),
+        /// A standing person in clothes of the material.
+        "person" Person => None,
+    }
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
@@ -160,11 +166,9 @@ fn of_material(args: &TextureArgs, name: &str, output: &Path) -> Result<()> {
     if args.person.is_some() && !matches!(args.preview, Some(Preview::Person)) {
         bail!("--person is for --preview person and means nothing with another one");
     }
-    let picture = match args.preview {
-        Some(Preview::Person) => portrait(&material, args.person.as_deref(), args.size, args.offset, scale)?.into(),
-        Some(Preview::Sphere) => lit(&material, Solid::Sphere, args.size, args.offset, scale).into(),
-        Some(Preview::Cube) => lit(&material, Solid::Cube, args.size, args.offset, scale).into(),
-        Some(Preview::Plane) => lit(&material, Solid::Plane, args.size, args.offset, scale).into(),
+    let picture = match args.preview.map(Preview::solid) {
+        Some(Some(solid)) => lit(&material, solid, args.size, args.offset, scale).into(),
+        Some(None) => portrait(&material, args.person.as_deref(), args.size, args.offset, scale)?.into(),
         None if args.height_map => heights(&material, &view).into(),
         None => flat(&material, &view).into(),
     };

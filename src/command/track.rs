@@ -11,12 +11,12 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::interrupt::Interrupt;
 use super::objective_flags::ObjectiveFlags;
 use super::realtime_flags::{RealtimeFlags, duration};
+use crate::body::Model;
 use crate::files::{OutputFolder, Overwrite};
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::{STALL_TIMEOUT, Sequence};
 use crate::track::{
-    Backend, FrameDone, FrameRange, Model, Prediction, Progress, RealtimeSummary, RunStart, TrackSettings,
-    TrackSummary, track,
+    Backend, FrameDone, FrameRange, Prediction, Progress, RealtimeSummary, RunStart, TrackSettings, TrackSummary, track,
 };
 
 /// Tracks a person through a sequence: poses, joints and markers over time (CSV, TRC, C3D, BVH), how far they can be
@@ -30,12 +30,11 @@ pub struct TrackArgs {
     /// The folder for the results.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Who scores the poses: auto (the fastest here, by a short measurement), reference, cpu, or a Vulkan device by compute or
-    /// graphics.
-    #[arg(long, value_name = "NAME", default_value = "auto", value_parser = Backend::from_name)]
+    /// Who scores the poses.
+    #[arg(long, value_name = "NAME", default_value_t)]
     backend: Backend,
-    /// What the body is drawn as: flat (cones as quadrilaterals) or mesh (the body's [mesh], else frusta).
-    #[arg(long, value_name = "NAME", default_value = "flat", value_parser = Model::from_name)]
+    /// What the body is drawn as.
+    #[arg(long, value_name = "NAME", default_value_t)]
     model: Model,
     /// Poses scored at once.
     #[arg(long, value_name = "N", default_value_t = SearchSettings::default().particles)]
@@ -45,15 +44,14 @@ pub struct TrackArgs {
     iterations: usize,
     #[command(flatten)]
     objective: ObjectiveFlags,
-    /// How poses are searched: pso (particle swarm), pf (bootstrap particle filter), apf (annealed particle filter), hpso
-    /// (particle swarm by body parts, torso first) or cmaes (evolution of a normal distribution). All score N x K poses.
-    #[arg(long, value_name = "NAME", default_value = "pso", value_parser = search_kind)]
+    /// How poses are searched. All score N x K poses.
+    #[arg(long, value_name = "NAME", default_value_t)]
     search: SearchKind,
     /// Poses scored to refine each frame's winner, beyond those N x K.
     #[arg(long, value_name = "N", default_value_t = 0)]
     refine: usize,
-    /// Where a frame's search starts: none (at the pose before) or velocity (where that was going).
-    #[arg(long, value_name = "NAME", default_value = "none", value_parser = Prediction::from_name)]
+    /// Where a frame's search starts.
+    #[arg(long, value_name = "NAME", default_value_t)]
     predict: Prediction,
     /// Search wider for a person who is lost, and leave frames without a find as gaps in the results: yes or no.
     #[arg(long, value_name = "yes|no", default_value = "yes", value_parser = yes_or_no, action = ArgAction::Set)]
@@ -91,13 +89,6 @@ pub struct TrackArgs {
     /// Replace what the folder holds.
     #[arg(long)]
     force: bool,
-}
-
-fn search_kind(name: &str) -> Result<SearchKind> {
-    match SearchKind::from_name(name) {
-        Some(kind) => Ok(kind),
-        None => bail!("there is no search `{name}`, expected one of {}", SearchKind::ALL.map(|k| k.name()).join(", ")),
-    }
 }
 
 fn yes_or_no(word: &str) -> Result<bool> {

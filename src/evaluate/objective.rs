@@ -5,36 +5,22 @@ use std::ops::Range;
 use super::components::Components;
 use super::segments::SegmentSums;
 use crate::features::{Segment, Segments};
+use crate::files::choices;
 
-/// How the silhouette and the edge terms of the cameras are combined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum ObjectiveKind {
-    /// Weighted sum of the terms over all cameras together.
-    Ws,
-    /// Product of powers of the terms over all cameras together; the default, best on average.
-    #[default]
-    Sp,
-    /// Mean over cameras of the weighted sums.
-    Aows,
-    /// Mean over cameras of the products.
-    Aosp,
-    /// Product over cameras of the products.
-    Posp,
-}
-
-impl ObjectiveKind {
-    /// All five.
-    pub const ALL: [Self; 5] = [Self::Ws, Self::Sp, Self::Aows, Self::Aosp, Self::Posp];
-
-    /// The name as `--objective` takes it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Ws => "ws",
-            Self::Sp => "sp",
-            Self::Aows => "aows",
-            Self::Aosp => "aosp",
-            Self::Posp => "posp",
-        }
+choices! {
+    /// How the silhouette and the edge terms of the cameras are combined.
+    #[derive(Default)]
+    "objective" pub enum ObjectiveKind {
+        /// Weighted sum of the terms over all cameras together.
+        "ws" Ws,
+        /// Product of powers of the terms over all cameras together; the default, best on average.
+        "sp" #[default] Sp,
+        /// Mean over cameras of the weighted sums.
+        "aows" Aows,
+        /// Mean over cameras of the products.
+        "aosp" Aosp,
+        /// Product over cameras of the products.
+        "posp" Posp,
     }
 }
 

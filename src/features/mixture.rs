@@ -7,16 +7,17 @@ use serde::Deserialize;
 use super::light::{GRID, Ratios};
 use super::plate::split_row;
 use super::shadow::ShadowSettings;
+use crate::files::choices;
 
-/// How fast the matched component follows a pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Adaptation {
-    /// rho = alpha / w_k: a component settles as fast as it has been seen often.
-    Weight,
-    /// rho = alpha N(X | mu, sigma), as first published. The density of a colour in cubic grey levels is some 1e-4, so means
-    /// and variances practically stand still.
-    Density,
+choices! {
+    /// How fast the matched component follows a pixel.
+    "adaptation" pub enum Adaptation {
+        /// rho = alpha / w_k: a component settles as fast as it has been seen often.
+        "weight" Weight,
+        /// rho = alpha N(X | mu, sigma), as first published. The density of a colour in cubic grey levels is some 1e-4, so means
+        /// and variances practically stand still.
+        "density" Density,
+    }
 }
 
 /// The parameters of the mixture. Distances are Euclidean in RGB, in grey levels; a component's variance is that of the

@@ -2,18 +2,17 @@
 //!
 //! Outside the picture counts as clear for a dilation and as set for an erosion, so neither border eats into a shape.
 
-use serde::Deserialize;
-
 use super::BitImage;
+use crate::files::choices;
 
-/// The shape of a structuring element.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Shape {
-    /// All of a `size` × `size` square.
-    Square,
-    /// The pixels of it no farther from its centre than `size / 2`.
-    Disc,
+choices! {
+    /// The shape of a structuring element.
+    "element" pub enum Shape {
+        /// All of a `size` × `size` square.
+        "square" Square,
+        /// The pixels of it no farther from its centre than `size / 2`.
+        "disc" Disc,
+    }
 }
 
 /// A structuring element.

@@ -3,17 +3,18 @@
 use serde::Deserialize;
 
 use super::distance::Metric;
+use crate::files::choices;
 
-/// How a distance d (pixels) becomes a proximity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Normalisation {
-    /// 1 where d = 0, else 0.
-    Impulse,
-    /// 1 up to `d_min`, then `1 - n_range (d - d_min) / (d_max - d_min)`, 0 from `d_max` on.
-    Proportional,
-    /// 1 up to `d_min`, then `n_range exp(-decay d) + 1 - n_range`, 0 from `d_max` on.
-    Exponential,
+choices! {
+    /// How a distance d (pixels) becomes a proximity.
+    "normalisation" pub enum Normalisation {
+        /// 1 where d = 0, else 0.
+        "impulse" Impulse,
+        /// 1 up to `d_min`, then `1 - n_range (d - d_min) / (d_max - d_min)`, 0 from `d_max` on.
+        "proportional" Proportional,
+        /// 1 up to `d_min`, then `n_range exp(-decay d) + 1 - n_range`, 0 from `d_max` on.
+        "exponential" Exponential,
+    }
 }
 
 /// The parameters of the normalisation.

@@ -9,18 +9,19 @@ use image::RgbImage;
 use serde::Deserialize;
 
 use super::{BitImage, Region, Segment, Segmentation, Segments};
-use crate::files::shortened;
+use crate::files::{choices, shortened};
 
-/// What a segment is known by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Cue {
-    /// The colour of skin: `cb` and `cr`.
-    Skin,
-    /// Of all colours listed in all segments, the nearest in RGB is one of this segment's `colours` and at most `tolerance` away.
-    Colour,
-    /// Nothing but where it is: `within`.
-    Position,
+choices! {
+    /// What a segment is known by.
+    "cue" pub enum Cue {
+        /// The colour of skin: `cb` and `cr`.
+        "skin" Skin,
+        /// Of all colours listed in all segments, the nearest in RGB is one of this segment's `colours` and at most `tolerance`
+        /// away.
+        "colour" Colour,
+        /// Nothing but where it is: `within`.
+        "position" Position,
+    }
 }
 
 /// One `[[features.segment]]`.
@@ -100,7 +101,7 @@ impl SegmentSettings {
             (Cue::Skin | Cue::Position, false) => {
                 bail!("[features] segment \"{name}\" has colours, which go with the cue \"colour\" alone")
             }
-            _ => Ok(()),
+            (Cue::Colour, false) | (Cue::Skin | Cue::Position, true) => Ok(()),
         }
     }
 

@@ -1,10 +1,14 @@
-//! Files as users meet them: TOML read with errors that name file, line, key and the nearest known key; results
-//! written to a temporary name and renamed, never over an existing file unless asked.
+//! Files and names as users meet them: TOML read with errors that name file, line, key and the nearest known key; lists of
+//! choices declared once, with one sentence for a name that is none of them; results written to a temporary name and renamed,
+//! never over an existing file unless asked.
 
+mod choice;
 mod output;
 mod shortened;
 mod toml_file;
 
+pub(crate) use choice::choices;
+pub use choice::{Choice, ChoiceParser, deserialize as deserialize_choice, names, nearest, unknown};
 pub use output::{OutputFolder, Overwrite, write_atomically};
 pub use shortened::shortened;
 pub use toml_file::{parse_table, parse_toml, read_toml};

@@ -5,8 +5,10 @@ mod brown_conrady;
 mod camera;
 mod rotation;
 mod tsai;
+mod unit;
 
 pub use brown_conrady::BrownConrady;
 pub use camera::{Camera, LARGEST_SIDE, Lens};
 pub use rotation::{EulerOrder, euler_matrix, rodrigues_matrix, rodrigues_vector};
 pub use tsai::{Tsai, TsaiConstants};
+pub use unit::LengthUnit;

@@ -21,7 +21,7 @@ pub use point_file::{PointFormat, read_bvh, read_points, write_points};
 pub use points::{LARGEST_COORDINATE, PointTrajectory};
 pub use points_csv::{parse_points_csv, write_points_csv};
 pub use skeletal::{
-    AsfBone, AsfSkeleton, DeepMimicSkeleton, Placement, SkeletalJoint, SkeletalMotion, UpAxis, parse_amc, parse_asf,
-    parse_deepmimic, parse_deepmimic_skeleton, read_skeletal_motion,
+    AsfBone, AsfSkeleton, DeepMimicSkeleton, MotionFormat, Placement, SkeletalJoint, SkeletalMotion, UpAxis, parse_amc,
+    parse_asf, parse_deepmimic, parse_deepmimic_skeleton, read_skeletal_motion,
 };
 pub use trc::{parse_trc, write_trc};

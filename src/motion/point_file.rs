@@ -1,51 +1,52 @@
 //! Point files by their extension.
 
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail};
 
 use super::bvh::{BvhMotion, parse_bvh};
-use super::c3d::{parse_c3d, write_c3d};
 use super::points::PointTrajectory;
-use super::points_csv::{parse_points_csv, write_points_csv};
-use super::trc::{parse_trc, write_trc};
-use crate::files::{Overwrite, write_atomically};
+use super::{bvh, c3d, points_csv, trc};
+use crate::files::{Overwrite, choices, write_atomically};
 
 /// A recording is held in memory whole, several times its size in the file; a larger file is a mistake (a video, say).
 const LARGEST_FILE: u64 = 2 << 30;
 
-/// The formats that hold points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PointFormat {
-    /// `.c3d`
-    C3d,
-    /// `.trc`
-    Trc,
-    /// `.csv`
-    Csv,
-    /// `.bvh`
-    Bvh,
+choices! {
+    /// The formats that hold points, by their extensions.
+    "point format" pub enum PointFormat => file: &'static PointFile {
+        /// C3D of any processor, with units and a frame rate.
+        "c3d" C3d => &c3d::POINTS,
+        /// OpenSim's TRC.
+        "trc" Trc => &trc::POINTS,
+        /// A table with columns of x, y and z a point.
+        "csv" Csv => &points_csv::POINTS,
+        /// BVH, whose joints and free ends are read as points.
+        "bvh" Bvh => &bvh::POINTS,
+    }
+}
+
+/// How files of a format are read and written.
+pub(super) struct PointFile {
+    /// Points of a file's bytes; the name stands for the file in messages.
+    pub(super) read: fn(&[u8], &str) -> Result<PointTrajectory>,
+    /// Writes points into the file of a name, or why that cannot be.
+    pub(super) write: Result<fn(&mut dyn Write, &PointTrajectory, &str) -> Result<()>, &'static str>,
 }
 
 impl PointFormat {
     /// From a file's extension, in any case.
     ///
     /// # Errors
-    /// When it is none of `.c3d .trc .csv .bvh`.
+    /// When it is that of no format.
     pub fn of(path: &Path) -> Result<Self> {
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        match extension.as_str() {
-            "c3d" => Ok(Self::C3d),
-            "trc" => Ok(Self::Trc),
-            "csv" => Ok(Self::Csv),
-            "bvh" => Ok(Self::Bvh),
-            other => bail!("{} ends in `.{other}`, expected .c3d, .trc, .csv or .bvh", path.display()),
-        }
+        Self::from_name(&extension(path)).with_context(|| path.display().to_string())
     }
 }
 
-/// Reads points (mm) from a C3D, TRC, CSV or BVH file, known by its extension. BVH has no unit: its numbers are taken
+/// Reads points (mm) from a file, whose format its extension tells. BVH has no unit: its numbers are taken
 /// as millimetres, and its joints and free ends become points ([`BvhMotion::to_points`]). Axes stay as they are in the
 /// file.
 ///
@@ -53,17 +54,7 @@ impl PointFormat {
 /// One sentence with the file, the line or byte, what was found and what was expected.
 pub fn read_points(path: &Path) -> Result<PointTrajectory> {
     let format = PointFormat::of(path)?;
-    let bytes = read_bytes(path)?;
-    let name = path.display().to_string();
-    match format {
-        PointFormat::C3d => parse_c3d(&bytes, &name),
-        PointFormat::Trc => parse_trc(text(&bytes, &name)?, &name),
-        PointFormat::Csv => parse_points_csv(text(&bytes, &name)?, &name),
-        PointFormat::Bvh => {
-            let motion = parse_bvh(text(&bytes, &name)?, &name)?;
-            motion.to_points().with_context(|| name.clone())
-        }
-    }
+    (format.file().read)(&read_bytes(path)?, &path.display().to_string())
 }
 
 /// Reads a BVH file with its skeleton.
@@ -76,7 +67,7 @@ pub fn read_bvh(path: &Path) -> Result<BvhMotion> {
     parse_bvh(text(&bytes, &name)?, &name)
 }
 
-/// Writes points as C3D, TRC or CSV, as the extension says, through a temporary name.
+/// Writes points as the extension says, through a temporary name.
 ///
 /// # Errors
 /// When the trajectory breaks [`PointTrajectory::check`], the format needs a frame rate that is unknown, the file is
@@ -84,17 +75,17 @@ pub fn read_bvh(path: &Path) -> Result<BvhMotion> {
 pub fn write_points(path: &Path, points: &PointTrajectory, overwrite: Overwrite) -> Result<()> {
     let format = PointFormat::of(path)?;
     let file_name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    if format == PointFormat::Bvh {
-        bail!(
-            "cannot write {}: BVH holds joint angles of a skeleton, which points alone do not give; expected .c3d, .trc or .csv",
-            path.display()
-        );
-    }
-    write_atomically(path, overwrite, |out| match format {
-        PointFormat::C3d => write_c3d(out, points),
-        PointFormat::Trc => write_trc(out, points, &file_name),
-        _ => write_points_csv(out, points),
-    })
+    let write = format.file().write.map_err(|why| {
+        let others = PointFormat::ALL.into_iter().filter(|format| format.file().write.is_ok());
+        let others: Vec<String> = others.map(|format| format!(".{format}")).collect();
+        anyhow!("cannot write {}: {why}; expected one of {}", path.display(), others.join(", "))
+    })?;
+    write_atomically(path, overwrite, |out| write(out, points, &file_name))
+}
+
+/// A file's extension in lower case.
+pub(super) fn extension(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
@@ -140,7 +131,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
         let message = |path: &Path| format!("{:#}", read_points(path).unwrap_err());
-        assert!(message(&at("walk.fbx")).contains("ends in `.fbx`, expected .c3d, .trc, .csv or .bvh"));
+        assert!(
+            message(&at("walk.fbx"))
+                .contains("walk.fbx: unknown point format `fbx`, the nearest is `bvh` (known: c3d, trc, csv, bvh)")
+        );
         assert!(message(&at("none.trc")).contains("cannot read"));
         fs::write(at("binary.trc"), b"Path\n\xff\xfe").unwrap();
         assert!(message(&at("binary.trc")).contains("line 2: byte 5 is not UTF-8"));

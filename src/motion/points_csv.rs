@@ -7,8 +7,15 @@ use std::io::Write;
 use anyhow::{Context, Result, bail, ensure};
 
 use super::number::{finite, millimetres, point, whole};
+use super::point_file::{PointFile, text};
 use super::points::{PointTrajectory, meant_rate};
 use crate::files::shortened;
+
+/// Files of points.
+pub(super) const POINTS: PointFile = PointFile {
+    read: |bytes, name| parse_points_csv(text(bytes, name)?, name),
+    write: Ok(|out, points, _| write_points_csv(out, points)),
+};
 
 /// Reads the text of a points CSV; `name` stands for the file in messages. The rate comes from the times, which must
 /// follow the frames evenly; without a time column (or with a single frame at time 0) it is 0, unknown.

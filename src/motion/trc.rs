@@ -6,8 +6,13 @@ use std::io::Write;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 
 use super::number::{finite, millimetres, point, whole};
+use super::point_file::{PointFile, text};
 use super::points::{PointTrajectory, millimetres_in};
 use crate::files::shortened;
+
+/// Files of points.
+pub(super) const POINTS: PointFile =
+    PointFile { read: |bytes, name| parse_trc(text(bytes, name)?, name), write: Ok(write_trc) };
 
 /// Cells before the first marker: `Frame#` and `Time`.
 const LEADING: usize = 2;

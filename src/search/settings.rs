@@ -7,6 +7,7 @@ use super::{
     AnnealedFilter, AnnealingSettings, CmaEs, CmaSettings, FilterSettings, HierarchicalPso, HierarchySettings,
     ParticleFilter, Pso, PsoSettings, Refined, Refinement, Search, SearchSpace,
 };
+use crate::files::choices;
 
 /// Most particles of a search. More is a slip of the keyboard, not a plan.
 const MOST_PARTICLES: usize = 1 << 20;
@@ -14,42 +15,24 @@ const MOST_ITERATIONS: usize = 1 << 16;
 /// Most numbers one buffer of a search may hold (1 GiB of them).
 const LARGEST_BUFFER: usize = 1 << 28;
 
-/// Which search.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
-pub enum SearchKind {
-    /// Particle swarm.
-    #[default]
-    #[serde(rename = "pso")]
-    Pso,
-    /// Bootstrap particle filter.
-    #[serde(rename = "pf")]
-    ParticleFilter,
-    /// Annealed particle filter.
-    #[serde(rename = "apf")]
-    Annealed,
-    /// Hierarchical particle swarm.
-    #[serde(rename = "hpso")]
-    Hierarchical,
-    /// Evolution of a normal distribution.
-    #[serde(rename = "cmaes")]
-    CmaEs,
+choices! {
+    /// Which search.
+    #[derive(Default)]
+    "search" pub enum SearchKind {
+        /// Particle swarm, global best (the default).
+        "pso" #[default] Pso,
+        /// Bootstrap particle filter: N K samples once, which it carries on; a resumed run begins again.
+        "pf" ParticleFilter,
+        /// Annealed particle filter: K layers of N samples.
+        "apf" Annealed,
+        /// Hierarchical particle swarm: swarms over the torso, limb after limb, everything.
+        "hpso" Hierarchical,
+        /// CMA-ES: evolution of a normal distribution, generations of 50 or more samples.
+        "cmaes" CmaEs,
+    }
 }
 
 impl SearchKind {
-    /// All of them.
-    pub const ALL: [Self; 5] = [Self::Pso, Self::ParticleFilter, Self::Annealed, Self::Hierarchical, Self::CmaEs];
-
-    /// The name as `--search` takes it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pso => "pso",
-            Self::ParticleFilter => "pf",
-            Self::Annealed => "apf",
-            Self::Hierarchical => "hpso",
-            Self::CmaEs => "cmaes",
-        }
-    }
-
     /// Whether a frame depends on the frames before by more than its centre.
     pub fn carries_on(self) -> bool {
         self == Self::ParticleFilter
@@ -58,11 +41,6 @@ impl SearchKind {
     /// Whether it has a form that runs whole on a device; the others are driven from the host.
     pub fn has_device_form(self) -> bool {
         self != Self::CmaEs
-    }
-
-    /// The kind of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 }
 

@@ -367,7 +367,7 @@ fn misuse_and_bad_settings_have_their_sentences() {
     for kind in SearchKind::ALL {
         let mut search = settings(kind, 4, 2, 2).build(&space).unwrap();
         assert_eq!((search.name(), search.iterations()), (kind.name(), 2));
-        assert_eq!(SearchKind::from_name(search.name()), Some(kind));
+        assert_eq!(SearchKind::from_name(search.name()).unwrap(), kind);
         assert!(search.iterate(&mut flat).unwrap_err().to_string().contains("no frame yet"));
         assert!(search.estimate(&mut flat).unwrap_err().to_string().contains("nothing to estimate"));
         for (centre, spread, sentence) in [

@@ -14,8 +14,8 @@ mod video;
 mod video_encoder;
 
 pub use calibration::{
-    cameras_toml, parse_cameras_toml, parse_opencv_xml, parse_opencv_yaml, parse_qualisys, read_cameras,
-    write_cameras_toml,
+    CalibrationFormat, cameras_toml, parse_cameras_toml, parse_opencv_xml, parse_opencv_yaml, parse_qualisys,
+    read_cameras, write_cameras_toml,
 };
 pub use frames::{FrameReader, FrameSet, STALL_TIMEOUT, Source};
 pub use live::{LiveReader, LiveSource};

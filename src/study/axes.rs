@@ -1,56 +1,38 @@
 //! What runs differ in, and what of them is compared.
 
-use serde::{Deserialize, Serialize};
-
 use super::outcome::Outcome;
 use super::plan::Run;
+use crate::files::choices;
 
-/// A setting that runs differ in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// The sequence.
-    Sequence,
-    /// Who scores the poses.
-    Backend,
-    /// What the body is drawn as.
-    Model,
-    /// The objective function.
-    Objective,
-    /// How poses are searched.
-    Search,
-    /// Poses scored at once.
-    Particles,
-    /// Times that many poses are scored a frame.
-    Iterations,
+choices! {
+    /// A setting that runs differ in. Their order is that of the columns of runs.csv.
+    "axis" pub enum Axis {
+        /// The sequence.
+        "sequence" Sequence,
+        /// Who scores the poses.
+        "backend" Backend,
+        /// What the body is drawn as.
+        "model" Model,
+        /// The objective function.
+        "objective" Objective,
+        /// How poses are searched.
+        "search" Search,
+        /// Poses scored at once.
+        "particles" Particles,
+        /// Times that many poses are scored a frame.
+        "iterations" Iterations,
+    }
 }
 
 impl Axis {
-    /// All of them, in the order of the columns of runs.csv.
-    pub const ALL: [Self; 7] =
-        [Self::Sequence, Self::Backend, Self::Model, Self::Objective, Self::Search, Self::Particles, Self::Iterations];
-
-    /// The name, as in the study file and the header of runs.csv.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sequence => "sequence",
-            Self::Backend => "backend",
-            Self::Model => "model",
-            Self::Objective => "objective",
-            Self::Search => "search",
-            Self::Particles => "particles",
-            Self::Iterations => "iterations",
-        }
-    }
-
     /// Where a run stands on this axis.
     pub fn of(self, run: &Run) -> String {
         match self {
             Self::Sequence => run.sequence.clone(),
-            Self::Backend => run.backend.clone(),
+            Self::Backend => run.backend.to_string(),
             Self::Model => run.model.to_string(),
-            Self::Objective => run.objective.clone(),
-            Self::Search => run.search.clone(),
+            Self::Objective => run.objective.to_string(),
+            Self::Search => run.search.to_string(),
             Self::Particles => run.particles.to_string(),
             Self::Iterations => run.iterations.to_string(),
         }
@@ -61,29 +43,29 @@ impl Axis {
         match self {
             Self::Particles => Some(run.particles as f64),
             Self::Iterations => Some(run.iterations as f64),
-            _ => None,
+            Self::Sequence | Self::Backend | Self::Model | Self::Objective | Self::Search => None,
         }
     }
 }
 
-/// What of a run is compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Value {
-    /// Mean error against the truth, mm.
-    Error,
-    /// Mean error after each point's constant offset is taken away, mm.
-    ErrorWithoutOffset,
-    /// Frames a second.
-    FramesPerSecond,
-    /// One frame's search, evaluation included, ms.
-    SearchTime,
-    /// Drawing and comparing in one frame, ms.
-    EvaluationTime,
-    /// Mean fitness.
-    Fitness,
-    /// Mean confidence.
-    Confidence,
+choices! {
+    /// What of a run is compared.
+    "value" pub enum Value {
+        /// Mean error against the truth, mm.
+        "error" Error,
+        /// Mean error after each point's constant offset is taken away, mm.
+        "error_without_offset" ErrorWithoutOffset,
+        /// Frames a second.
+        "frames_per_second" FramesPerSecond,
+        /// One frame's search, evaluation included, ms.
+        "search_time" SearchTime,
+        /// Drawing and comparing in one frame, ms.
+        "evaluation_time" EvaluationTime,
+        /// Mean fitness.
+        "fitness" Fitness,
+        /// Mean confidence.
+        "confidence" Confidence,
+    }
 }
 
 impl Value {

@@ -16,7 +16,7 @@ mod tables;
 
 pub use axes::{Axis, Value};
 pub use outcome::{Outcome, Row, StageShare};
-pub use plan::{Model, Run};
+pub use plan::Run;
 pub use runner::{Progress, StudySummary, run};
 pub use settings::{PlotSettings, SequenceSettings, SharesSettings, Study, TableSettings};
 pub use summary::{Cell, Statistic};

@@ -12,8 +12,8 @@ use super::scenes::Prepared;
 use super::settings::Study;
 use super::tables::{self, Table};
 use crate::files::OutputFolder;
-use crate::search::{SearchKind, SearchSettings};
-use crate::track::{self, Backend, ObjectiveChoice, TrackSettings, TrackSummary, track};
+use crate::search::SearchSettings;
+use crate::track::{self, ObjectiveChoice, TrackSettings, TrackSummary, track};
 
 /// A finished run's file in its folder.
 const ROW: &str = "row.json";
@@ -156,13 +156,12 @@ fn one(run: &Run, prepared: &Prepared, output: &OutputFolder, progress: &dyn Pro
 }
 
 fn settings(run: &Run, folder: &Path) -> Result<TrackSettings> {
-    let kind = SearchKind::from_name(&run.search);
     Ok(TrackSettings {
-        backend: Backend::from_name(&run.backend)?,
-        model: run.model.tracked(),
-        objective: ObjectiveChoice { kind: Some(run.objective.clone()), ..ObjectiveChoice::default() },
+        backend: run.backend,
+        model: run.model,
+        objective: ObjectiveChoice { kind: Some(run.objective), ..ObjectiveChoice::default() },
         search: SearchSettings {
-            kind: kind.with_context(|| format!("there is no search {:?}", run.search))?,
+            kind: run.search,
             particles: run.particles,
             iterations: run.iterations,
             seed: run.seed,

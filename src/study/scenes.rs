@@ -4,9 +4,8 @@ use std::fs;
 
 use anyhow::{Context, Result};
 
-use super::plan::Model;
 use super::settings::SequenceSettings;
-use crate::body::Body;
+use crate::body::{Body, Model};
 use crate::files::{OutputFolder, Overwrite};
 use crate::motion::{PointTrajectory, TrajectoryError, read_points};
 use crate::sequence::Sequence;

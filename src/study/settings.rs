@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail, ensure};
 use serde::Deserialize;
 
 use super::axes::{Axis, Value};
-use super::plan::Model;
+use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
 use crate::files::{parse_toml, read_toml};
 use crate::search::{SearchKind, SearchSettings};
@@ -30,18 +30,18 @@ pub struct Study {
     /// Times that many poses are scored a frame.
     #[serde(default = "default_iterations")]
     pub iterations: Vec<usize>,
-    /// Objective functions: ws, sp, aows, aosp, posp.
-    #[serde(default = "default_objectives")]
-    pub objectives: Vec<String>,
-    /// Searches, by the names of `track --search`.
-    #[serde(default = "default_searches")]
-    pub searches: Vec<String>,
-    /// Models: `flat`; `mesh`, the body's own; `square` and `elliptic-18` to `elliptic-514`, frusta with so many vertices.
-    #[serde(default = "default_models")]
+    /// Objective functions.
+    #[serde(default = "only_default")]
+    pub objectives: Vec<ObjectiveKind>,
+    /// Searches.
+    #[serde(default = "only_default")]
+    pub searches: Vec<SearchKind>,
+    /// What bodies are drawn as.
+    #[serde(default = "only_default")]
     pub models: Vec<Model>,
-    /// Backends, by the names of `track --backend`.
-    #[serde(default = "default_backends")]
-    pub backends: Vec<String>,
+    /// Who scores the poses.
+    #[serde(default = "only_default")]
+    pub backends: Vec<Backend>,
     /// Factor on the width of the search round the previous pose.
     #[serde(default = "default_spread")]
     pub spread: f64,
@@ -138,20 +138,8 @@ fn default_iterations() -> Vec<usize> {
     vec![SearchSettings::default().iterations]
 }
 
-fn default_objectives() -> Vec<String> {
-    vec![ObjectiveKind::default().name().to_string()]
-}
-
-fn default_searches() -> Vec<String> {
-    vec![SearchKind::default().name().to_string()]
-}
-
-fn default_models() -> Vec<Model> {
-    vec![Model::Flat]
-}
-
-fn default_backends() -> Vec<String> {
-    vec![Backend::default().name().to_string()]
+fn only_default<T: Default>() -> Vec<T> {
+    vec![T::default()]
 }
 
 fn default_spread() -> f64 {
@@ -235,15 +223,6 @@ impl Study {
         several("searches", &self.searches)?;
         several("models", &self.models)?;
         several("backends", &self.backends)?;
-        for name in &self.objectives {
-            one_of("objectives", name, &ObjectiveKind::ALL.map(ObjectiveKind::name))?;
-        }
-        for name in &self.searches {
-            one_of("searches", name, &SearchKind::ALL.map(SearchKind::name))?;
-        }
-        for name in &self.backends {
-            one_of("backends", name, &Backend::ALL.map(Backend::name))?;
-        }
         ensure!(!self.sequences.is_empty(), "there is no [[sequence]], expected at least one");
         let mut names = HashSet::new();
         for sequence in &self.sequences {
@@ -294,16 +273,11 @@ impl Study {
 }
 
 /// Lists make a run for every entry, so each needs one, and none twice.
-fn several<T: std::hash::Hash + Eq + std::fmt::Debug>(key: &str, list: &[T]) -> Result<()> {
+fn several<T: std::hash::Hash + Eq + std::fmt::Display>(key: &str, list: &[T]) -> Result<()> {
     ensure!(!list.is_empty(), "{key} is empty, expected at least one");
     let mut seen = HashSet::new();
     let twice = list.iter().find(|entry| !seen.insert(*entry));
-    twice.map_or(Ok(()), |entry| bail!("{key} holds {entry:?} twice, expected each once"))
-}
-
-fn one_of(key: &str, name: &str, known: &[&str]) -> Result<()> {
-    ensure!(known.contains(&name), "{key} holds {name:?}, expected some of {}", known.join(", "));
-    Ok(())
+    twice.map_or(Ok(()), |entry| bail!("{key} holds {entry} twice, expected each once"))
 }
 
 /// Names become names of files.

@@ -7,23 +7,25 @@ use crate::body::{Body, Mesh};
 use crate::evaluate::cpu::Cpu;
 use crate::evaluate::device::{Compute, Graphics, GraphicsSettings, open_device};
 use crate::evaluate::{Evaluator, Reference};
+use crate::files::choices;
 use crate::geometry::Camera;
 
-/// An evaluator as `--backend` names it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Backend {
-    /// The fastest one that works on this machine.
-    #[default]
-    Auto,
-    /// The simplest code that is obviously right; slow.
-    Reference,
-    /// The fast one on the processor.
-    Cpu,
-    /// Drawing in compute on a Vulkan device, in the reference's integers.
-    Compute,
-    /// Drawing with the graphics pipeline of a Vulkan device, four candidates a framebuffer texel: the flat model in the reference's
-    /// integers, the mesh model with the device's own triangles.
-    Graphics,
+choices! {
+    /// An evaluator as `--backend` names it.
+    #[derive(Default)]
+    "backend" pub enum Backend {
+        /// The fastest one that works on this machine, by a short measurement (the default).
+        "auto" #[default] Auto,
+        /// The simplest code that is obviously right; slow.
+        "reference" Reference,
+        /// The fast one on the processor.
+        "cpu" Cpu,
+        /// Drawing in compute on a Vulkan device, in the reference's integers.
+        "compute" Compute,
+        /// Drawing with the graphics pipeline of a Vulkan device: the flat model in the reference's integers, the mesh model with
+        /// the device's own triangles.
+        "graphics" Graphics,
+    }
 }
 
 /// An evaluator and why it was taken.
@@ -35,33 +37,8 @@ pub struct BuiltBackend {
 }
 
 impl Backend {
-    /// All of them.
-    pub const ALL: [Self; 5] = [Self::Auto, Self::Reference, Self::Cpu, Self::Compute, Self::Graphics];
-
-    /// The name as `--backend` takes it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Auto => "auto",
-            Self::Reference => "reference",
-            Self::Cpu => "cpu",
-            Self::Compute => "compute",
-            Self::Graphics => "graphics",
-        }
-    }
-
-    /// The backend of that name.
-    ///
-    /// # Errors
-    /// When there is none; the sentence names those there are.
-    pub fn from_name(name: &str) -> Result<Self> {
-        match Self::ALL.into_iter().find(|backend| backend.name() == name) {
-            Some(backend) => Ok(backend),
-            None => bail!("there is no backend `{name}`, expected one of {}", Self::ALL.map(Self::name).join(", ")),
-        }
-    }
-
     /// Makes the evaluator of a body for its cameras at working size: of its flat model, or of a mesh bound to it
-    /// ([`super::Model::mesh`]). `around` is a pose to measure by, should `auto` have to choose. Every backend gives the same
+    /// ([`crate::body::Model::mesh`]). `around` is a pose to measure by, should `auto` have to choose. Every backend gives the same
     /// integers for the same model, but for few pixels of a mesh drawn by graphics, so which one it is changes the time alone.
     ///
     /// # Errors
@@ -174,12 +151,15 @@ fn without_vulkan(backend: Backend, error: &anyhow::Error) -> anyhow::Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::track::Model;
+    use crate::body::Model;
 
     #[test]
     fn an_unknown_backend_names_the_known_ones() {
         let error = Backend::from_name("cuda").unwrap_err().to_string();
-        assert_eq!(error, "there is no backend `cuda`, expected one of auto, reference, cpu, compute, graphics");
+        assert_eq!(
+            error,
+            "unknown backend `cuda`, the nearest is `auto` (known: auto, reference, cpu, compute, graphics)"
+        );
         for backend in Backend::ALL {
             assert_eq!(Backend::from_name(backend.name()).unwrap(), backend);
         }
@@ -212,6 +192,10 @@ mod tests {
             }
         }
         let error = Model::from_name("solid").unwrap_err().to_string();
-        assert_eq!(error, "there is no model `solid`, expected one of flat, mesh");
+        assert_eq!(
+            error,
+            "unknown model `solid`, the nearest is `flat` (known: flat, mesh, square, elliptic-18, elliptic-34, elliptic-66, \
+                    elliptic-130, elliptic-258, elliptic-514)"
+        );
     }
 }

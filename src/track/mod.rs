@@ -13,7 +13,6 @@ mod frame_range;
 mod histogram;
 mod hull;
 mod journal;
-mod model;
 mod objective_choice;
 mod overlay;
 mod page;
@@ -36,7 +35,6 @@ pub use driver::{ErrorSummary, FrameDone, Progress, RunStart, Silent, TrackSumma
 pub use fit::{Coverage, Fit, FitSettings, fit};
 pub use frame_range::FrameRange;
 pub use journal::FrameResult;
-pub use model::Model;
 pub use objective_choice::ObjectiveChoice;
 pub use prediction::Prediction;
 pub use realtime::{Drops, LatencySummary, RealtimeSettings, RealtimeSummary, Repeat};

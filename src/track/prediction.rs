@@ -1,43 +1,21 @@
 //! Where a frame's search starts, from the poses before.
 
-use anyhow::{Result, bail};
-
+use crate::files::choices;
 use crate::search::SearchSpace;
 
-/// How the pose of a frame is predicted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Prediction {
-    /// It is the pose before.
-    #[default]
-    None,
-    /// It goes on from the pose before as that came from the one before it: constant velocity of every degree of freedom,
-    /// within the limits.
-    Velocity,
+choices! {
+    /// How the pose of a frame is predicted.
+    #[derive(Default)]
+    "prediction" pub enum Prediction {
+        /// It is the pose before (the default).
+        "none" #[default] None,
+        /// It goes on from the pose before as that came from the one before it: constant velocity of every degree of freedom,
+        /// within the limits.
+        "velocity" Velocity,
+    }
 }
 
 impl Prediction {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::None, Self::Velocity];
-
-    /// The name as `--predict` takes it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::Velocity => "velocity",
-        }
-    }
-
-    /// The prediction of that name.
-    ///
-    /// # Errors
-    /// When there is none: the sentence names them.
-    pub fn from_name(name: &str) -> Result<Self> {
-        match Self::ALL.into_iter().find(|known| known.name() == name) {
-            Some(known) => Ok(known),
-            None => bail!("there is no prediction {name:?}, expected one of {}", Self::ALL.map(Self::name).join(", ")),
-        }
-    }
-
     /// The start of the search after `last`, before which came `earlier` where that is known.
     pub(super) fn start(self, space: &SearchSpace, last: &[f32], earlier: Option<&[f32]>) -> Vec<f32> {
         let mut start = last.to_vec();
@@ -63,6 +41,6 @@ mod tests {
         assert_eq!(Prediction::Velocity.start(&space, &last, None), last);
         assert_eq!(Prediction::None.start(&space, &last, Some(&earlier)), last);
         let error = Prediction::from_name("linear").unwrap_err().to_string();
-        assert_eq!(error, "there is no prediction \"linear\", expected one of none, velocity");
+        assert_eq!(error, "unknown prediction `linear`, the nearest is `none` (known: none, velocity)");
     }
 }

@@ -7,8 +7,8 @@ use toml::{Table, Value};
 
 use super::journal::checksum;
 use super::plan::Plan;
-use super::{Backend, Model, TrackSettings};
-use crate::body::MeshSource;
+use super::{Backend, TrackSettings};
+use crate::body::{MeshSource, Model};
 use crate::evaluate::Objective;
 use crate::files::{OutputFolder, read_toml};
 use crate::search::SearchKind;

@@ -7,11 +7,11 @@ use anyhow::{Result, bail, ensure};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 
+use super::Backend;
 use super::feed::{Feed, Frames};
 use super::overlay::file_stem;
 use super::plan::feature_settings;
-use super::{Backend, Model};
-use crate::body::{Body, PoseTable};
+use crate::body::{Body, Model, PoseTable};
 use crate::evaluate::{Components, Evaluator, Objective, Reference, SegmentSums};
 use crate::features::Observation;
 use crate::files::OutputFolder;

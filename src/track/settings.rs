@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use anyhow::{Result, ensure};
 
-use super::{Backend, FrameRange, Model, ObjectiveChoice, Prediction, RealtimeSettings};
+use super::{Backend, FrameRange, ObjectiveChoice, Prediction, RealtimeSettings};
+use crate::body::Model;
 use crate::report::check_recordings_are_built;
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::STALL_TIMEOUT;

@@ -155,5 +155,5 @@ fn an_unknown_preset_is_named() {
     let failed = pantin(&["bench", "--preset", "slow"], &[]);
     assert_eq!(failed.status.code(), Some(2));
     let text = stderr(&failed);
-    assert!(text.contains("there is no preset `slow`, expected one of quick, thesis"), "{text}");
+    assert!(text.contains("unknown preset `slow`, the nearest is `quick` (known: quick, thesis)"), "{text}");
 }

@@ -72,7 +72,11 @@ fn score_refuses_in_one_sentence() {
         "the truth has `LKnee`, `LHip`, the track has `LKNE`, `RKNE`",
     );
     refused(at, &["score", "out", "--truth", "none.trc"], "cannot read none.trc");
-    refused(at, &["score", "none", "--truth", "joints.csv"], "none ends in `.`, expected .c3d");
+    refused(
+        at,
+        &["score", "none", "--truth", "joints.csv"],
+        "none: unknown point format ``, the nearest is `c3d` (known: c3d, trc, csv, bvh)",
+    );
     fs::create_dir(at.join("empty")).unwrap();
     refused(at, &["score", "empty", "--truth", "joints.csv"], "neither markers.c3d nor joints.csv");
     refused(at, &["score", "out", "--truth", "markers.trc", "--points", "HIP"], "no point `HIP` to compare");
@@ -119,7 +123,11 @@ fn convert_refuses_in_one_sentence() {
     refused(at, &["convert", "still.csv", "b.bvh"], "which points alone do not give");
     refused(at, &["convert", "still.csv", "b.trc"], "frame rate is unknown");
     refused(at, &["convert", "poses.csv", "b.trc"], "table of poses");
-    refused(at, &["convert", "a.bvh", "b.fbx"], "b.fbx ends in `.fbx`");
+    refused(
+        at,
+        &["convert", "a.bvh", "b.fbx"],
+        "b.fbx: unknown point format `fbx`, the nearest is `bvh` (known: c3d, trc, csv, bvh)",
+    );
     refused(at, &["convert", "a.bvh", "b.bvh", "--y-up"], "--y-up turns points");
     refused(at, &["convert", "a.bvh", "b.csv", "--scale", "nan"], "--scale is NaN");
     refused(at, &["convert", "a.bvh", "b.csv", "--scale", "1e300"], "expected coordinates below 1e9 mm");

@@ -115,7 +115,10 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
         ("[[actor]]\nmotion = { gait = \"run\", file = \"x.bvh\" }", "both `gait` and `file`"),
         ("[[actor]]\nmotion = { file = \"nowhere.bvh\" }", "cannot read"),
         ("[[actor]]\nmotion = { file = \"walk.amc\" }", "expected an .asf file"),
-        ("[[actor]]\nmotion = { file = \"scene.toml\" }", "ends in `.toml`, expected .bvh, .amc"),
+        (
+            "[[actor]]\nmotion = { file = \"scene.toml\" }",
+            "unknown motion format `toml`, the nearest is `json` (known: bvh, amc, txt, json)",
+        ),
         ("frames = 1\n[[actor]]\nmotion = { file = \"stick.bvh\" }", "no joint that is known to be `pelvis`"),
         ("[[actor]]\nmesh = \"nobody.glb\"", "nobody.glb"),
         ("[[camera]]\nname = \"cam7\"", "`cam7`, expected one of cam1"),

@@ -282,7 +282,7 @@ fn auto_keeps_to_what_the_run_began_with() {
     refused(&track_with(sequence(), &output, &["--resume", "--backend", "cpu"]), &parts);
     let record = fs::read_to_string(output.join("run.toml")).unwrap();
     fs::write(output.join("run.toml"), record.replace("backend = \"reference\"", "backend = \"cuda\"")).unwrap();
-    refused(&track_with(sequence(), &output, &["--resume"]), &["run.toml", "no backend `cuda`"]);
+    refused(&track_with(sequence(), &output, &["--resume"]), &["run.toml", "unknown backend `cuda`"]);
 }
 
 #[test]
@@ -462,9 +462,12 @@ fn wrong_inputs_are_one_sentence() {
     refused(&track_with(sequence(), &output, &["--spread", "0"]), &["spread is 0"]);
     refused(&track_with(sequence(), &output, &["--w1", "2"]), &["w1 of the objective sp is 2"]);
     for (flags, part) in [
-        (["--backend", "cuda"], "expected one of auto, reference, cpu"),
-        (["--search", "luck"], "expected one of pso, pf"),
-        (["--objective", "best"], "expected one of ws, sp, aows, aosp, posp"),
+        (
+            ["--backend", "cuda"],
+            "unknown backend `cuda`, the nearest is `auto` (known: auto, reference, cpu, compute, graphics)",
+        ),
+        (["--search", "luck"], "(known: pso, pf, apf, hpso, cmaes)"),
+        (["--objective", "best"], "unknown objective `best`, the nearest is `posp` (known: ws, sp, aows, aosp, posp)"),
         (["--frames", "5..2"], "the range of frames 5..2 is empty"),
         (["--seed", "many"], "invalid"),
     ] {

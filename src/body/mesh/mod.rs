@@ -13,6 +13,7 @@ use anyhow::{Result, ensure};
 use glam::{DAffine3, DVec3, Vec3};
 
 use super::Body;
+use crate::files::choices;
 pub use frusta::FrustumBase;
 pub(super) use joint_names::plain as plain_name;
 pub use source::MeshSource;
@@ -61,23 +62,14 @@ pub struct MeshEdge {
     pub opposite: [u32; 2],
 }
 
-/// How the vertices of a [`Mesh`] hang on bones.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Skinning {
-    /// Each on one bone.
-    Rigid,
-    /// Each on up to four bones.
-    #[default]
-    Smooth,
-}
-
-impl Skinning {
-    /// The name as files write it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rigid => "rigid",
-            Self::Smooth => "smooth",
-        }
+choices! {
+    /// How the vertices of a [`Mesh`] hang on bones.
+    #[derive(Default)]
+    "skinning" pub enum Skinning {
+        /// Each on one bone.
+        "rigid" Rigid,
+        /// Each on up to four bones.
+        "smooth" #[default] Smooth,
     }
 }
 

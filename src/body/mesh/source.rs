@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use super::{FrustumBase, Skinning};
 use crate::body::loader::expected;
-use crate::files::shortened;
+use crate::files::{shortened, unknown};
 
 /// Where the mesh of a body comes from (SPEC A4).
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +36,7 @@ pub enum MeshSource {
 #[serde(deny_unknown_fields)]
 pub(in crate::body) struct MeshEntry {
     file: Option<PathBuf>,
-    skinning: Option<String>,
+    skinning: Option<Skinning>,
     #[serde(default)]
     bones: BTreeMap<String, String>,
     frusta: Option<String>,
@@ -53,13 +53,7 @@ pub(in crate::body) fn build_source(entry: MeshEntry, parts: &[&str], joints: &[
             for (key, is_there) in [("vertices", vertices.is_some()), ("flattening", !flattening.is_empty())] {
                 ensure!(!is_there, "`{key}` stands beside `file`, expected it beside `frusta`");
             }
-            let skinning = match skinning.as_deref() {
-                None => Skinning::default(),
-                Some(name) => [Skinning::Rigid, Skinning::Smooth]
-                    .into_iter()
-                    .find(|skinning| skinning.name() == name)
-                    .ok_or_else(|| anyhow!("skinning is `{}`, expected `rigid` or `smooth`", shortened(name)))?,
-            };
+            let skinning = skinning.unwrap_or_default();
             for name in bones.keys() {
                 let is_known = joints.contains(&name.as_str());
                 ensure!(is_known, "bones names `{}`, which is no bone, {}", shortened(name), expected(name, joints));
@@ -93,7 +87,7 @@ fn frustum_base(name: &str, vertices: Option<i64>) -> Result<FrustumBase> {
                 rung.ok_or_else(|| anyhow!("vertices is {asked}, expected one of {:?}", FrustumBase::LADDER))?;
             Ok(FrustumBase::Elliptic { vertices })
         }
-        other => bail!("frusta is `{}`, expected `square` or `elliptic`", shortened(other)),
+        other => Err(unknown("frusta", other, &["square", "elliptic"])),
     }
 }
 

@@ -67,17 +67,7 @@ fn sources() -> Vec<ViewSource> {
 }
 
 fn settings(case: usize) -> FeatureSettings {
-    let operators = [
-        Operator::Sobel,
-        Operator::Prewitt,
-        Operator::Roberts,
-        Operator::LaplaceFour,
-        Operator::LaplaceEight,
-        Operator::LaplaceProduct,
-        Operator::Canny,
-    ];
-    let magnitudes = [Magnitude::Exact, Magnitude::Sum, Magnitude::Max];
-    let metrics = [Metric::Chessboard, Metric::CityBlock, Metric::Euclidean, Metric::QuasiEuclidean];
+    let (operators, magnitudes, metrics) = (Operator::ALL, Magnitude::ALL, Metric::ALL);
     let normalisations = [Normalisation::Proportional, Normalisation::Exponential, Normalisation::Impulse];
     FeatureSettings {
         mixture: MixtureSettings { components: 3 + case % 3, gain: case % 2 == 1, warm_up: 4, ..Default::default() },

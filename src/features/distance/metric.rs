@@ -1,20 +1,20 @@
 //! Which distance is measured, and the whole numbers that stand for it.
 
-use serde::Deserialize;
+use crate::files::choices;
 
-/// A distance between pixels, of |dx| and |dy|.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Metric {
-    /// max(|dx|, |dy|).
-    #[default]
-    Chessboard,
-    /// |dx| + |dy|.
-    CityBlock,
-    /// √(dx² + dy²).
-    Euclidean,
-    /// (√2 - 1) min(|dx|, |dy|) + max(|dx|, |dy|): the shortest way by steps of 1 and diagonal steps of √2.
-    QuasiEuclidean,
+choices! {
+    /// A distance between pixels, of |dx| and |dy|.
+    #[derive(Default)]
+    "metric" pub enum Metric {
+        /// max(|dx|, |dy|).
+        "chessboard" #[default] Chessboard,
+        /// |dx| + |dy|.
+        "city-block" CityBlock,
+        /// √(dx² + dy²).
+        "euclidean" Euclidean,
+        /// (√2 - 1) min(|dx|, |dy|) + max(|dx|, |dy|): the shortest way by steps of 1 and diagonal steps of √2.
+        "quasi-euclidean" QuasiEuclidean,
+    }
 }
 
 impl Metric {
@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn straight_distances_come_back() {
-        for metric in [Metric::Chessboard, Metric::CityBlock, Metric::Euclidean, Metric::QuasiEuclidean] {
+        for metric in Metric::ALL {
             assert!(
                 (0..=255).all(|distance| metric.distance(metric.code(distance)) == f32::from(distance)),
                 "{metric:?}"

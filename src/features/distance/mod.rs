@@ -151,8 +151,6 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const METRICS: [Metric; 4] = [Metric::Chessboard, Metric::CityBlock, Metric::Euclidean, Metric::QuasiEuclidean];
-
     /// The definition: the smallest distance over all edge pixels, in whole numbers that are compared as it is.
     fn brute_force(edges: &BitImage, metric: Metric, limit: u8) -> Vec<u32> {
         let all = || (0..edges.height()).flat_map(|y| (0..edges.width()).map(move |x| (x, y)));
@@ -179,7 +177,7 @@ mod tests {
         #[test]
         fn every_metric_matches_brute_force(edges in any_bit_image(), limit in prop_oneof![1_u8..12, Just(255)]) {
             let mut map = DistanceMap::default();
-            for metric in METRICS {
+            for metric in Metric::ALL {
                 map.measure(&edges, metric, limit);
                 prop_assert_eq!(codes(&map), brute_force(&edges, metric, limit), "{:?}", metric);
             }
@@ -205,7 +203,7 @@ mod tests {
     fn sparse_edges_match_and_a_changed_pixel_shows() {
         let mut edges = BitImage::from_fn(150, 60, |x, y| (x, y) == (30, 12) || (x, y) == (149, 59));
         let mut map = DistanceMap::default();
-        for metric in METRICS {
+        for metric in Metric::ALL {
             for limit in [1, 2, 40, 255] {
                 map.measure(&edges, metric, limit);
                 assert_eq!(codes(&map), brute_force(&edges, metric, limit), "{metric:?}, limit {limit}");
@@ -219,7 +217,7 @@ mod tests {
     #[test]
     fn no_edge_is_far_everywhere() {
         let mut map = DistanceMap::default();
-        for metric in METRICS {
+        for metric in Metric::ALL {
             map.measure(&BitImage::new(7, 3), metric, 16);
             assert_eq!(map.distances(), [16.0; 21]);
             assert!(map.to_gray().iter().all(|&value| value == 0));

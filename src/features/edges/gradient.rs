@@ -1,17 +1,17 @@
 //! First derivatives in two perpendicular directions, and how they become one magnitude.
 
-use serde::Deserialize;
+use crate::files::choices;
 
-/// How the two derivatives become one magnitude.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Magnitude {
-    /// √(gx² + gy²).
-    Exact,
-    /// |gx| + |gy|.
-    Sum,
-    /// max(|gx|, |gy|).
-    Max,
+choices! {
+    /// How the two derivatives become one magnitude.
+    "magnitude" pub enum Magnitude {
+        /// √(gx² + gy²).
+        "exact" Exact,
+        /// |gx| + |gy|.
+        "sum" Sum,
+        /// max(|gx|, |gy|).
+        "max" Max,
+    }
 }
 
 impl Magnitude {

@@ -16,28 +16,27 @@ use self::laplace::{Laplacian, crosses_zero};
 use self::smooth::SmoothPicture;
 use super::blobs::Components;
 use super::{BitImage, Region};
+use crate::files::choices;
 
-/// What finds the edges.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Operator {
-    /// Two perpendicular Sobels: a straight step of `s` grey levels has magnitude 3 `s` when smoothed, 4 `s` when not.
-    Sobel,
-    /// Two perpendicular Prewitts: three quarters of that.
-    Prewitt,
-    /// The differences along two diagonals, half a pixel right below: a quarter of Sobel's and less smooth.
-    Roberts,
-    /// Zero crossings of the mask 0 1 0, 1 -4 1, 0 1 0.
-    #[serde(rename = "laplace4")]
-    LaplaceFour,
-    /// Zero crossings of the mask 1 1 1, 1 -8 1, 1 1 1.
-    #[serde(rename = "laplace8")]
-    LaplaceEight,
-    /// Zero crossings of the mask 1 -2 1, -2 4 -2, 1 -2 1.
-    LaplaceProduct,
-    /// Sobels, thinned across the edge; what is weaker than `threshold` and at least `low` strong counts where it hangs
-    /// together with something stronger.
-    Canny,
+choices! {
+    /// What finds the edges.
+    "edge operator" pub enum Operator {
+        /// Two perpendicular Sobels: a straight step of `s` grey levels has magnitude 3 `s` when smoothed, 4 `s` when not.
+        "sobel" Sobel,
+        /// Two perpendicular Prewitts: three quarters of that.
+        "prewitt" Prewitt,
+        /// The differences along two diagonals, half a pixel right below: a quarter of Sobel's and less smooth.
+        "roberts" Roberts,
+        /// Zero crossings of the mask 0 1 0, 1 -4 1, 0 1 0.
+        "laplace4" LaplaceFour,
+        /// Zero crossings of the mask 1 1 1, 1 -8 1, 1 1 1.
+        "laplace8" LaplaceEight,
+        /// Zero crossings of the mask 1 -2 1, -2 4 -2, 1 -2 1.
+        "laplace-product" LaplaceProduct,
+        /// Sobels, thinned across the edge; what is weaker than `threshold` and at least `low` strong counts where it hangs
+        /// together with something stronger.
+        "canny" Canny,
+    }
 }
 
 /// How edges are found.

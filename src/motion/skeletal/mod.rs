@@ -10,7 +10,7 @@ mod file;
 pub use amc::parse_amc;
 pub use asf::{AsfBone, AsfSkeleton, parse_asf};
 pub use deepmimic::{DeepMimicSkeleton, parse_deepmimic, parse_deepmimic_skeleton};
-pub use file::read_skeletal_motion;
+pub use file::{MotionFormat, read_skeletal_motion};
 
 use std::collections::HashSet;
 

@@ -11,20 +11,40 @@ mod writer;
 use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use anyhow::{Context, Result, anyhow, ensure};
 
 pub use opencv::{parse_opencv_xml, parse_opencv_yaml};
 pub use pose2sim::parse_cameras_toml;
 pub use qualisys::parse_qualisys;
 pub use writer::{cameras_toml, write_cameras_toml};
 
+use crate::files::choices;
 use crate::geometry::Camera;
 
 /// Calibrations are small; anything larger is a mistake (a video handed over, say), not worth reading whole.
 const LARGEST_FILE: u64 = 16 << 20;
 
-/// Reads the cameras of a calibration file, in the file's order, lengths in mm. The format follows the name: `.toml` the
-/// layout of Pose2Sim, anipose and caliscope, `.qca.txt` Qualisys, `.yml`, `.yaml` and `.xml` OpenCV.
+choices! {
+    /// The formats of calibration files, by how their names end.
+    "calibration format" pub enum CalibrationFormat => parse: Parse {
+        /// The layout of Pose2Sim, anipose and caliscope.
+        "toml" Pose2Sim => parse_cameras_toml,
+        /// Qualisys.
+        "qca.txt" QualisysText => parse_qualisys,
+        /// Qualisys.
+        "qca" Qualisys => parse_qualisys,
+        /// OpenCV.
+        "yml" OpenCvYml => parse_opencv_yaml,
+        /// OpenCV.
+        "yaml" OpenCvYaml => parse_opencv_yaml,
+        /// OpenCV.
+        "xml" OpenCvXml => parse_opencv_xml,
+    }
+}
+
+type Parse = fn(&str, &str) -> Result<Vec<Camera>>;
+
+/// Reads the cameras of a calibration file, in the file's order, lengths in mm. The format follows the name.
 ///
 /// # Errors
 /// One sentence that names the file, the line or the camera and its key, what was found and what was expected: for a file
@@ -34,21 +54,13 @@ const LARGEST_FILE: u64 = 16 << 20;
 pub fn read_cameras(path: &Path) -> Result<Vec<Camera>> {
     let name = path.display().to_string();
     let lower = name.to_lowercase();
-    let is = |extensions: &[&str]| extensions.iter().any(|extension| lower.ends_with(extension));
-    let parse = if is(&[".toml"]) {
-        parse_cameras_toml
-    } else if is(&[".qca.txt", ".qca"]) {
-        parse_qualisys
-    } else if is(&[".yml", ".yaml"]) {
-        parse_opencv_yaml
-    } else if is(&[".xml"]) {
-        parse_opencv_xml
-    } else {
-        bail!(
-            "{name} is no calibration file by its name, expected one that ends in .toml, .qca.txt, .yml, .yaml or .xml"
-        );
+    let of_name = |format: &CalibrationFormat| lower.ends_with(&format!(".{format}"));
+    let format = match CalibrationFormat::ALL.into_iter().find(of_name) {
+        Some(format) => format,
+        None => CalibrationFormat::from_name(path.extension().unwrap_or_default().to_string_lossy().as_ref())
+            .with_context(|| name.clone())?,
     };
-    parse(&read_text(path)?, &name)
+    (format.parse())(&read_text(path)?, &name)
 }
 
 fn read_text(path: &Path) -> Result<String> {

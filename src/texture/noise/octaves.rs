@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::lattice::{HashLattice, Lattice, Periodic};
 use super::{Noise, Perlin, Value};
+use crate::files::choices;
 
 /// Coordinates beyond this count as this: no octave of a finite point overflows.
 pub(in crate::texture) const FARTHEST: f32 = 1e25;
@@ -16,16 +17,16 @@ const LANES: usize = 64;
 /// Points of a task of [`Octaves::fill`].
 const TASK: usize = 64 * LANES;
 
-/// What is summed of each octave's noise n.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Sum {
-    /// n.
-    Fbm,
-    /// |n|.
-    Turbulence,
-    /// (1 - |n|)^2.
-    Ridged,
+choices! {
+    /// What is summed of each octave's noise n.
+    "sum" pub enum Sum {
+        /// n.
+        "fbm" Fbm,
+        /// |n|.
+        "turbulence" Turbulence,
+        /// (1 - |n|)^2.
+        "ridged" Ridged,
+    }
 }
 
 /// `sum over k < count of gain^k noise(lacunarity^k frequency p)`.
