@@ -1,6 +1,6 @@
 //! The tables of choices in the documents: what stands between `<!-- choices: X -->` and `<!-- end of choices -->` is the list of X
 //! as the sources declare it. `PANTIN_WRITE_DOCS=1 cargo test --test choices` writes the tables anew.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,10 +12,12 @@ use pantin::evaluate::ObjectiveKind;
 use pantin::features::{Adaptation, Cue, Magnitude, Metric, Normalisation, Operator, Shape};
 use pantin::files::Choice;
 use pantin::geometry::LengthUnit;
-use pantin::motion::{MotionFormat, PointFormat};
+use pantin::motion::{MotionFormat, PointFormat, UpAxis};
 use pantin::search::SearchKind;
 use pantin::sequence::CalibrationFormat;
 use pantin::study::{Axis, Value};
+use pantin::synth::{Gait, Garment, LensKind, MotionUnit, PictureForm, RigKind, ScenePreset};
+use pantin::texture::materials::MaterialKind;
 use pantin::texture::noise::Sum;
 use pantin::track::{Backend, Prediction};
 
@@ -44,11 +46,20 @@ fn lists() -> Vec<List> {
         list::<PointFormat>(),
         list::<MotionFormat>(),
         list::<CalibrationFormat>(),
+        list::<ScenePreset>(),
+        list::<Gait>(),
+        list::<RigKind>(),
+        list::<LensKind>(),
+        list::<PictureForm>(),
+        list::<MotionUnit>(),
+        list::<UpAxis>(),
+        list::<Garment>(),
         list::<LensModel>(),
         list::<Held>(),
         list::<Layout>(),
         list::<LengthUnit>(),
         list::<Skinning>(),
+        list::<MaterialKind>(),
         list::<Sum>(),
         list::<Axis>(),
         list::<Value>(),

@@ -32,12 +32,6 @@ const uint SHORT_CODES = 32u;
 
 // Invocations of a workgroup of the objective.
 const uint OBJECTIVE_GROUP = 64u;
-// Kinds of objective.
-const uint OBJECTIVE_WS = 0u;
-const uint OBJECTIVE_SP = 1u;
-const uint OBJECTIVE_AOWS = 2u;
-const uint OBJECTIVE_AOSP = 3u;
-const uint OBJECTIVE_POSP = 4u;
 
 // Invocations of a workgroup of the mesh's stages.
 const uint MESH_GROUP = 64u;

@@ -9,10 +9,17 @@ layout(std430, set = 0, binding = 0) readonly buffer Cameras { Camera cameras[];
 layout(std430, set = 0, binding = 1) readonly buffer AllSums { Sums sums[]; };
 layout(std430, set = 0, binding = 2) writeonly buffer Fitness { float fitness[]; };
 
+// How the terms become one number, and over which views: the numbers of Terms and Views in src/evaluate/objective.rs.
+const uint TERMS_SUM = 0u;
+const uint OVER_TOGETHER = 0u;
+const uint OVER_MEAN = 1u;
+const uint OVER_PRODUCT = 2u;
+
 layout(push_constant) uniform Scoring {
     uint candidates;
     uint views;
-    uint kind; // OBJECTIVE_*
+    uint terms; // TERMS_*
+    uint over; // OVER_*
     float beta;
     float w1;
     float w2;
@@ -83,12 +90,10 @@ bool is_nothing(Terms t) {
     return t.area_obs == 0.0 || t.area_model == 0.0;
 }
 
-float weighted_sum(Terms t, float f1) {
-    return is_nothing(t) ? 0.0 : push.w1 * f1 + push.w2 * edge(t);
-}
-
-float product(Terms t, float f1) {
-    return is_nothing(t) ? 0.0 : power(f1, push.w1) * power(edge(t), push.w2);
+float score(Terms t, float f1) {
+    if (is_nothing(t)) return 0.0;
+    if (push.terms == TERMS_SUM) return push.w1 * f1 + push.w2 * edge(t);
+    return power(f1, push.w1) * power(edge(t), push.w2);
 }
 
 void main() {
@@ -107,15 +112,14 @@ void main() {
         all.edges += own.edges;
         all.proximity += own.proximity;
         float f1 = views_silhouette(own, candidate, view, view + 1u);
-        float value = push.kind == OBJECTIVE_AOWS ? weighted_sum(own, f1) : product(own, f1);
+        float value = score(own, f1);
         sum += value;
         products *= value;
     }
-    float value;
-    float f1 = views_silhouette(all, candidate, 0u, push.views);
-    if (push.kind == OBJECTIVE_WS) value = weighted_sum(all, f1);
-    else if (push.kind == OBJECTIVE_SP) value = product(all, f1);
-    else if (push.kind == OBJECTIVE_POSP) value = products;
-    else value = sum / float(push.views);
+    float together = score(all, views_silhouette(all, candidate, 0u, push.views));
+    float value = 0.0;
+    if (push.over == OVER_TOGETHER) value = together;
+    else if (push.over == OVER_MEAN) value = sum / float(push.views);
+    else if (push.over == OVER_PRODUCT) value = products;
     fitness[candidate] = value;
 }

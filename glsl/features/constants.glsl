@@ -30,14 +30,6 @@ const uint KEEP_TOUCHED = 1u;
 // The holes, which are the components of the clear pixels.
 const uint KEEP_HOLES = 2u;
 
-// What finds the edges.
-const uint EDGES_SOBEL = 0u;
-const uint EDGES_PREWITT = 1u;
-const uint EDGES_ROBERTS = 2u;
-const uint EDGES_LAPLACE_FOUR = 3u;
-const uint EDGES_LAPLACE_EIGHT = 4u;
-const uint EDGES_LAPLACE_PRODUCT = 5u;
-
 // How two derivatives become one magnitude.
 const uint MAGNITUDE_EXACT = 0u;
 const uint MAGNITUDE_SUM = 1u;

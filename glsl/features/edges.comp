@@ -5,6 +5,14 @@
 
 #include "features/gradient.glsl"
 
+// Places in the list of operators, src/features/edges/mod.rs.
+const uint EDGES_SOBEL = 0u;
+const uint EDGES_PREWITT = 1u;
+const uint EDGES_ROBERTS = 2u;
+const uint EDGES_LAPLACE_FOUR = 3u;
+const uint EDGES_LAPLACE_EIGHT = 4u;
+const uint EDGES_LAPLACE_PRODUCT = 5u;
+
 layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 1) readonly buffer Near { uint near[]; };

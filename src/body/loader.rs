@@ -155,25 +155,8 @@ fn build_bone(entry: &BoneEntry, bone_index: &HashMap<&str, usize>, mm: f64) -> 
         "" => None,
         name => Some(known_bone("parent", name, bone_index)?),
     };
-    let order = match entry.order.as_deref() {
-        None => EulerOrder::default(),
-        Some(name) => EulerOrder::from_name(name).ok_or_else(|| {
-            anyhow!(
-                "order is `{}`, expected one of {}",
-                shortened(name),
-                EulerOrder::ALL.map(EulerOrder::name).join(", ")
-            )
-        })?,
-    };
-    let axes = entry
-        .dof
-        .iter()
-        .map(|name| {
-            let known = DofAxis::ALL.map(DofAxis::name);
-            DofAxis::from_name(name)
-                .ok_or_else(|| anyhow!("dof `{}` is unknown, {}", shortened(name), expected(name, &known)))
-        })
-        .collect::<Result<Vec<_>>>()?;
+    let order = entry.order.as_deref().map_or(Ok(EulerOrder::default()), EulerOrder::from_name)?;
+    let axes = entry.dof.iter().map(|name| DofAxis::from_name(name)).collect::<Result<Vec<_>>>()?;
     for (index, axis) in axes.iter().enumerate() {
         let name = axis.name();
         ensure!(!axes[..index].contains(axis), "dof lists `{name}` twice, expected each once");

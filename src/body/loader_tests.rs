@@ -116,8 +116,14 @@ fn every_bad_body_has_its_sentence() {
         (change("tx = 2", "tx = 1e300"), vec!["step of `tx` is 1", "up to 1000000 mm"]),
         (change("[\"tx\", \"rz\"]", "[\"rz\", \"tx\"]"), vec!["dof lists `tx` after `rz`", "tx ty tz rx ry rz"]),
         (change("[\"tx\", \"rz\"]", "[\"tx\", \"tx\", \"rz\"]"), vec!["dof lists `tx` twice"]),
-        (change("[\"ry\"]", "[\"yaw\"]"), vec!["bone `finger`", "dof `yaw` is unknown", "nearest"]),
-        (change("dof = [\"ry\"]", "dof = [\"ry\"]\norder = \"xxz\""), vec!["order is `xxz`", "xyz, xzy"]),
+        (
+            change("[\"ry\"]", "[\"yaw\"]"),
+            vec!["bone `finger`", "unknown dof `yaw`", "the nearest is `tx` (known: tx, ty, tz, rx, ry, rz)"],
+        ),
+        (
+            change("dof = [\"ry\"]", "dof = [\"ry\"]\norder = \"xxz\""),
+            vec!["unknown order `xxz`", "xyz, xzy, yxz, yzx, zxy, zyx"],
+        ),
         (change("offset = [50, 0, 0]", "offset = [inf, 0, 0]"), vec!["bone `finger`", "offset holds inf", "units"]),
         (change("offset = [50, 0, 0]", "offset = [1e12, 0, 0]"), vec!["offset holds 1000000000000"]),
         (change("offset = [50, 0, 0]", "offset = [50, 0]"), vec!["line 14", "invalid length 2"]),
@@ -133,12 +139,18 @@ fn every_bad_body_has_its_sentence() {
         (format!("{SMALL}[mesh]\nfiel = \"a.glb\"\n"), vec!["unknown key `fiel`", "`file`"]),
         (format!("{SMALL}[mesh]\n"), vec!["table [mesh]", "neither `file` nor `frusta`"]),
         (format!("{SMALL}[mesh]\nfile = \"a\"\nfrusta = \"square\"\n"), vec!["both `file` and `frusta`"]),
-        (format!("{SMALL}[mesh]\nfrusta = \"round\"\n"), vec!["frusta is `round`, expected `square` or `elliptic`"]),
+        (
+            format!("{SMALL}[mesh]\nfrusta = \"round\"\n"),
+            vec!["unknown frusta `round`, the nearest is `square` (known: square, elliptic)"],
+        ),
         (format!("{SMALL}[mesh]\nfrusta = \"square\"\nvertices = 9\n"), vec!["vertices is 9, expected 8"]),
         (format!("{SMALL}[mesh]\nfrusta = \"elliptic\"\nvertices = 60\n"), vec!["vertices is 60", "18, 34, 66"]),
         (format!("{SMALL}[mesh]\nfrusta = \"square\"\nskinning = \"rigid\"\n"), vec!["`skinning` stands beside"]),
         (format!("{SMALL}[mesh]\nfile = \"a\"\nvertices = 8\n"), vec!["`vertices` stands beside `file`"]),
-        (format!("{SMALL}[mesh]\nfile = \"a\"\nskinning = \"soft\"\n"), vec!["skinning is `soft`"]),
+        (
+            format!("{SMALL}[mesh]\nfile = \"a\"\nskinning = \"soft\"\n"),
+            vec!["unknown skinning `soft`", "rigid, smooth"],
+        ),
         (format!("{SMALL}[mesh]\nfile = \"a\"\n[mesh.bones]\nfiner = \"b\"\n"), vec!["`finer`", "`finger`"]),
         (
             format!("{SMALL}[mesh]\nfrusta = \"square\"\nflattening = {{ plam = 0.5 }}\n"),

@@ -4,6 +4,7 @@ use anyhow::{Result, ensure};
 use glam::DVec3;
 
 use super::MeshSource;
+use crate::files::choices;
 use crate::geometry::EulerOrder;
 
 /// A body: any tree of bones, any degrees of freedom. Built by the loader, which guarantees: exactly one root, no cycle,
@@ -70,44 +71,26 @@ pub struct Dof {
     pub step: f64,
 }
 
-/// What a degree of freedom moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum DofAxis {
-    /// Translation along x.
-    Tx,
-    /// Translation along y.
-    Ty,
-    /// Translation along z.
-    Tz,
-    /// Rotation about x.
-    Rx,
-    /// Rotation about y.
-    Ry,
-    /// Rotation about z.
-    Rz,
+choices! {
+    /// What a degree of freedom moves, in the order of the state vector.
+    #[derive(PartialOrd, Ord)]
+    "dof" pub enum DofAxis {
+        /// Translation along x.
+        "tx" Tx,
+        /// Translation along y.
+        "ty" Ty,
+        /// Translation along z.
+        "tz" Tz,
+        /// Rotation about x.
+        "rx" Rx,
+        /// Rotation about y.
+        "ry" Ry,
+        /// Rotation about z.
+        "rz" Rz,
+    }
 }
 
 impl DofAxis {
-    /// All six in the order of the state vector.
-    pub const ALL: [Self; 6] = [Self::Tx, Self::Ty, Self::Tz, Self::Rx, Self::Ry, Self::Rz];
-
-    /// The name as files write it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tx => "tx",
-            Self::Ty => "ty",
-            Self::Tz => "tz",
-            Self::Rx => "rx",
-            Self::Ry => "ry",
-            Self::Rz => "rz",
-        }
-    }
-
-    /// The axis of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|axis| axis.name() == name)
-    }
-
     /// A value as files write it: degrees for an angle, mm for a length.
     pub fn to_file(self, value: f64) -> f64 {
         if self.is_rotation() { value.to_degrees() } else { value }

@@ -9,7 +9,7 @@ use anyhow::Result;
 use super::draws::Draws;
 use super::progress::Progress;
 use crate::files::{OutputFolder, Overwrite};
-use crate::synth::{Scene, SyntheticSequence};
+use crate::synth::{Scene, ScenePreset, SyntheticSequence};
 
 /// Makes a synthetic sequence with exact truth from scene.toml: people who walk, run, jump or follow a recorded motion (BVH,
 /// ASF/AMC, DeepMimic) in a room before any number of cameras. The folder can be tracked as it is; truth.trc holds the
@@ -19,10 +19,9 @@ pub struct SynthArgs {
     /// The scene.
     #[arg(value_name = "SCENE.toml", required_unless_present = "preset", conflicts_with = "preset")]
     scene: Option<PathBuf>,
-    /// A built-in scene: demo; leewalk (four grey cameras, 640x480, 60 Hz, a walk in a circle, 15 markers); p1s, p2s, p1d, p2d
-    /// (four colour cameras, 480x270, 25 Hz, one or two people going straight or diagonally, 39 markers).
+    /// A built-in scene.
     #[arg(long, value_name = "NAME")]
-    preset: Option<String>,
+    preset: Option<ScenePreset>,
     /// The folder to write.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -51,7 +50,7 @@ pub struct SynthArgs {
 pub fn run(args: &SynthArgs) -> Result<()> {
     let mut scene = match (&args.scene, &args.preset) {
         (Some(path), _) => Scene::load(path)?,
-        (None, preset) => Scene::preset(preset.as_deref().unwrap_or("demo"))?,
+        (None, preset) => Scene::preset(preset.unwrap_or(ScenePreset::Demo).name())?,
     };
     scene.frames = args.frames.unwrap_or(scene.frames);
     scene.seed = args.seed.unwrap_or(scene.seed);

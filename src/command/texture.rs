@@ -8,10 +8,10 @@ use image::{DynamicImage, RgbImage};
 
 use super::draws::Draws;
 use super::progress::Progress;
-use crate::files::{Overwrite, choices, write_atomically};
+use crate::files::{Choice as _, Overwrite, choices, write_atomically};
 use crate::synth::portrait;
 use crate::texture::example::{Settings, patch_count, synthesise};
-use crate::texture::materials::{KINDS, Material, Parameters};
+use crate::texture::materials::{Material, MaterialKind, Parameters};
 use crate::texture::picture::{Solid, View, check_size, contact_sheet, flat, heights, lit};
 
 /// Draw a procedural material, or synthesise a texture from an example.
@@ -148,8 +148,8 @@ fn of_depth(args: &TextureArgs, picture: DynamicImage) -> DynamicImage {
 }
 
 fn list(args: &TextureArgs, output: Option<&Path>) -> Result<()> {
-    for kind in KINDS {
-        println!("{:<10} {}", kind.name, kind.looks);
+    for (kind, _, looks) in MaterialKind::CHOICES {
+        println!("{kind:<10} {}", looks.trim_start());
     }
     let Some(output) = output else { return Ok(()) };
     write(args, of_depth(args, contact_sheet(256, args.seed)?.into()), output)?;

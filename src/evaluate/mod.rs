@@ -24,7 +24,7 @@ pub use device_evaluator::DeviceEvaluator;
 pub use evaluator::{Evaluator, Footprint};
 pub use mesh_projection::{EDGE_BIAS, MeshProjector, NEAR, NEAREST, ProjectedVertex};
 pub use mesh_raster::draw_mesh;
-pub use objective::{Objective, ObjectiveKind};
+pub use objective::{Objective, ObjectiveKind, Terms, Views};
 pub use projection::{PartQuad, Projector};
 pub use raster::{CandidateImage, draw_quads};
 pub use reference::{Reference, compare};

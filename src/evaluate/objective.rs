@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use anyhow::{Result, ensure};
+
 use super::components::Components;
 use super::segments::SegmentSums;
 use crate::features::{Segment, Segments};
@@ -10,18 +12,38 @@ use crate::files::choices;
 choices! {
     /// How the silhouette and the edge terms of the cameras are combined.
     #[derive(Default)]
-    "objective" pub enum ObjectiveKind {
+    "objective" pub enum ObjectiveKind => pub formula: (Terms, Views) {
         /// Weighted sum of the terms over all cameras together.
-        "ws" Ws,
+        "ws" Ws => (Terms::Sum, Views::Together),
         /// Product of powers of the terms over all cameras together; the default, best on average.
-        "sp" #[default] Sp,
+        "sp" #[default] Sp => (Terms::Product, Views::Together),
         /// Mean over cameras of the weighted sums.
-        "aows" Aows,
+        "aows" Aows => (Terms::Sum, Views::Mean),
         /// Mean over cameras of the products.
-        "aosp" Aosp,
+        "aosp" Aosp => (Terms::Product, Views::Mean),
         /// Product over cameras of the products.
-        "posp" Posp,
+        "posp" Posp => (Terms::Product, Views::Product),
     }
+}
+
+/// How the silhouette and the edge term become one number; `glsl/evaluate/objective.glsl` has the same under the same numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Terms {
+    /// Their sum, each times its weight.
+    Sum = 0,
+    /// The product of their powers.
+    Product = 1,
+}
+
+/// Over which cameras; `glsl/evaluate/objective.glsl` has the same under the same numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Views {
+    /// All together: their components are added up first.
+    Together = 0,
+    /// Each by itself, and the mean of what they yield.
+    Mean = 1,
+    /// Each by itself, and the product of what they yield.
+    Product = 2,
 }
 
 /// An objective function with its weights.
@@ -44,6 +66,29 @@ impl Default for Objective {
 }
 
 impl Objective {
+    /// Whether the numbers make sense: weights of a sum are in [0, 1] and sum to 1, exponents of a product in (0, 1] (SPEC A7).
+    ///
+    /// # Errors
+    /// With the number and what was expected.
+    pub fn check(&self) -> Result<()> {
+        let Self { kind, beta, w1, w2 } = *self;
+        ensure!((0.0..=1.0).contains(&beta), "the objective's beta is {beta}, expected 0 to 1");
+        let is_sum = kind.formula().0 == Terms::Sum;
+        for (name, weight) in [("w1", w1), ("w2", w2)] {
+            let (fits, expected) = if is_sum {
+                ((0.0..=1.0).contains(&weight), "a weight from 0 to 1")
+            } else {
+                (weight > 0.0 && weight <= 1.0, "an exponent over 0 and up to 1")
+            };
+            ensure!(fits, "{name} of the objective {kind} is {weight}, expected {expected}");
+        }
+        ensure!(
+            !is_sum || (w1 + w2 - 1.0).abs() < 1e-4,
+            "w1 and w2 of the objective {kind} are {w1} and {w2}, expected a sum of 1"
+        );
+        Ok(())
+    }
+
     /// The fitness of one candidate from its components, one a view. Nothing drawn or nothing observed scores 0; 0/0 is 0.
     pub fn fitness(&self, views: &[Components]) -> f32 {
         self.combined(views, |_, sums| sums.silhouette(self.beta))
@@ -89,25 +134,24 @@ impl Objective {
 
     /// The terms of all views together or of each by itself, put together; `silhouette` is f1 of some of the views and their sums.
     fn combined(&self, views: &[Components], silhouette: impl Fn(Range<usize>, &Sums) -> f32) -> f32 {
+        let (terms, over) = self.kind.formula();
         let score = |range: Range<usize>| {
             let sums = views[range.clone()].iter().fold(Sums::default(), Sums::plus);
             if sums.is_nothing() {
                 return 0.0;
             }
             let (f1, f2) = (silhouette(range, &sums), sums.edge());
-            match self.kind {
-                ObjectiveKind::Ws | ObjectiveKind::Aows => self.w1 * f1 + self.w2 * f2,
-                ObjectiveKind::Sp | ObjectiveKind::Aosp | ObjectiveKind::Posp => {
-                    power(f1, self.w1) * power(f2, self.w2)
-                }
+            match terms {
+                Terms::Sum => self.w1 * f1 + self.w2 * f2,
+                Terms::Product => power(f1, self.w1) * power(f2, self.w2),
             }
         };
         let each = (0..views.len()).map(|view| score(view..view + 1));
-        match self.kind {
-            ObjectiveKind::Ws | ObjectiveKind::Sp => score(0..views.len()),
-            ObjectiveKind::Aows | ObjectiveKind::Aosp => each.sum::<f32>() / views.len().max(1) as f32,
-            ObjectiveKind::Posp if views.is_empty() => 0.0,
-            ObjectiveKind::Posp => each.product(),
+        match over {
+            Views::Together => score(0..views.len()),
+            Views::Mean => each.sum::<f32>() / views.len().max(1) as f32,
+            Views::Product if views.is_empty() => 0.0,
+            Views::Product => each.product(),
         }
     }
 }

@@ -2,53 +2,29 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-/// The order in which the three elementary rotations of a bone are multiplied, leftmost first: `Xyz` is R_x R_y R_z,
-/// the documented convention of the body.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum EulerOrder {
-    /// R_x R_y R_z
-    #[default]
-    Xyz,
-    /// R_x R_z R_y
-    Xzy,
-    /// R_y R_x R_z
-    Yxz,
-    /// R_y R_z R_x
-    Yzx,
-    /// R_z R_x R_y
-    Zxy,
-    /// R_z R_y R_x
-    Zyx,
+use crate::files::choices;
+
+choices! {
+    /// The order in which the three elementary rotations of a bone are multiplied, leftmost first: `xyz` is R_x R_y R_z, the
+    /// documented convention of the body; and the axes from left to right, 0 = x, 1 = y, 2 = z.
+    #[derive(Default)]
+    "order" pub enum EulerOrder => pub axes: [usize; 3] {
+        /// R_x R_y R_z
+        "xyz" #[default] Xyz => [0, 1, 2],
+        /// R_x R_z R_y
+        "xzy" Xzy => [0, 2, 1],
+        /// R_y R_x R_z
+        "yxz" Yxz => [1, 0, 2],
+        /// R_y R_z R_x
+        "yzx" Yzx => [1, 2, 0],
+        /// R_z R_x R_y
+        "zxy" Zxy => [2, 0, 1],
+        /// R_z R_y R_x
+        "zyx" Zyx => [2, 1, 0],
+    }
 }
 
 impl EulerOrder {
-    /// All six, for tests and messages.
-    pub const ALL: [Self; 6] = [Self::Xyz, Self::Xzy, Self::Yxz, Self::Yzx, Self::Zxy, Self::Zyx];
-
-    /// The axes of the product from left to right: 0 = x, 1 = y, 2 = z.
-    pub fn axes(self) -> [usize; 3] {
-        match self {
-            Self::Xyz => [0, 1, 2],
-            Self::Xzy => [0, 2, 1],
-            Self::Yxz => [1, 0, 2],
-            Self::Yzx => [1, 2, 0],
-            Self::Zxy => [2, 0, 1],
-            Self::Zyx => [2, 1, 0],
-        }
-    }
-
-    /// The name as files write it: `xyz`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Xyz => "xyz",
-            Self::Xzy => "xzy",
-            Self::Yxz => "yxz",
-            Self::Yzx => "yzx",
-            Self::Zxy => "zxy",
-            Self::Zyx => "zyx",
-        }
-    }
-
     /// The angles about x, y, z (radians, the middle one within a quarter turn) whose product in this order is `rotation`:
     /// the inverse of [`euler_matrix`].
     pub fn angles(self, rotation: &DMat3) -> [f64; 3] {
@@ -61,11 +37,6 @@ impl EulerOrder {
         angles[j] = (sign * at(i, k)).clamp(-1.0, 1.0).asin();
         angles[k] = (-sign * at(i, j)).atan2(at(i, i));
         angles
-    }
-
-    /// The order of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|order| order.name() == name)
     }
 }
 

@@ -11,6 +11,7 @@ mod skeletal;
 #[cfg(test)]
 mod test_points;
 mod trc;
+mod whole_file;
 
 pub(crate) use number::{finite, whole};
 

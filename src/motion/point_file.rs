@@ -1,18 +1,14 @@
 //! Point files by their extension.
 
-use std::fs;
-use std::io::Write;
 use std::path::Path;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow};
 
 use super::bvh::{BvhMotion, parse_bvh};
-use super::points::PointTrajectory;
+use super::points::{PointFile, PointTrajectory};
+use super::whole_file::{extension, read_bytes, text};
 use super::{bvh, c3d, points_csv, trc};
 use crate::files::{Overwrite, choices, write_atomically};
-
-/// A recording is held in memory whole, several times its size in the file; a larger file is a mistake (a video, say).
-const LARGEST_FILE: u64 = 2 << 30;
 
 choices! {
     /// The formats that hold points, by their extensions.
@@ -26,14 +22,6 @@ choices! {
         /// BVH, whose joints and free ends are read as points.
         "bvh" Bvh => &bvh::POINTS,
     }
-}
-
-/// How files of a format are read and written.
-pub(super) struct PointFile {
-    /// Points of a file's bytes; the name stands for the file in messages.
-    pub(super) read: fn(&[u8], &str) -> Result<PointTrajectory>,
-    /// Writes points into the file of a name, or why that cannot be.
-    pub(super) write: Result<fn(&mut dyn Write, &PointTrajectory, &str) -> Result<()>, &'static str>,
 }
 
 impl PointFormat {
@@ -83,29 +71,10 @@ pub fn write_points(path: &Path, points: &PointTrajectory, overwrite: Overwrite)
     write_atomically(path, overwrite, |out| write(out, points, &file_name))
 }
 
-/// A file's extension in lower case.
-pub(super) fn extension(path: &Path) -> String {
-    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
-}
-
-pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
-    let cannot = || format!("cannot read {}", path.display());
-    let metadata = fs::metadata(path).with_context(cannot)?;
-    if metadata.len() > LARGEST_FILE {
-        bail!("{} holds {} bytes, expected at most {LARGEST_FILE}", path.display(), metadata.len());
-    }
-    fs::read(path).with_context(cannot)
-}
-
-pub(super) fn text<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str> {
-    std::str::from_utf8(bytes).map_err(|error| {
-        let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
-        anyhow!("{name}, line {line}: byte {} is not UTF-8, expected a text file", error.valid_up_to())
-    })
-}
-
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
     use crate::motion::test_points::{close, trajectories};
     use proptest::strategy::{Strategy, ValueTree};
@@ -133,7 +102,7 @@ mod tests {
         let message = |path: &Path| format!("{:#}", read_points(path).unwrap_err());
         assert!(
             message(&at("walk.fbx"))
-                .contains("walk.fbx: unknown point format `fbx`, the nearest is `bvh` (known: c3d, trc, csv, bvh)")
+                .contains("walk.fbx: unknown point format `fbx`, the nearest is `c3d` (known: c3d, trc, csv, bvh)")
         );
         assert!(message(&at("none.trc")).contains("cannot read"));
         fs::write(at("binary.trc"), b"Path\n\xff\xfe").unwrap();

@@ -1,6 +1,7 @@
 //! Named points over time.
 
 use std::collections::HashSet;
+use std::io::Write;
 
 use anyhow::{Result, bail, ensure};
 use glam::DVec3;
@@ -21,6 +22,17 @@ pub struct PointTrajectory {
     /// One row a frame, one entry a name; `None` where the point is missing.
     pub frames: Vec<Vec<Option<DVec3>>>,
 }
+
+/// How files of a format of points are read and written.
+pub(super) struct PointFile {
+    /// Points of a file's bytes; the name stands for the file in messages.
+    pub(super) read: fn(&[u8], &str) -> Result<PointTrajectory>,
+    /// Writes points into the file of a name, or why that cannot be.
+    pub(super) write: Result<WritePoints, &'static str>,
+}
+
+/// Writes points; the name of their file is the last argument.
+pub(super) type WritePoints = fn(&mut dyn Write, &PointTrajectory, &str) -> Result<()>;
 
 impl PointTrajectory {
     /// The column of a point, by its exact name.

@@ -7,8 +7,8 @@ use std::io::Write;
 use anyhow::{Context, Result, bail, ensure};
 
 use super::number::{finite, millimetres, point, whole};
-use super::point_file::{PointFile, text};
-use super::points::{PointTrajectory, meant_rate};
+use super::points::{PointFile, PointTrajectory, meant_rate};
+use super::whole_file::text;
 use crate::files::shortened;
 
 /// Files of points.

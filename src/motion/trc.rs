@@ -6,8 +6,8 @@ use std::io::Write;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 
 use super::number::{finite, millimetres, point, whole};
-use super::point_file::{PointFile, text};
-use super::points::{PointTrajectory, millimetres_in};
+use super::points::{PointFile, PointTrajectory, millimetres_in};
+use super::whole_file::text;
 use crate::files::shortened;
 
 /// Files of points.

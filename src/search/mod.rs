@@ -5,32 +5,25 @@
 //! numbers have an address of their own (see [`Random`]), all ties go to the lower index and all its sums run in a fixed
 //! order, so its result depends on the seed and the fitness alone, never on the number of threads that computed that.
 
-mod annealed;
 mod arithmetic;
-mod cma_es;
 mod device;
-mod hierarchical;
-mod particle_filter;
+mod kinds;
 mod philox;
-mod pso;
 mod refinement;
-mod settings;
 mod shaders;
 mod space;
 mod weights;
 
 use anyhow::{Result, ensure};
 
-pub use annealed::{AnnealedFilter, AnnealingSettings};
-pub use cma_es::{CmaEs, CmaSettings};
 pub use device::{DeviceFound, DeviceSearch};
-pub use hierarchical::{HierarchicalPso, HierarchySettings};
-pub use particle_filter::{FilterSettings, ParticleFilter};
+pub use kinds::{
+    AnnealedFilter, AnnealingSettings, CmaEs, CmaSettings, FilterSettings, HierarchicalPso, HierarchySettings,
+    ParticleFilter, Pso, PsoSettings, SearchKind, SearchSettings,
+};
 pub use philox::{Draw, Random, Stream, philox4x32};
-pub use pso::{Pso, PsoSettings};
 use refinement::Refined;
 pub use refinement::Refinement;
-pub use settings::{SearchKind, SearchSettings};
 pub use space::SearchSpace;
 
 /// Scores poses: takes rows of single-precision state vectors (mm, radians), one after the other, and fills in one fitness

@@ -29,7 +29,7 @@ pub mod triangle;
 pub use finish::{Finish, FinishParameters, FinishSettings};
 pub use portrait::portrait;
 pub use scene::{
-    ActorSettings, CameraSettings, LightSettings, MotionSettings, OutputSettings, RigSettings, RoomSettings, Scene,
-    SensorSettings,
+    ActorSettings, CameraSettings, Gait, Garment, LensKind, LightSettings, MotionSettings, MotionUnit, OutputSettings,
+    PictureForm, RigKind, RigSettings, RoomSettings, Scene, ScenePreset, SensorSettings,
 };
 pub use sequence::SyntheticSequence;

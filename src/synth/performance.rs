@@ -5,9 +5,9 @@ use glam::DVec2;
 
 use super::gait::{Gait, Jump, Style, Way};
 use super::room::Room;
-use super::scene::{MotionSettings, Scene};
+use super::scene::{self, MotionSettings, MotionUnit, Scene};
 use crate::body::{Body, RetargetSettings};
-use crate::motion::{UpAxis, read_skeletal_motion};
+use crate::motion::read_skeletal_motion;
 
 /// How near an actor's root may come to a wall, mm.
 const TO_WALL: f64 = 150.0;
@@ -47,21 +47,21 @@ impl Performance {
             let from = at - DVec2::from_angle(heading) * (pace * middle);
             Ok(Part::Gait(Gait::new(body, style, Way::Line { from, heading }, stride_time)?))
         };
-        let part = match settings.gait.as_deref().unwrap_or("circle") {
-            "circle" => {
+        let part = match settings.gait.unwrap_or_default() {
+            scene::Gait::Circle => {
                 let way = Way::Circle { middle: at, radius: settings.radius };
                 Part::Gait(Gait::new(body, &Style::WALK, way, settings.stride_time)?)
             }
-            "straight" => line(&Style::WALK, heading.unwrap_or(0.0), settings.stride_time)?,
-            "diagonal" => {
+            scene::Gait::Straight => line(&Style::WALK, heading.unwrap_or(0.0), settings.stride_time)?,
+            scene::Gait::Diagonal => {
                 line(&Style::WALK, heading.unwrap_or_else(|| room.half_size.to_angle()), settings.stride_time)?
             }
-            "run" => line(&Style::RUN, heading.unwrap_or(0.0), 0.6 * settings.stride_time)?,
-            "jump" => {
+            scene::Gait::Run => line(&Style::RUN, heading.unwrap_or(0.0), 0.6 * settings.stride_time)?,
+            scene::Gait::Jump => {
                 let period = 2.0 * settings.stride_time;
                 Part::Jump(Jump::new(body, at, heading.unwrap_or(0.0), settings.jump_height, period))
             }
-            _ => Part::Stand(standing(body, at, heading.unwrap_or(0.0))),
+            scene::Gait::Stand => Part::Stand(standing(body, at, heading.unwrap_or(0.0))),
         };
         Ok(Self { part, start: settings.start })
     }
@@ -118,11 +118,10 @@ fn recorded(body: &Body, settings: &MotionSettings, scene: &Scene) -> Result<Vec
     let Some(file) = &settings.file else { bail!("no motion file is named") };
     let motion = read_skeletal_motion(file, settings.skeleton.as_deref(), settings.rate)?;
     let motion = motion.cut(settings.start, settings.until.unwrap_or(f64::INFINITY))?;
-    let up = settings.up.as_deref().map(|up| if up == "z" { UpAxis::Z } else { UpAxis::Y });
     let retarget = RetargetSettings {
         joints: settings.joints.clone(),
-        unit: settings.unit_mm(),
-        up,
+        unit: settings.unit.map(MotionUnit::mm),
+        up: settings.up,
         at: Some(DVec2::from(settings.at)),
         heading: settings.heading.map(f64::to_radians),
         repeats: settings.repeats,
@@ -164,17 +163,13 @@ mod tests {
     #[test]
     fn every_gait_is_performed_within_limits_round_its_middle() {
         let body = Body::adult(1750.0).unwrap();
-        for gait in super::super::scene::GAITS {
-            let settings = MotionSettings {
-                gait: Some(gait.to_string()),
-                at: [200.0, -100.0],
-                radius: 600.0,
-                ..MotionSettings::default()
-            };
-            let frames = if gait == "run" { 25 } else { 60 };
+        for gait in scene::Gait::ALL {
+            let settings =
+                MotionSettings { gait: Some(gait), at: [200.0, -100.0], radius: 600.0, ..MotionSettings::default() };
+            let frames = if gait == scene::Gait::Run { 25 } else { 60 };
             let poses = perform(settings, frames).unwrap();
             poses.iter().for_each(|pose| body.check_limits(pose).unwrap());
-            if ["straight", "diagonal", "run"].contains(&gait) {
+            if [scene::Gait::Straight, scene::Gait::Diagonal, scene::Gait::Run].contains(&gait) {
                 let middle = [0, 1].map(|axis| 0.5 * (poses[0][axis] + poses[frames - 1][axis]));
                 assert!((middle[0] - 200.0).abs() < 120.0 && (middle[1] + 100.0).abs() < 60.0, "{gait}: {middle:?}");
             }
@@ -183,7 +178,7 @@ mod tests {
 
     #[test]
     fn who_leaves_the_room_is_noticed() {
-        let far = MotionSettings { gait: Some("straight".into()), ..MotionSettings::default() };
+        let far = MotionSettings { gait: Some(scene::Gait::Straight), ..MotionSettings::default() };
         let error = perform(far, 400).unwrap_err().to_string();
         assert!(error.contains("in frame 0 he is at (-") && error.contains("fewer frames"), "{error}");
         let none = MotionSettings { file: Some("nowhere.bvh".into()), ..MotionSettings::default() };

@@ -17,7 +17,7 @@ use super::hash::hash;
 use super::noise::Sensor;
 use super::performance::Performance;
 use super::render::{Cast, Light, View};
-use super::scene::{CameraSettings, LightSettings, Scene};
+use super::scene::{CameraSettings, LightSettings, PictureForm, Scene};
 use crate::files::{OutputFolder, shortened};
 use crate::geometry::Camera;
 use crate::sequence::VideoEncoder;
@@ -208,7 +208,7 @@ impl Studio<'_> {
     /// the number of frames done, from any thread.
     pub(super) fn record(&self, folder: &OutputFolder, resume: bool, progress: &(dyn Fn(usize) + Sync)) -> Result<()> {
         let output = &self.scene.output;
-        let is_video = output.pictures == "video";
+        let is_video = output.pictures == PictureForm::Video;
         folder.file(if is_video { "videos/x" } else { "frames/x" })?;
         if output.masks {
             folder.file("masks/x")?;
@@ -219,7 +219,7 @@ impl Studio<'_> {
         if is_video {
             for (index, view) in self.views.iter().enumerate() {
                 let camera = view.camera();
-                let file = path(source_of(camera, &output.pictures));
+                let file = path(source_of(camera, output.pictures));
                 if !(resume && file.exists()) {
                     encoders.push((
                         index,
@@ -237,7 +237,7 @@ impl Studio<'_> {
                     let files = |view: usize| {
                         let name = &self.views[view].camera().name;
                         let picture = (!is_video)
-                            .then(|| path(numbered(&source_of(self.views[view].camera(), &output.pictures), frame)));
+                            .then(|| path(numbered(&source_of(self.views[view].camera(), output.pictures), frame)));
                         let mask = output.masks.then(|| path(format!("masks/{name}_{frame:04}.png")));
                         (picture, mask)
                     };
@@ -276,13 +276,9 @@ impl Studio<'_> {
 }
 
 /// The source of a view in sequence.toml.
-pub(super) fn source_of(camera: &Camera, pictures: &str) -> String {
-    let name = &camera.name;
-    match pictures {
-        "video" => format!("videos/{name}.mp4"),
-        "jpeg" => format!("frames/{name}_%04d.jpg"),
-        _ => format!("frames/{name}_%04d.png"),
-    }
+pub(super) fn source_of(camera: &Camera, pictures: PictureForm) -> String {
+    let [folder, number, extension] = pictures.place();
+    format!("{folder}/{}{number}.{extension}", camera.name)
 }
 
 fn numbered(pattern: &str, frame: usize) -> String {

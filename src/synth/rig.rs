@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::room::Room;
-use super::scene::RigSettings;
+use super::scene::{LensKind, RigKind, RigSettings};
 use crate::geometry::{BrownConrady, Camera, Lens, Tsai};
 use crate::sequence::read_cameras;
 
@@ -81,10 +81,9 @@ pub fn cameras(settings: &RigSettings, room: &Room) -> Result<Vec<Camera>> {
         }
         return Ok(cameras);
     }
-    let mut cameras = if settings.preset == "ring" {
-        ring(settings.count, room.half_size, settings.size)
-    } else {
-        four_cameras(room.half_size, settings.size)
+    let mut cameras = match settings.preset {
+        RigKind::Ring => ring(settings.count, room.half_size, settings.size),
+        RigKind::Corners => four_cameras(room.half_size, settings.size),
     };
     for camera in &mut cameras {
         let centre = camera.centre_in_world();
@@ -94,10 +93,10 @@ pub fn cameras(settings: &RigSettings, room: &Room) -> Result<Vec<Camera>> {
         }
         if let Lens::BrownConrady(lens) = &mut camera.lens {
             lens.focal *= settings.zoom;
-            match settings.lens.as_str() {
-                "pinhole" => (lens.radial, lens.tangential) = ([0.0; 3], [0.0; 2]),
-                "tsai" => camera.lens = Lens::Tsai(tsai(lens)),
-                _ => {}
+            match settings.lens {
+                LensKind::Pinhole => (lens.radial, lens.tangential) = ([0.0; 3], [0.0; 2]),
+                LensKind::Tsai => camera.lens = Lens::Tsai(tsai(lens)),
+                LensKind::BrownConrady => {}
             }
         }
     }
@@ -146,10 +145,10 @@ mod tests {
     #[test]
     fn rings_and_lenses() {
         let room = Room::new(&super::super::scene::RoomSettings::default()).unwrap();
-        let settings = RigSettings { preset: "ring".into(), count: 7, lens: "tsai".into(), ..RigSettings::default() };
+        let settings = RigSettings { preset: RigKind::Ring, count: 7, lens: LensKind::Tsai, ..RigSettings::default() };
         let cameras = cameras(&settings, &room).unwrap();
         assert_eq!(cameras.len(), 7);
-        let same = super::cameras(&RigSettings { lens: "brown-conrady".into(), ..settings.clone() }, &room).unwrap();
+        let same = super::cameras(&RigSettings { lens: LensKind::BrownConrady, ..settings.clone() }, &room).unwrap();
         for (camera, brown) in cameras.iter().zip(&same) {
             let at = DVec3::new(300.0, -200.0, 1400.0);
             let (tsai, brown) = (camera.project(at).unwrap(), brown.project(at).unwrap());

@@ -14,7 +14,7 @@ use super::recording::{Shutter, Studio, shutters, source_of, write_picture};
 use super::render::View;
 use super::rig;
 use super::room::Room;
-use super::scene::Scene;
+use super::scene::{PictureForm, Scene};
 use crate::body::{Body, MeshSource, PoseTable, Skinning};
 use crate::files::{OutputFolder, Overwrite};
 use crate::geometry::Camera;
@@ -213,7 +213,7 @@ impl SyntheticSequence {
 
     fn manifest(&self) -> Manifest<'_> {
         let output = &self.scene.output;
-        let view = |camera| ManifestView::of(camera, &output.pictures, output.masks);
+        let view = |camera| ManifestView::of(camera, output.pictures, output.masks);
         Manifest {
             name: &self.scene.name,
             fps: self.scene.fps,
@@ -228,7 +228,7 @@ impl SyntheticSequence {
 }
 
 impl<'a> ManifestView<'a> {
-    fn of(camera: &'a Camera, pictures: &str, masks: bool) -> Self {
+    fn of(camera: &'a Camera, pictures: PictureForm, masks: bool) -> Self {
         let name = &camera.name;
         Self {
             camera: name,
@@ -244,7 +244,7 @@ mod tests {
     use super::*;
 
     use super::super::render::Cast;
-    use super::super::scene::{ActorSettings, CameraSettings, MotionSettings};
+    use super::super::scene::{ActorSettings, CameraSettings, Gait, MotionSettings};
 
     fn short() -> Scene {
         let mut scene = Scene { frames: 3, ..Scene::default() };
@@ -406,9 +406,9 @@ mod tests {
         scene.sensor.grey = true;
         scene.sensor.exposure = 30.0;
         scene.light.swing = 0.4;
-        scene.output.pictures = "jpeg".into();
+        scene.output.pictures = PictureForm::Jpeg;
         scene.output.masks = true;
-        let stand = MotionSettings { gait: Some("stand".into()), at: [-900.0, 900.0], ..MotionSettings::default() };
+        let stand = MotionSettings { gait: Some(Gait::Stand), at: [-900.0, 900.0], ..MotionSettings::default() };
         scene.actor.push(ActorSettings { motion: stand, ..ActorSettings::default() });
         let folder = write(&scene);
         let sequence = crate::sequence::Sequence::open(folder.path()).unwrap();

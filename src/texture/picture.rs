@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 use image::{ImageBuffer, Luma, Rgb};
 use rayon::prelude::*;
 
-use super::materials::{KINDS, Material, Parameters, Texel};
+use super::materials::{Material, MaterialKind, Parameters, Texel};
 
 /// Pictures of 16 bits a channel; to 8 bits they are rounded when written.
 pub type Picture = ImageBuffer<Rgb<u16>, Vec<u16>>;
@@ -210,18 +210,18 @@ pub fn shown(size: [u32; 2], ray: impl Fn(f32, f32) -> Option<[f32; 3]> + Sync) 
     })
 }
 
-/// All materials on one sheet, in the order of [`KINDS`] by rows of four: each flat, with itself lit on a sphere below.
+/// All materials on one sheet, in the order of [`MaterialKind::ALL`] by rows of four: each flat, with itself lit on a sphere below.
 ///
 /// # Errors
 /// Never: the defaults of every material are sound.
 pub fn contact_sheet(cell: u32, seed: u64) -> Result<Picture> {
     let columns = 4;
     let gap = cell / 16;
-    let rows = (KINDS.len() as u32).div_ceil(columns);
+    let rows = (MaterialKind::ALL.len() as u32).div_ceil(columns);
     let (width, height) = (gap + columns * (cell + gap), gap + rows * (cell + cell / 2 + gap));
     let mut sheet = Picture::from_pixel(width, height, Rgb([word(0.93); 3]));
-    for (i, kind) in KINDS.iter().enumerate() {
-        let material = Material::new(kind.name, Parameters::Defaults, seed, None)?;
+    for (i, kind) in MaterialKind::ALL.into_iter().enumerate() {
+        let material = Material::new(kind.name(), Parameters::Defaults, seed, None)?;
         let (left, top) = (gap + i as u32 % columns * (cell + gap), gap + i as u32 / columns * (cell + cell / 2 + gap));
         let view = View { size: [cell, cell], offset: [0.0; 3], scale: 3.0 };
         image::imageops::replace(&mut sheet, &flat(&material, &view), i64::from(left), i64::from(top));

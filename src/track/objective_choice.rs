@@ -1,6 +1,6 @@
 //! Which objective function: the defaults, a sequence's `[objective]` table over them, the command line over both.
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 use serde::Deserialize;
 
 use crate::evaluate::{Objective, ObjectiveKind};
@@ -35,7 +35,7 @@ impl ObjectiveChoice {
             written.put_into(&mut objective);
         }
         self.put_into(&mut objective);
-        check(&objective)?;
+        objective.check()?;
         Ok(objective)
     }
 
@@ -49,34 +49,12 @@ impl ObjectiveChoice {
     }
 }
 
-fn check(objective: &Objective) -> Result<()> {
-    let Objective { kind, beta, w1, w2 } = *objective;
-    ensure!((0.0..=1.0).contains(&beta), "the objective's beta is {beta}, expected 0 to 1");
-    let is_sum = matches!(kind, ObjectiveKind::Ws | ObjectiveKind::Aows);
-    for (name, weight) in [("w1", w1), ("w2", w2)] {
-        let (fits, expected) = if is_sum {
-            ((0.0..=1.0).contains(&weight), "a weight from 0 to 1")
-        } else {
-            (weight > 0.0 && weight <= 1.0, "an exponent over 0 and up to 1")
-        };
-        ensure!(fits, "{name} of the objective {} is {weight}, expected {expected}", kind.name());
-    }
-    if is_sum {
-        ensure!(
-            (w1 + w2 - 1.0).abs() < 1e-4,
-            "w1 and w2 of the objective {} are {w1} and {w2}, expected a sum of 1",
-            kind.name()
-        );
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn resolve(flags: &str, table: &str) -> Result<Objective> {
-        let flags: ObjectiveChoice = toml::from_str(flags).unwrap();
+        let flags: ObjectiveChoice = toml::from_str(flags)?;
         flags.resolve(Some(&table.parse().unwrap()), "sequence.toml")
     }
 

@@ -126,7 +126,7 @@ fn convert_refuses_in_one_sentence() {
     refused(
         at,
         &["convert", "a.bvh", "b.fbx"],
-        "b.fbx: unknown point format `fbx`, the nearest is `bvh` (known: c3d, trc, csv, bvh)",
+        "b.fbx: unknown point format `fbx`, the nearest is `c3d` (known: c3d, trc, csv, bvh)",
     );
     refused(at, &["convert", "a.bvh", "b.bvh", "--y-up"], "--y-up turns points");
     refused(at, &["convert", "a.bvh", "b.csv", "--scale", "nan"], "--scale is NaN");

@@ -111,7 +111,10 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
     for (text, expected) in [
         ("frmaes = 3", "nearest known key is `frames`"),
         ("frames = \"three\"", "line 1"),
-        ("[[actor]]\nmotion = { gait = \"fly\" }", "gait is `fly`"),
+        (
+            "[[actor]]\nmotion = { gait = \"fly\" }",
+            "unknown gait `fly`, the nearest is `run` (known: circle, straight, diagonal, run, jump, stand)",
+        ),
         ("[[actor]]\nmotion = { gait = \"run\", file = \"x.bvh\" }", "both `gait` and `file`"),
         ("[[actor]]\nmotion = { file = \"nowhere.bvh\" }", "cannot read"),
         ("[[actor]]\nmotion = { file = \"walk.amc\" }", "expected an .asf file"),
@@ -124,7 +127,10 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
         ("[[camera]]\nname = \"cam7\"", "`cam7`, expected one of cam1"),
         ("[rig]\ncameras = \"none.toml\"", "none.toml"),
         ("frames = 900\n[[actor]]\nmotion = { gait = \"straight\" }", "in frame 0 he is at"),
-        ("[[actor]]\n[actor.clothes]\nshirt = { material = \"silk\" }", "unknown material silk"),
+        (
+            "[[actor]]\n[actor.clothes]\nshirt = { material = \"silk\" }",
+            "unknown material `silk`, the nearest is `skin`",
+        ),
         ("[room]\nfloor = { }", "neither a colour nor a material"),
     ] {
         fs::write(&scene, text).unwrap();
@@ -135,6 +141,11 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
         assert!(!folder.exists(), "{text} wrote something");
     }
     let unknown = synth(&["--preset", "p3s"], &folder);
-    assert!(message(&unknown).contains("the nearest known one is `p"), "{}", message(&unknown));
+    assert!(
+        message(&unknown)
+            .contains("unknown scene `p3s`, the nearest is `p1s` (known: demo, leewalk, p1s, p2s, p1d, p2d)"),
+        "{}",
+        message(&unknown)
+    );
     assert_eq!(synth(&[], &folder).status.code(), Some(2), "neither a scene nor a preset");
 }

@@ -69,7 +69,10 @@ fn bad_requests_are_one_sentence() {
     std::fs::write(folder.path().join("p.toml"), "vien = [1.0, 0.0, 0.0]\n").unwrap();
     std::fs::write(folder.path().join("text.png"), "no picture").unwrap();
     for (arguments, expected) in [
-        (&["marbel", "-o", "x.png"][..], "the nearest is marble"),
+        (
+            &["marbel", "-o", "x.png"][..],
+            "unknown material `marbel`, the nearest is `marble` (known: clouds, lava, marble, granite, wood, brick",
+        ),
         (&["marble", "-o", "x.png", "--size", "0x9"], "a picture of 0 x 9 pixels"),
         (&["marble", "-o", "x.png", "--params", "p.toml"], "nearest known key is `vein`"),
         (&["marble", "-o", "x.png", "--scale", "nan"], "a picture of NaN units"),

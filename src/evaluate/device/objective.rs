@@ -4,10 +4,8 @@ use anyhow::Result;
 
 use super::scene::DeviceScene;
 use super::workspace::Workspace;
-use crate::evaluate::shaders::{
-    OBJECTIVE_AOSP, OBJECTIVE_AOWS, OBJECTIVE_GROUP, OBJECTIVE_POSP, OBJECTIVE_SP, OBJECTIVE_WS, layout, objective_comp,
-};
-use crate::evaluate::{Objective, ObjectiveKind};
+use crate::evaluate::Objective;
+use crate::evaluate::shaders::{OBJECTIVE_GROUP, layout, objective_comp};
 use crate::gpu::{Buffer, ComputeStage, Device, Groups, Recorder, Stage};
 
 /// The stage.
@@ -51,16 +49,12 @@ impl ObjectiveStage {
 
 /// The push constants of both forms of the objective.
 pub(super) fn scoring(model: &DeviceScene, objective: &Objective, candidates: u32) -> layout::Scoring {
+    let (terms, over) = objective.kind.formula();
     layout::Scoring {
         candidates,
         views: model.counts.views,
-        kind: match objective.kind {
-            ObjectiveKind::Ws => OBJECTIVE_WS,
-            ObjectiveKind::Sp => OBJECTIVE_SP,
-            ObjectiveKind::Aows => OBJECTIVE_AOWS,
-            ObjectiveKind::Aosp => OBJECTIVE_AOSP,
-            ObjectiveKind::Posp => OBJECTIVE_POSP,
-        },
+        terms: terms as u32,
+        over: over as u32,
         beta: objective.beta,
         w1: objective.w1,
         w2: objective.w2,

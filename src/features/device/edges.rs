@@ -5,7 +5,6 @@ use anyhow::Result;
 use super::components::{Keep, components};
 use super::view::{DeviceView, Plane};
 use crate::features::shaders::{
-    EDGES_LAPLACE_EIGHT, EDGES_LAPLACE_FOUR, EDGES_LAPLACE_PRODUCT, EDGES_PREWITT, EDGES_ROBERTS, EDGES_SOBEL,
     MAGNITUDE_EXACT, MAGNITUDE_MAX, MAGNITUDE_SUM, canny_comp, edges_comp, layout::Picture, smooth_comp,
 };
 use crate::features::{EdgeSettings, Magnitude, Operator};
@@ -35,33 +34,29 @@ pub(super) fn edges(recorder: &mut Recorder, views: &[&DeviceView], settings: &E
         low: i32::from(settings.low),
         ..view.picture
     };
-    let operator = match settings.operator {
-        Operator::Sobel => EDGES_SOBEL,
-        Operator::Prewitt => EDGES_PREWITT,
-        Operator::Roberts => EDGES_ROBERTS,
-        Operator::LaplaceFour => EDGES_LAPLACE_FOUR,
-        Operator::LaplaceEight => EDGES_LAPLACE_EIGHT,
-        Operator::LaplaceProduct => EDGES_LAPLACE_PRODUCT,
-        Operator::Canny => {
-            // Thinned gradients of at least `low` and of at least `threshold`, then hysteresis.
-            recorder.run_all(views.iter().map(|view| {
-                canny_comp::Bindings {
-                    smoothed: &view.smoothed,
-                    near: view.plane(Plane::Near),
-                    weak: view.plane(Plane::WorkA),
-                    strong: view.plane(Plane::Strong),
-                }
-                .dispatch(canny_comp::Constants { magnitude }, picture(view), view.every_pixel())
-            }))?;
-            return components(recorder, views, Keep::Touched, Plane::Strong, [Plane::WorkA, Plane::Edges]);
-        }
-    };
+    if settings.operator == Operator::Canny {
+        // Thinned gradients of at least `low` and of at least `threshold`, then hysteresis.
+        recorder.run_all(views.iter().map(|view| {
+            canny_comp::Bindings {
+                smoothed: &view.smoothed,
+                near: view.plane(Plane::Near),
+                weak: view.plane(Plane::WorkA),
+                strong: view.plane(Plane::Strong),
+            }
+            .dispatch(canny_comp::Constants { magnitude }, picture(view), view.every_pixel())
+        }))?;
+        return components(recorder, views, Keep::Touched, Plane::Strong, [Plane::WorkA, Plane::Edges]);
+    }
     recorder.run_all(views.iter().map(|view| {
         edges_comp::Bindings {
             smoothed: &view.smoothed,
             near: view.plane(Plane::Near),
             edges: view.plane(Plane::Edges),
         }
-        .dispatch(edges_comp::Constants { operator, magnitude }, picture(view), view.every_pixel())
+        .dispatch(
+            edges_comp::Constants { operator: settings.operator as u32, magnitude },
+            picture(view),
+            view.every_pixel(),
+        )
     }))
 }

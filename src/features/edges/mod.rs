@@ -19,24 +19,35 @@ use super::{BitImage, Region};
 use crate::files::choices;
 
 choices! {
-    /// What finds the edges.
-    "edge operator" pub enum Operator {
+    /// What finds the edges. `glsl/features/edges.comp` knows them by their places in this list.
+    "edge operator" pub enum Operator => detector: Detector {
         /// Two perpendicular Sobels: a straight step of `s` grey levels has magnitude 3 `s` when smoothed, 4 `s` when not.
-        "sobel" Sobel,
+        "sobel" Sobel => Detector::Gradient(Gradient::Sobel),
         /// Two perpendicular Prewitts: three quarters of that.
-        "prewitt" Prewitt,
+        "prewitt" Prewitt => Detector::Gradient(Gradient::Prewitt),
         /// The differences along two diagonals, half a pixel right below: a quarter of Sobel's and less smooth.
-        "roberts" Roberts,
+        "roberts" Roberts => Detector::Gradient(Gradient::Roberts),
         /// Zero crossings of the mask 0 1 0, 1 -4 1, 0 1 0.
-        "laplace4" LaplaceFour,
+        "laplace4" LaplaceFour => Detector::ZeroCrossings(Laplacian::Four),
         /// Zero crossings of the mask 1 1 1, 1 -8 1, 1 1 1.
-        "laplace8" LaplaceEight,
+        "laplace8" LaplaceEight => Detector::ZeroCrossings(Laplacian::Eight),
         /// Zero crossings of the mask 1 -2 1, -2 4 -2, 1 -2 1.
-        "laplace-product" LaplaceProduct,
+        "laplace-product" LaplaceProduct => Detector::ZeroCrossings(Laplacian::Product),
         /// Sobels, thinned across the edge; what is weaker than `threshold` and at least `low` strong counts where it hangs
         /// together with something stronger.
-        "canny" Canny,
+        "canny" Canny => Detector::Canny,
     }
+}
+
+/// What an operator does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Detector {
+    /// Marks strong gradients.
+    Gradient(Gradient),
+    /// Marks zero crossings of a Laplacian.
+    ZeroCrossings(Laplacian),
+    /// Thins gradients and follows them.
+    Canny,
 }
 
 /// How edges are found.
@@ -82,14 +93,10 @@ impl EdgeDetector {
     pub fn detect(&mut self, picture: &RgbImage, within: &BitImage, settings: &EdgeSettings, edges: &mut BitImage) {
         edges.clear();
         let Some(region) = within.bounds() else { return };
-        match settings.operator {
-            Operator::Sobel => self.gradient(picture, region, Gradient::Sobel, settings, edges),
-            Operator::Prewitt => self.gradient(picture, region, Gradient::Prewitt, settings, edges),
-            Operator::Roberts => self.gradient(picture, region, Gradient::Roberts, settings, edges),
-            Operator::LaplaceFour => self.laplace(picture, region, Laplacian::Four, settings, edges),
-            Operator::LaplaceEight => self.laplace(picture, region, Laplacian::Eight, settings, edges),
-            Operator::LaplaceProduct => self.laplace(picture, region, Laplacian::Product, settings, edges),
-            Operator::Canny => self.canny(picture, region, settings, edges),
+        match settings.operator.detector() {
+            Detector::Gradient(masks) => self.gradient(picture, region, masks, settings, edges),
+            Detector::ZeroCrossings(mask) => self.laplace(picture, region, mask, settings, edges),
+            Detector::Canny => self.canny(picture, region, settings, edges),
         }
         edges.and(within);
         if settings.operator == Operator::Canny {

@@ -4,23 +4,17 @@
 mod read;
 mod write;
 
+pub(super) use read::POINTS;
 pub use read::parse_bvh;
 pub use write::write_bvh;
 
 use std::collections::HashSet;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Result, ensure};
 use glam::{DAffine3, DVec3};
 
-use super::point_file::{PointFile, text};
 use super::points::PointTrajectory;
 use super::skeletal::joint_placement;
-
-/// Files of points.
-pub(super) const POINTS: PointFile = PointFile {
-    read: |bytes, name| parse_bvh(text(bytes, name)?, name)?.to_points().with_context(|| name.to_string()),
-    write: Err("BVH holds joint angles of a skeleton, which points alone do not give"),
-};
 
 /// What one number of a frame moves. Translations are in the file's unit, rotations in degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

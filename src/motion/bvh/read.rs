@@ -4,9 +4,16 @@ use anyhow::{Context, Result, bail, ensure};
 use glam::DVec3;
 
 use super::super::number::{finite, whole};
-use super::super::points::LARGEST_COORDINATE;
+use super::super::points::{LARGEST_COORDINATE, PointFile};
+use super::super::whole_file::text;
 use super::{BvhChannel, BvhJoint, BvhMotion};
 use crate::files::shortened;
+
+/// Files of points.
+pub(in crate::motion) const POINTS: PointFile = PointFile {
+    read: |bytes, name| parse_bvh(text(bytes, name)?, name)?.to_points().with_context(|| name.to_string()),
+    write: Err("BVH holds joint angles of a skeleton, which points alone do not give"),
+};
 
 /// Reads the text of a BVH file; `name` stands for the file in messages. Lengths are in the file's unit. Words may
 /// stand on any lines, in any case; a leaf without an `End Site` and several roots are read as well.

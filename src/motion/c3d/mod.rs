@@ -12,12 +12,8 @@ mod read;
 mod write;
 
 pub use read::parse_c3d;
+pub(super) use write::POINTS;
 pub use write::write_c3d;
-
-use super::point_file::PointFile;
-
-/// Files of points.
-pub(super) const POINTS: PointFile = PointFile { read: parse_c3d, write: Ok(|out, points, _| write_c3d(out, points)) };
 
 /// Everything in a C3D file is counted in blocks of this many bytes.
 const BLOCK: usize = 512;

@@ -4,8 +4,12 @@ use std::io::Write;
 
 use anyhow::{Result, ensure};
 
-use super::super::points::PointTrajectory;
-use super::BLOCK;
+use super::super::points::{PointFile, PointTrajectory};
+use super::{BLOCK, parse_c3d};
+
+/// Files of points.
+pub(in crate::motion) const POINTS: PointFile =
+    PointFile { read: parse_c3d, write: Ok(|out, points, _| write_c3d(out, points)) };
 
 /// The parameter section starts in the second block.
 const PARAMETER_BLOCK: u8 = 2;

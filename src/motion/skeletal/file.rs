@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Context, Result, bail, ensure};
 
 use super::super::parse_bvh;
-use super::super::point_file::{extension, read_bytes, text};
+use super::super::whole_file::{extension, read_bytes, text};
 use super::deepmimic::DeepMimicSkeleton;
 use super::{SkeletalMotion, parse_amc, parse_asf, parse_deepmimic, parse_deepmimic_skeleton};
 use crate::files::choices;

@@ -18,14 +18,16 @@ use anyhow::{Result, ensure};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::bvh::{BvhChannel, BvhMotion};
+use crate::files::choices;
 
-/// Which way is up in a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum UpAxis {
-    /// +y
-    Y,
-    /// +z
-    Z,
+choices! {
+    /// Which way is up in a file.
+    "axis that is up" pub enum UpAxis {
+        /// +y
+        "y" Y,
+        /// +z
+        "z" Z,
+    }
 }
 
 /// A joint of the tree.

@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 
-use super::hierarchical::SwarmStage;
+use super::kinds::SwarmStage;
 use super::shaders::{SEARCH_GROUP, layout, spread_comp};
 use super::{Estimate, SearchKind, SearchSettings, SearchSpace, check_start};
 use crate::evaluate::DeviceEvaluator;
@@ -139,7 +139,7 @@ impl DeviceSearch {
         let SearchSettings { particles, iterations, kind, .. } = self.settings;
         let scored = particles * iterations;
         ensure!(key != 0, "none of the {scored} poses of frame {frame} has a finite fitness");
-        let is_filter = matches!(kind, SearchKind::ParticleFilter | SearchKind::Annealed);
+        let is_filter = kind.estimates_a_mean();
         let (pose, fitness, evaluations) = if is_filter {
             let fitness = f32::from_bits(words[places.fitness]);
             ensure!(fitness.is_finite(), "the estimate of frame {frame} has a fitness of {fitness}");

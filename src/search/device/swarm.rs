@@ -5,7 +5,7 @@ use anyhow::Result;
 use super::{Extent, FrameRecording};
 use crate::gpu::{Groups, Memory};
 use crate::search::SearchSettings;
-use crate::search::hierarchical::SwarmStage;
+use crate::search::kinds::SwarmStage;
 use crate::search::shaders::{best_comp, move_comp, scatter_comp, spread_comp};
 
 impl FrameRecording<'_> {

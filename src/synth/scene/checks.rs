@@ -2,27 +2,9 @@
 
 use anyhow::{Context, Result, bail, ensure};
 
-use super::{ActorSettings, CameraSettings, MotionSettings, RigSettings, RoomSettings, Scene, SensorSettings};
-
-/// Gaits by name.
-pub(in crate::synth) const GAITS: [&str; 6] = ["circle", "straight", "diagonal", "run", "jump", "stand"];
-/// Parts of clothing by name.
-const GARMENTS: [&str; 5] = ["skin", "hair", "shirt", "trousers", "shoes"];
-const RIGS: [&str; 2] = ["corners", "ring"];
-const LENSES: [&str; 3] = ["brown-conrady", "tsai", "pinhole"];
-const PICTURES: [&str; 3] = ["png", "jpeg", "video"];
-const UNITS: [(&str, f64); 4] = [("mm", 1.0), ("cm", 10.0), ("inch", 25.4), ("m", 1000.0)];
-
-/// Holds a name to those that are known.
-pub(super) fn one_of(what: &str, found: &str, known: &[&str]) -> Result<()> {
-    if known.contains(&found) {
-        return Ok(());
-    }
-    let found = crate::files::shortened(found);
-    let nearest =
-        known.iter().min_by_key(|name| strsim::damerau_levenshtein(&found, name)).copied().unwrap_or_default();
-    bail!("{what} is `{found}`, the nearest known one is `{nearest}` (known: {})", known.join(", "))
-}
+use super::{
+    ActorSettings, CameraSettings, Garment, MotionSettings, RigKind, RigSettings, RoomSettings, Scene, SensorSettings,
+};
 
 /// Holds a number to its range; NaN is in none.
 fn within(what: &str, value: f64, low: f64, high: f64, unit: &str) -> Result<()> {
@@ -55,7 +37,6 @@ impl Scene {
         }
         self.rig.check().context("[rig]")?;
         self.sensor.check(self.fps).context("[sensor]")?;
-        one_of("[output] pictures", &self.output.pictures, &PICTURES)?;
         ensure!(
             (1..=100).contains(&self.output.quality),
             "[output] quality is {}, expected 1 to 100",
@@ -86,11 +67,9 @@ impl RoomSettings {
 
 impl RigSettings {
     fn check(&self) -> Result<()> {
-        one_of("preset", &self.preset, &RIGS)?;
-        one_of("lens", &self.lens, &LENSES)?;
         ensure!((1..=64).contains(&self.count), "count is {}, expected 1 to 64 cameras", self.count);
         ensure!(
-            self.preset == "ring" || self.count == 4,
+            self.preset == RigKind::Ring || self.count == 4,
             "count is {} beside the preset `{}`, expected the preset `ring` for another number than 4",
             self.count,
             self.preset
@@ -134,7 +113,7 @@ impl ActorSettings {
     fn check(&self) -> Result<()> {
         within("height", self.height, 500.0, 2500.0, "mm")?;
         for name in self.clothes.keys() {
-            one_of("a part of clothes", name, &GARMENTS)?;
+            Garment::from_name(name)?;
         }
         self.motion.check().context("motion")
     }
@@ -150,11 +129,7 @@ impl MotionSettings {
         for value in self.at {
             within("at", value, -30_000.0, 30_000.0, "mm")?;
         }
-        match (&self.gait, &self.file) {
-            (Some(gait), None) => one_of("gait", gait, &GAITS)?,
-            (Some(_), Some(_)) => bail!("it has both `gait` and `file`, expected one of them"),
-            _ => {}
-        }
+        ensure!(self.gait.is_none() || self.file.is_none(), "it has both `gait` and `file`, expected one of them");
         if self.file.is_none() {
             let of_files = [
                 ("skeleton", self.skeleton.is_some()),
@@ -169,25 +144,13 @@ impl MotionSettings {
                 bail!("`{key}` stands without `file`, expected it beside a motion file");
             }
         }
-        if let Some(unit) = &self.unit {
-            one_of("unit", unit, &UNITS.map(|(name, _)| name))?;
-        }
-        if let Some(up) = &self.up {
-            one_of("up", up, &["y", "z"])?;
-        }
         Ok(())
-    }
-
-    /// Length of the file's unit, mm, where it is named.
-    pub(in crate::synth) fn unit_mm(&self) -> Option<f64> {
-        let unit = self.unit.as_deref()?;
-        UNITS.iter().find(|(name, _)| *name == unit).map(|(_, length)| *length)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::FinishSettings;
+    use super::super::{FinishSettings, MotionUnit};
     use super::*;
 
     #[test]
@@ -208,16 +171,13 @@ mod tests {
             (|s| s.markers = 40, "markers is 40, expected 15 or 39"),
             (|s| s.actor.clear(), "there is no [[actor]]"),
             (|s| s.rig.count = 5, "expected the preset `ring`"),
-            (|s| s.rig.lens = "fisheye".into(), "[rig]: lens is `fisheye`"),
             (|s| s.sensor.exposure = 50.0, "[sensor]: exposure is 50, expected 0 to 40 ms"),
-            (|s| s.output.pictures = "jpg".into(), "the nearest known one is `jpeg`"),
             (|s| s.output.crf = 60, "crf is 60"),
             (|s| s.light.position = Some([0.0, 0.0, -1.0]), "[light] position"),
-            (|s| s.actor[0].motion.gait = Some("strait".into()), "the nearest known one is `straight`"),
-            (|s| s.actor[0].motion.unit = Some("cm".into()), "`unit` stands without `file`"),
+            (|s| s.actor[0].motion.unit = Some(MotionUnit::Centimetre), "`unit` stands without `file`"),
             (
                 |s| drop(s.actor[0].clothes.insert("hat".into(), FinishSettings::default())),
-                "a part of clothes is `hat`",
+                "unknown part of clothes `hat`, the nearest is `hair` (known: skin, hair, shirt, trousers, shoes)",
             ),
             (|s| s.room.size[1] = 100.0, "[room]: size along y is 100"),
             (
@@ -229,6 +189,17 @@ mod tests {
         ] {
             let message = wrong(change);
             assert!(message.contains(expected), "{message}");
+        }
+        for (text, expected) in [
+            ("[rig]\nlens = 'fisheye'", "unknown rig lens `fisheye`"),
+            ("[rig]\npreset = 'rign'", "unknown rig `rign`, the nearest is `ring`"),
+            ("[output]\npictures = 'jpg'", "the nearest is `jpeg`"),
+            ("[[actor]]\nmotion.gait = 'strait'", "unknown gait `strait`, the nearest is `straight`"),
+            ("[[actor]]\nmotion.unit = 'foot'", "unknown motion unit `foot`"),
+            ("[[actor]]\nmotion.up = 'x'", "unknown axis that is up `x`"),
+        ] {
+            let message = crate::files::parse_toml::<Scene>(text, "scene.toml").unwrap_err().to_string();
+            assert!(message.contains("scene.toml, line 2") && message.contains(expected), "{message}");
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What a synthetic sequence shows: the settings, as scene.toml has them.
 
 mod checks;
+mod choices;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -8,11 +9,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
 
-#[cfg(test)]
-pub(super) use self::checks::GAITS;
-use self::checks::one_of;
+pub use self::choices::{Gait, Garment, LensKind, MotionUnit, PictureForm, RigKind, ScenePreset};
 use super::finish::{FinishParameters, FinishSettings};
 use crate::files::{parse_toml, read_toml};
+use crate::motion::UpAxis;
 
 /// Settings of a synthetic sequence. Everything in it follows from these and the files they name, bit for bit.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -78,16 +78,16 @@ pub struct LightSettings {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RigSettings {
-    /// `corners`: four cameras; `ring`: any number round the room.
-    pub preset: String,
+    /// How they stand.
+    pub preset: RigKind,
     /// Number of cameras of a ring.
     pub count: usize,
     /// A calibration instead of a preset.
     pub cameras: Option<PathBuf>,
     /// Size of the pictures of a preset, pixels.
     pub size: [u32; 2],
-    /// Lens of a preset: `brown-conrady`, `tsai` or `pinhole`.
-    pub lens: String,
+    /// Lens of a preset.
+    pub lens: LensKind,
     /// Factor on the focal length of a preset.
     pub zoom: f64,
 }
@@ -133,8 +133,8 @@ pub struct CameraSettings {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct OutputSettings {
-    /// `png`, `jpeg` or `video` (H.264 through ffmpeg).
-    pub pictures: String,
+    /// How pictures are kept.
+    pub pictures: PictureForm,
     /// Quality of JPEG pictures, 1 to 100.
     pub quality: u8,
     /// Constant rate factor of videos: 0 loses nothing, 51 most.
@@ -161,8 +161,8 @@ pub struct ActorSettings {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MotionSettings {
-    /// `circle`, `straight`, `diagonal`, `run`, `jump` or `stand`.
-    pub gait: Option<String>,
+    /// How the actor moves, without a file.
+    pub gait: Option<Gait>,
     /// Radius of the circle, mm.
     pub radius: f64,
     /// Seconds for a stride, that is two steps; a run takes 0.6 of it. Seconds from jump to jump are twice that.
@@ -181,10 +181,10 @@ pub struct MotionSettings {
     pub skeleton: Option<PathBuf>,
     /// Frames a second of an .amc, which does not say it.
     pub rate: Option<f64>,
-    /// Unit of the file: `mm`, `cm`, `m`, `inch`, where it cannot be found out.
-    pub unit: Option<String>,
-    /// `y` or `z`, where it cannot be found out.
-    pub up: Option<String>,
+    /// Unit of the file, where it cannot be found out.
+    pub unit: Option<MotionUnit>,
+    /// Which way is up in the file, where it cannot be found out.
+    pub up: Option<UpAxis>,
     /// Second at which to stop.
     pub until: Option<f64>,
     /// Begin again where the motion ends, from the place it has reached.
@@ -228,11 +228,11 @@ impl Default for LightSettings {
 impl Default for RigSettings {
     fn default() -> Self {
         Self {
-            preset: "corners".to_string(),
+            preset: RigKind::default(),
             count: 4,
             cameras: None,
             size: [480, 270],
-            lens: "brown-conrady".to_string(),
+            lens: LensKind::default(),
             zoom: 1.0,
         }
     }
@@ -246,7 +246,7 @@ impl Default for SensorSettings {
 
 impl Default for OutputSettings {
     fn default() -> Self {
-        Self { pictures: "png".to_string(), quality: 90, crf: 18, masks: false }
+        Self { pictures: PictureForm::default(), quality: 90, crf: 18, masks: false }
     }
 }
 
@@ -278,16 +278,6 @@ impl Default for MotionSettings {
     }
 }
 
-/// The built-in scenes: the demo, and five after the sequences that the method was first measured on (SPEC A10).
-const PRESETS: [(&str, &str); 6] = [
-    ("demo", include_str!("../presets/demo.toml")),
-    ("leewalk", include_str!("../presets/leewalk.toml")),
-    ("p1s", include_str!("../presets/p1s.toml")),
-    ("p2s", include_str!("../presets/p2s.toml")),
-    ("p1d", include_str!("../presets/p1d.toml")),
-    ("p2d", include_str!("../presets/p2d.toml")),
-];
-
 impl Scene {
     /// Reads scene.toml; files it names are seen from its folder.
     ///
@@ -300,14 +290,12 @@ impl Scene {
         Ok(scene)
     }
 
-    /// A built-in scene: demo, leewalk, p1s, p2s, p1d or p2d.
+    /// A built-in scene.
     ///
     /// # Errors
     /// When there is none of that name; the nearest is named.
     pub fn preset(name: &str) -> Result<Self> {
-        one_of("the preset", name, &PRESETS.map(|(name, _)| name))?;
-        let text = PRESETS.iter().find(|(preset, _)| *preset == name).map_or("", |(_, text)| text);
-        let scene: Self = parse_toml(text, name)?;
+        let scene: Self = parse_toml(ScenePreset::from_name(name)?.text(), name)?;
         scene.check()?;
         Ok(scene)
     }
@@ -353,11 +341,16 @@ mod tests {
 
     #[test]
     fn presets_are_scenes_and_come_back_from_their_text() {
-        for (name, _) in PRESETS {
+        for name in ScenePreset::ALL.map(ScenePreset::name) {
             let scene = Scene::preset(name).unwrap();
             let text = toml::to_string(&scene).unwrap();
             assert_eq!(parse_toml::<Scene>(&text, name).unwrap(), scene, "{text}");
         }
-        assert!(Scene::preset("leewalks").unwrap_err().to_string().contains("nearest known one is `leewalk`"));
+        assert!(
+            Scene::preset("leewalks")
+                .unwrap_err()
+                .to_string()
+                .contains("unknown scene `leewalks`, the nearest is `leewalk` (known: demo, leewalk")
+        );
     }
 }

@@ -34,7 +34,7 @@ pub use terrain::{Band, Fractal, Map, Terrain};
 pub use wood::Wood;
 
 use super::shaders::{MATERIAL_LATTICES, MATERIAL_NUMBERS};
-use crate::files::{parse_table, read_toml};
+use crate::files::{choices, parse_table, read_toml};
 
 /// What a material is at a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -76,16 +76,6 @@ pub struct StageMaterial {
     pub numbers: [f32; MATERIAL_NUMBERS as usize],
 }
 
-/// A material by name.
-#[derive(Clone, Copy, Debug)]
-pub struct Kind {
-    /// Its name on the command line.
-    pub name: &'static str,
-    /// What it looks like, one line.
-    pub looks: &'static str,
-    build: Build,
-}
-
 /// Where a material's parameters come from; what is not said is the default.
 #[derive(Clone, Copy, Debug)]
 pub enum Parameters<'a> {
@@ -120,30 +110,40 @@ impl Parameters<'_> {
 /// Parameters and seed to the material.
 type Build = fn(Parameters<'_>, u64) -> Result<Box<dyn Solid>>;
 
-macro_rules! kind {
-    ($name:literal, $looks:literal, $type:ty) => {
-        Kind { name: $name, looks: $looks, build: |parameters, _| Ok(Box::new(parameters.read::<$type>()?)) }
-    };
+fn built<T: Solid + DeserializeOwned + Default + 'static>(
+    parameters: Parameters<'_>,
+    _: u64,
+) -> Result<Box<dyn Solid>> {
+    Ok(Box::new(parameters.read::<T>()?))
 }
 
-/// All materials, in the order they are listed.
-pub const KINDS: &[Kind] = &[
-    kind!("clouds", "sky through four octaves of noise", Clouds),
-    kind!("lava", "the sun's surface, or lava: turbulence about the means of the octaves", Lava),
-    kind!("marble", "layers bent by turbulence", Marble),
-    kind!("granite", "grey grains: the highest octave alone", Granite),
-    kind!("wood", "rings about the y axis, disturbed by noise, with a fine grain", Wood),
-    kind!("brick", "a wall in running bond with mortar", Brick),
-    kind!("grass", "blades over blades, fresh and dry", Grass),
-    kind!("fabric", "woven threads, plain or twill", Fabric),
-    kind!("skin", "mottled skin with freckles and pores", Skin),
-    Kind {
-        name: "fractal",
-        looks: "terrain by random mid-point displacement, in colour bands",
-        build: |parameters, seed| Ok(Box::new(parameters.read::<Fractal>()?.displaced(seed))),
-    },
-    kind!("terrain", "terrain by noise, in colour bands with isolines", Terrain),
-];
+choices! {
+    /// A material by name.
+    "material" pub enum MaterialKind => build: Build {
+        /// sky through four octaves of noise
+        "clouds" Clouds => built::<Clouds>,
+        /// the sun's surface, or lava: turbulence about the means of the octaves
+        "lava" Lava => built::<Lava>,
+        /// layers bent by turbulence
+        "marble" Marble => built::<Marble>,
+        /// grey grains: the highest octave alone
+        "granite" Granite => built::<Granite>,
+        /// rings about the y axis, disturbed by noise, with a fine grain
+        "wood" Wood => built::<Wood>,
+        /// a wall in running bond with mortar
+        "brick" Brick => built::<Brick>,
+        /// blades over blades, fresh and dry
+        "grass" Grass => built::<Grass>,
+        /// woven threads, plain or twill
+        "fabric" Fabric => built::<Fabric>,
+        /// mottled skin with freckles and pores
+        "skin" Skin => built::<Skin>,
+        /// terrain by random mid-point displacement, in colour bands
+        "fractal" Fractal => |parameters, seed| Ok(Box::new(parameters.read::<Fractal>()?.displaced(seed))),
+        /// terrain by noise, in colour bands with isolines
+        "terrain" Terrain => built::<Terrain>,
+    }
+}
 
 /// A material, ready to be looked up.
 pub struct Material {
@@ -165,18 +165,12 @@ impl Material {
     /// When there is none of that name (the nearest is named), when the parameters have an unknown key or a number that is not
     /// finite or beyond 1e6, or when the tile is not a positive length.
     pub fn new(name: &str, parameters: Parameters<'_>, seed: u64, tile: Option<[f32; 2]>) -> Result<Self> {
-        let kind = KINDS.iter().find(|kind| kind.name == name).ok_or_else(|| {
-            let distance = |kind: &&Kind| strsim::damerau_levenshtein(kind.name, name);
-            let nearest = KINDS.iter().min_by_key(distance).map_or("", |kind| kind.name);
-            let known: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
-            let name = crate::files::shortened(name);
-            anyhow!("unknown material {name}, the nearest is {nearest} (known: {})", known.join(", "))
-        })?;
+        let kind = MaterialKind::from_name(name)?;
         if let Some(tile) = tile.filter(|tile| !tile.iter().all(|length| (1e-3..=1e4).contains(length))) {
             bail!("a tile of {} x {} units, expected lengths from 0.001 to 10000", tile[0], tile[1]);
         }
         parameters.check()?;
-        Ok(Self { solid: (kind.build)(parameters, seed)?, space: Space::new(seed, tile) })
+        Ok(Self { solid: (kind.build())(parameters, seed)?, space: Space::new(seed, tile) })
     }
 
     /// The texel at a point, object units. The same on every call and thread.

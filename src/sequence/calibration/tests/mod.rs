@@ -42,7 +42,10 @@ fn files_that_are_none_say_so() {
     let path = |name: &str| folder.path().join(name);
     assert!(sentence(read_cameras(&path("absent.toml"))).contains("cannot read"), "absent");
     let message = sentence(read_cameras(&path("cameras.csv")));
-    assert!(message.contains("cameras.csv") && message.contains(".qca.txt"), "{message}");
+    assert!(
+        message.contains("cameras.csv: unknown calibration format `csv`") && message.contains("qca.txt"),
+        "{message}"
+    );
     for name in ["c.toml", "c.qca.txt", "c.yml", "c.yaml", "c.xml"] {
         fs::write(path(name), [0x41, 0xff, 0xfe]).unwrap();
         let message = sentence(read_cameras(&path(name)));

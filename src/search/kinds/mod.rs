@@ -1,12 +1,22 @@
-//! Settings of a search, checked before anything is made from them.
+//! The kinds of searches, and their settings, checked before anything is made from them.
+
+mod annealed;
+mod cma_es;
+mod hierarchical;
+mod particle_filter;
+mod pso;
 
 use anyhow::{Result, ensure};
 use serde::Serialize;
 
-use super::{
-    AnnealedFilter, AnnealingSettings, CmaEs, CmaSettings, FilterSettings, HierarchicalPso, HierarchySettings,
-    ParticleFilter, Pso, PsoSettings, Refined, Refinement, Search, SearchSpace,
-};
+pub use annealed::{AnnealedFilter, AnnealingSettings};
+pub use cma_es::{CmaEs, CmaSettings};
+pub(super) use hierarchical::SwarmStage;
+pub use hierarchical::{HierarchicalPso, HierarchySettings};
+pub use particle_filter::{FilterSettings, ParticleFilter};
+pub use pso::{Pso, PsoSettings};
+
+use super::{Refined, Refinement, Search, SearchSpace};
 use crate::files::choices;
 
 /// Most particles of a search. More is a slip of the keyboard, not a plan.
@@ -18,29 +28,48 @@ const LARGEST_BUFFER: usize = 1 << 28;
 choices! {
     /// Which search.
     #[derive(Default)]
-    "search" pub enum SearchKind {
+    "search" pub enum SearchKind => form: &'static SearchForm {
         /// Particle swarm, global best (the default).
-        "pso" #[default] Pso,
+        "pso" #[default] Pso => &pso::FORM,
         /// Bootstrap particle filter: N K samples once, which it carries on; a resumed run begins again.
-        "pf" ParticleFilter,
+        "pf" ParticleFilter => &particle_filter::FORM,
         /// Annealed particle filter: K layers of N samples.
-        "apf" Annealed,
+        "apf" Annealed => &annealed::FORM,
         /// Hierarchical particle swarm: swarms over the torso, limb after limb, everything.
-        "hpso" Hierarchical,
+        "hpso" Hierarchical => &hierarchical::FORM,
         /// CMA-ES: evolution of a normal distribution, generations of 50 or more samples.
-        "cmaes" CmaEs,
+        "cmaes" CmaEs => &cma_es::FORM,
     }
+}
+
+/// What a kind of search is.
+struct SearchForm {
+    /// Makes it from checked settings.
+    build: fn(&SearchSettings, &SearchSpace) -> Box<dyn Search>,
+    /// Holds what it alone uses of the settings to its ranges.
+    check: fn(&SearchSettings) -> Result<()>,
+    /// It depends on the frames before by more than its centre: by all samples of the last one, which it holds.
+    carries_on: bool,
+    /// It estimates a mean, which is scored as one pose more.
+    is_mean: bool,
+    /// It has a form that runs whole on a device.
+    has_device_form: bool,
 }
 
 impl SearchKind {
     /// Whether a frame depends on the frames before by more than its centre.
     pub fn carries_on(self) -> bool {
-        self == Self::ParticleFilter
+        self.form().carries_on
+    }
+
+    /// Whether its estimate is a mean, which is scored as one pose more.
+    pub fn estimates_a_mean(self) -> bool {
+        self.form().is_mean
     }
 
     /// Whether it has a form that runs whole on a device; the others are driven from the host.
     pub fn has_device_form(self) -> bool {
-        self != Self::CmaEs
+        self.form().has_device_form
     }
 }
 
@@ -99,11 +128,7 @@ impl SearchSettings {
             ensure!((1..=most).contains(&value), "{name} is {value}, expected 1 to {most}");
         }
         ensure!(self.refine <= MOST_PARTICLES, "refine is {}, expected 0 to {MOST_PARTICLES}", self.refine);
-        self.pso.check()?;
-        self.filter.check()?;
-        self.annealing.check()?;
-        self.hierarchy.check()?;
-        self.cma.check()
+        SearchKind::ALL.iter().try_for_each(|kind| (kind.form().check)(self))
     }
 
     /// Whether the search's buffers are of a sensible size.
@@ -111,10 +136,7 @@ impl SearchSettings {
     /// # Errors
     /// When they are not: the sentence names the numbers.
     pub fn check_room(&self, space: &SearchSpace) -> Result<()> {
-        let samples = match self.kind {
-            SearchKind::ParticleFilter => self.particles * self.iterations,
-            _ => self.particles,
-        };
+        let samples = self.particles * if self.kind.carries_on() { self.iterations } else { 1 };
         ensure!(
             samples.saturating_mul(space.dof_count()) <= LARGEST_BUFFER,
             "{samples} particles of {} values do not fit, expected at most {} particles",
@@ -131,13 +153,7 @@ impl SearchSettings {
     pub fn build(&self, space: &SearchSpace) -> Result<Box<dyn Search>> {
         self.check()?;
         self.check_room(space)?;
-        let search: Box<dyn Search> = match self.kind {
-            SearchKind::Pso => Box::new(Pso::new(self, space)),
-            SearchKind::ParticleFilter => Box::new(ParticleFilter::new(self, space)),
-            SearchKind::Annealed => Box::new(AnnealedFilter::new(self, space)),
-            SearchKind::Hierarchical => Box::new(HierarchicalPso::new(self, space)),
-            SearchKind::CmaEs => Box::new(CmaEs::new(self, space)),
-        };
+        let search = (self.kind.form().build)(self, space);
         if self.refine == 0 {
             return Ok(search);
         }

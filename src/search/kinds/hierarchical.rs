@@ -4,7 +4,16 @@
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
 
-use super::{Estimate, Fitness, Pso, Search, SearchSettings, SearchSpace, check_start};
+use super::{Pso, SearchForm, SearchKind, SearchSettings};
+use crate::search::{Estimate, Fitness, Search, SearchSpace, check_start};
+
+pub(super) const FORM: SearchForm = SearchForm {
+    build: |settings, space| Box::new(HierarchicalPso::new(settings, space)),
+    check: |settings| settings.hierarchy.check(),
+    carries_on: false,
+    is_mean: false,
+    has_device_form: true,
+};
 
 /// Constants of the hierarchy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -32,7 +41,7 @@ impl HierarchySettings {
 
     /// The stages of a space, whose iterations add up to `iterations`: the torso, each limb, everything. With fewer iterations
     /// than stages limbs share one; a single iteration moves everything at once.
-    pub(super) fn stages(&self, space: &SearchSpace, iterations: usize) -> Vec<SwarmStage> {
+    pub(crate) fn stages(&self, space: &SearchSpace, iterations: usize) -> Vec<SwarmStage> {
         let groups = space.groups();
         let limbs = groups.iter().copied().max().unwrap_or(0);
         if limbs == 0 || iterations == 1 {
@@ -73,15 +82,15 @@ impl HierarchySettings {
 
 /// A swarm of its own over some dimensions.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct SwarmStage {
+pub(crate) struct SwarmStage {
     /// Factor on the frame's spread of every dimension; one of 0 stands still.
-    pub(super) factors: Vec<f32>,
-    pub(super) iterations: usize,
+    pub(crate) factors: Vec<f32>,
+    pub(crate) iterations: usize,
 }
 
 impl SwarmStage {
     /// Everything at once.
-    pub(super) fn whole(space: &SearchSpace, iterations: usize) -> Self {
+    pub(crate) fn whole(space: &SearchSpace, iterations: usize) -> Self {
         Self { factors: vec![1.0; space.dof_count()], iterations }
     }
 }
@@ -149,7 +158,7 @@ impl HierarchicalPso {
 
 impl Search for HierarchicalPso {
     fn name(&self) -> &'static str {
-        "hpso"
+        SearchKind::Hierarchical.name()
     }
 
     fn iterations(&self) -> usize {

@@ -3,9 +3,18 @@
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
 
-use super::arithmetic::Statistics;
-use super::philox::GROUP;
-use super::{Draw, Estimate, Fitness, Random, Search, SearchSettings, SearchSpace, Stream, check_start};
+use super::{SearchForm, SearchKind, SearchSettings};
+use crate::search::arithmetic::Statistics;
+use crate::search::philox::GROUP;
+use crate::search::{Draw, Estimate, Fitness, Random, Search, SearchSpace, Stream, check_start};
+
+pub(super) const FORM: SearchForm = SearchForm {
+    build: |settings, space| Box::new(Pso::new(settings, space)),
+    check: |settings| settings.pso.check(),
+    carries_on: false,
+    is_mean: false,
+    has_device_form: true,
+};
 
 /// Constants of the swarm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -30,7 +39,7 @@ impl Default for PsoSettings {
 
 impl PsoSettings {
     /// Inertia of the move into iteration `iteration` (1 is the first move) of `iterations`.
-    pub(super) fn inertia_of(&self, iteration: usize, iterations: usize) -> f32 {
+    pub(crate) fn inertia_of(&self, iteration: usize, iterations: usize) -> f32 {
         let [first, last] = self.inertia;
         let moves = iterations.saturating_sub(2).max(1) as f32;
         first + (last - first) * ((iteration - 1) as f32 / moves)
@@ -208,7 +217,7 @@ fn move_rows(step: &Move<'_>, best: &[f32], positions: &mut [f32], velocities: &
 
 impl Search for Pso {
     fn name(&self) -> &'static str {
-        "pso"
+        SearchKind::Pso.name()
     }
 
     fn iterations(&self) -> usize {

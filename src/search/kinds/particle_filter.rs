@@ -3,9 +3,18 @@
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
 
-use super::arithmetic::Statistics;
-use super::weights::Weights;
-use super::{Draw, Estimate, Fitness, Random, Search, SearchSettings, SearchSpace, Stream, check_start};
+use super::{SearchForm, SearchKind, SearchSettings};
+use crate::search::arithmetic::Statistics;
+use crate::search::weights::Weights;
+use crate::search::{Draw, Estimate, Fitness, Random, Search, SearchSpace, Stream, check_start};
+
+pub(super) const FORM: SearchForm = SearchForm {
+    build: |settings, space| Box::new(ParticleFilter::new(settings, space)),
+    check: |settings| settings.filter.check(),
+    carries_on: true,
+    is_mean: true,
+    has_device_form: true,
+};
 
 /// Constants of the filter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -28,7 +37,7 @@ impl FilterSettings {
     }
 
     /// 1 / (2 sigma^2).
-    pub(super) fn sharpness(&self) -> f32 {
+    pub(crate) fn sharpness(&self) -> f32 {
         (0.5 / f64::from(self.sigma).powi(2)) as f32
     }
 }
@@ -89,7 +98,7 @@ impl ParticleFilter {
 
 impl Search for ParticleFilter {
     fn name(&self) -> &'static str {
-        "pf"
+        SearchKind::ParticleFilter.name()
     }
 
     fn iterations(&self) -> usize {

@@ -5,10 +5,19 @@
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
 
-use super::{Draw, Estimate, Fitness, Random, Search, SearchSettings, SearchSpace, Stream, check_start};
+use super::{SearchForm, SearchKind, SearchSettings};
+use crate::search::{Draw, Estimate, Fitness, Random, Search, SearchSpace, Stream, check_start};
 
 /// Least pivot of the factorisation, relative to the first distribution's variance: below it a dimension stands still.
 const LEAST_PIVOT: f64 = 1e-20;
+
+pub(super) const FORM: SearchForm = SearchForm {
+    build: |settings, space| Box::new(CmaEs::new(settings, space)),
+    check: |settings| settings.cma.check(),
+    carries_on: false,
+    is_mean: true,
+    has_device_form: false,
+};
 
 /// Constants of the strategy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -249,7 +258,7 @@ impl CmaEs {
 
 impl Search for CmaEs {
     fn name(&self) -> &'static str {
-        "cmaes"
+        SearchKind::CmaEs.name()
     }
 
     fn iterations(&self) -> usize {
@@ -317,7 +326,6 @@ impl Search for CmaEs {
 
 #[cfg(test)]
 mod tests {
-    use super::super::SearchKind;
     use super::*;
 
     /// The best of a function to be minimised, after so many generations of 20 samples from (1, 1, …) on.

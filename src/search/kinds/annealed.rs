@@ -3,9 +3,18 @@
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
 
-use super::arithmetic::Statistics;
-use super::weights::Weights;
-use super::{Draw, Estimate, Fitness, Random, Search, SearchSettings, SearchSpace, Stream, check_start};
+use super::{SearchForm, SearchKind, SearchSettings};
+use crate::search::arithmetic::Statistics;
+use crate::search::weights::Weights;
+use crate::search::{Draw, Estimate, Fitness, Random, Search, SearchSpace, Stream, check_start};
+
+pub(super) const FORM: SearchForm = SearchForm {
+    build: |settings, space| Box::new(AnnealedFilter::new(settings, space)),
+    check: |settings| settings.annealing.check(),
+    carries_on: false,
+    is_mean: true,
+    has_device_form: true,
+};
 
 /// Constants of the annealing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -31,7 +40,7 @@ impl AnnealingSettings {
     }
 
     /// Factor on the spread in a layer of so many.
-    pub(super) fn noise_of(&self, layer: usize, layers: usize) -> f32 {
+    pub(crate) fn noise_of(&self, layer: usize, layers: usize) -> f32 {
         let progress = layer as f64 / layers.saturating_sub(1).max(1) as f64;
         f64::from(self.last_noise).powf(progress) as f32
     }
@@ -98,7 +107,7 @@ impl AnnealedFilter {
 
 impl Search for AnnealedFilter {
     fn name(&self) -> &'static str {
-        "apf"
+        SearchKind::Annealed.name()
     }
 
     fn iterations(&self) -> usize {
