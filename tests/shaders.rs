@@ -271,7 +271,13 @@ fn constants_of_the_pipeline_keep_name_number_and_default() {
     assert_eq!(found, [("COUNT", 0, 7), ("SCALE", 1, half), ("MIRROR", 2, 1), ("local_size_x", 3, 1)]);
     assert_eq!(reflection.workgroup_size, [1, 2, 1]);
     let source = generated(&[("room/a.comp", text)]).unwrap();
-    assert!(source.contains("pub const COUNT: u32 = 0;") && source.contains("pub const SCALE: u32 = 1;"), "{source}");
+    assert_eq!(fields(&source, "Constants"), ["count: u32", "scale: f32", "mirror: bool", "local_size_x: u32"]);
+    for line in [
+        "Self { count: 7, scale: f32::from_bits(1056964608), mirror: true, local_size_x: 1, }",
+        "(0, constants.count), (1, constants.scale.to_bits()), (2, u32::from(constants.mirror)), (3, constants.local_size_x)",
+    ] {
+        assert!(source.contains(line), "{line} is missing in:\n{source}");
+    }
 }
 
 #[test]

@@ -24,11 +24,12 @@ mod segmentation;
 mod settings;
 mod shaders;
 pub mod shadow;
+mod view_features;
 
 pub use bit_image::BitImage;
 pub use distance::{DistanceMap, Metric};
 pub use edges::{EdgeSettings, Magnitude, Operator};
-pub use extractor::{Extractor, ViewFeatures, ViewSource};
+pub use extractor::{Extractor, ViewSource};
 pub use mixture::{Adaptation, MixtureSettings};
 pub use morphology::Shape;
 pub use observation::Observation;
@@ -39,3 +40,4 @@ pub use segment::{Cue, SegmentSettings};
 pub use segmentation::{Segment, Segmentation, Segments};
 pub use settings::{DistanceSettings, FeatureSettings, SilhouetteSettings};
 pub use shadow::ShadowSettings;
+pub use view_features::ViewFeatures;

@@ -9,7 +9,7 @@ use ash::vk::Handle as _;
 use bytemuck::Pod;
 use gpu_allocator::vulkan::Allocation;
 
-use super::device::{Device, DeviceShared};
+use super::device_shared::DeviceShared;
 use super::memory::Memory;
 
 /// A buffer of the device; clones are the same buffer. Its memory is freed when the last clone and the last recording that
@@ -39,14 +39,10 @@ impl std::fmt::Debug for Buffer {
     }
 }
 
-impl Device {
-    /// A buffer of `len` elements of `T`. What it holds at first is undefined.
-    ///
-    /// # Errors
-    /// [`super::OutOfMemory`] when it does not fit; otherwise when it is empty or larger than a storage buffer may be.
-    pub fn buffer<T: Pod>(&self, name: &str, len: usize, memory: Memory) -> Result<Buffer> {
-        let size = (len as u64).saturating_mul(size_of::<T>() as u64);
-        let limit = self.capabilities().max_storage;
+impl Buffer {
+    /// Makes one of `size` bytes.
+    pub(super) fn new(device: &Arc<DeviceShared>, name: &str, size: u64, memory: Memory) -> Result<Self> {
+        let limit = device.facts.capabilities.max_storage;
         ensure!(size > 0, "the buffer {name} would be empty");
         ensure!(
             size <= limit,
@@ -58,24 +54,24 @@ impl Device {
             | vk::BufferUsageFlags::TRANSFER_DST
             | vk::BufferUsageFlags::INDIRECT_BUFFER
             | vk::BufferUsageFlags::INDEX_BUFFER;
-        if self.shared.feedback.is_some() {
+        if device.feedback.is_some() {
             usage |= vk::BufferUsageFlags::TRANSFORM_FEEDBACK_BUFFER_EXT;
         }
         // A multiple of 4, as fills and copies of whole buffers want it.
         let info = vk::BufferCreateInfo::default().size(size.next_multiple_of(4)).usage(usage);
-        let raw = &self.shared.raw;
+        let raw = &device.raw;
         // SAFETY: the device is open; so for the calls below.
         let handle = unsafe { raw.create_buffer(&info, None) }
-            .map_err(|result| self.shared.failure(result, &format!("make the buffer {name}"), || None))?;
+            .map_err(|result| device.failure(result, &format!("make the buffer {name}"), || None))?;
         // SAFETY: the handle was just made.
         let requirements = unsafe { raw.get_buffer_memory_requirements(handle) };
-        let bound = self.allocate(name, requirements, memory, true).and_then(|allocation| {
+        let bound = device.allocate(name, requirements, memory, true).and_then(|allocation| {
             // SAFETY: the memory fits the buffer's requirements and nothing else is bound to its range.
             match unsafe { raw.bind_buffer_memory(handle, allocation.memory(), allocation.offset()) } {
                 Ok(()) => Ok(allocation),
                 Err(result) => {
-                    self.shared.free(allocation);
-                    Err(self.shared.failure(result, &format!("bind memory to the buffer {name}"), || None))
+                    device.free(allocation);
+                    Err(device.failure(result, &format!("bind memory to the buffer {name}"), || None))
                 }
             }
         });
@@ -87,10 +83,10 @@ impl Device {
                 return Err(error);
             }
         };
-        self.shared.name(handle, name);
-        Ok(Buffer {
+        device.name(handle, name);
+        Ok(Self {
             shared: Arc::new(BufferShared {
-                device: self.shared.clone(),
+                device: device.clone(),
                 name: name.to_string(),
                 handle,
                 size,
@@ -100,9 +96,7 @@ impl Device {
             }),
         })
     }
-}
 
-impl Buffer {
     /// The number that tells it from every other resource: handles of buffers and images may have the same value, and the last
     /// bit tells the two apart.
     pub(super) fn id(&self) -> u64 {

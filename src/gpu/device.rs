@@ -1,56 +1,28 @@
 //! An open device: its queue, memory, clock and what it is known to have lost.
 
 use std::fs;
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::sync::{Arc, Mutex};
+use std::time::Instant;
 
 use anyhow::{Result, anyhow, bail};
 use ash::{ext, vk};
+use bytemuck::Pod;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
+use rayon::prelude::*;
 
-use crate::files::{Overwrite, write_atomically};
-
+use super::buffer::Buffer;
 use super::capability::{Capabilities, DeviceFacts, devices};
-use super::compiled::Compiled;
+use super::compiled::{Compiled, Source};
+use super::device_shared::{DeviceSettings, DeviceShared, cache_file};
+use super::image::{Format, Image, ImageUse};
 use super::instance::Instance;
-use super::loss::DeviceLost;
-use super::recording::RecordingParts;
+use super::memory::Memory;
+use super::pipeline::{Drawing, Pipeline};
+use super::shader::ShaderStage;
+use super::timing::ClockPair;
 use super::transform_feedback::FeedbackFunctions;
 use super::validation::ValidationLog;
-
-/// How a device is opened.
-#[derive(Clone, Debug)]
-pub struct DeviceSettings {
-    /// Its place in Vulkan's list; without one, the best usable one by kind.
-    pub index: Option<usize>,
-    /// Changes what the device is taken to be capable of: how tests lower limits.
-    pub lower: Option<fn(&mut Capabilities)>,
-    /// Folder that keeps compiled pipelines between runs; without one they are compiled anew.
-    pub pipeline_cache: Option<PathBuf>,
-    /// Whether every pass leaves a mark that tells how far a lost device came.
-    pub breadcrumbs: bool,
-    /// How long a device may be at work without beginning another pass (or, without breadcrumbs, without coming to an end)
-    /// before it is given up. Drivers reset a graphics card that hangs after seconds and say so; a software device may take
-    /// minutes for one pass.
-    pub patience: Duration,
-    /// Lose the device, as a crash would, when it has run so many passes: a fault for tests to inject.
-    pub lose_after_passes: Option<u64>,
-}
-
-impl Default for DeviceSettings {
-    fn default() -> Self {
-        Self {
-            index: None,
-            lower: None,
-            pipeline_cache: None,
-            breadcrumbs: true,
-            patience: Duration::from_secs(600),
-            lose_after_passes: None,
-        }
-    }
-}
 
 /// An open device; clones are the same device.
 #[derive(Clone)]
@@ -65,44 +37,10 @@ struct Owner {
     compiled: Compiled,
 }
 
-pub(super) struct DeviceShared {
-    pub(super) raw: ash::Device,
-    pub(super) instance: Instance,
-    pub(super) facts: DeviceFacts,
-    pub(super) debug: Option<ext::debug_utils::Device>,
-    pub(super) feedback: Option<FeedbackFunctions>,
-    pub(super) settings: DeviceSettings,
-    pub(super) allocator: Mutex<Option<Allocator>>,
-    /// Bytes taken of `facts.capabilities.memory`.
-    pub(super) memory_used: AtomicU64,
-    pub(super) pipelines: vk::PipelineCache,
-    pub(super) timeline: vk::Semaphore,
-    queue: Mutex<vk::Queue>,
-    /// Value the timeline takes when the last submission is done.
-    submitted: AtomicU64,
-    passes_run: AtomicU64,
-    /// Whether nothing more may be run on it.
-    is_lost: AtomicBool,
-    /// Whether it is lost because it was given up: it may still be at work, and nothing that it uses is ever freed.
-    is_given_up: AtomicBool,
-    /// Recordings that were dropped while the device ran them, and the timeline value that ends that.
-    retired: Mutex<Vec<(u64, RecordingParts)>>,
-    calibrated: Option<ext::calibrated_timestamps::Device>,
-}
-
 impl std::fmt::Debug for Device {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Device").field("name", &self.shared.facts.name).finish_non_exhaustive()
     }
-}
-
-/// A moment on the device's clock and on the host's.
-#[derive(Clone, Copy, Debug)]
-pub struct ClockPair {
-    /// Device time, nanoseconds from an arbitrary start.
-    pub device_ns: f64,
-    /// The same moment on the host.
-    pub host: Instant,
 }
 
 impl Device {
@@ -231,10 +169,6 @@ impl Device {
         Ok(Self { owner: Arc::new(owner), shared })
     }
 
-    pub(super) fn compiled(&self) -> &Compiled {
-        &self.owner.compiled
-    }
-
     /// What it is and why it can be used.
     pub fn facts(&self) -> &DeviceFacts {
         &self.shared.facts
@@ -252,27 +186,7 @@ impl Device {
 
     /// Bytes of memory that can still be taken: its free budget, as far as the driver tells, within the engine's share.
     pub fn memory_available(&self) -> u64 {
-        let own = self.shared.facts.capabilities.memory.saturating_sub(self.shared.memory_used.load(Ordering::Relaxed));
-        if !self.shared.facts.has_memory_budget {
-            return own;
-        }
-        let mut budget = vk::PhysicalDeviceMemoryBudgetPropertiesEXT::default();
-        let mut properties = vk::PhysicalDeviceMemoryProperties2::default().push_next(&mut budget);
-        // SAFETY: the handle belongs to the instance, and the device has the extension.
-        unsafe {
-            self.shared
-                .instance
-                .shared
-                .raw
-                .get_physical_device_memory_properties2(self.shared.facts.handle, &mut properties);
-        }
-        let memory = properties.memory_properties;
-        let free = (0..memory.memory_heap_count as usize)
-            .filter(|&heap| memory.memory_heaps[heap].flags.contains(vk::MemoryHeapFlags::DEVICE_LOCAL))
-            .map(|heap| budget.heap_budget[heap].saturating_sub(budget.heap_usage[heap]))
-            .max()
-            .unwrap_or(own);
-        own.min(free)
+        self.shared.memory_available()
     }
 
     /// The device's clock beside the host's, where it has calibrated timestamps.
@@ -292,154 +206,56 @@ impl Device {
     }
 }
 
-impl DeviceShared {
-    /// Submits a command buffer that runs `passes`. Gives the timeline value that marks its end.
-    pub(super) fn submit(&self, commands: vk::CommandBuffer, passes: &[String]) -> Result<u64> {
-        self.check_alive()?;
-        let before = self.passes_run.fetch_add(passes.len() as u64, Ordering::Relaxed);
-        if let Some(limit) = self.settings.lose_after_passes
-            && before + passes.len() as u64 > limit
-        {
-            let pass = passes.get(limit.saturating_sub(before) as usize).cloned();
-            // A crash leaves nothing running: let go of what was submitted before.
-            let queue = lock(&self.queue);
-            // SAFETY: the device is open, and its one queue is locked while this waits.
-            let _ = unsafe { self.raw.device_wait_idle() };
-            drop(queue);
-            return Err(self.lose(pass).into());
-        }
-        self.collect();
-        let queue = lock(&self.queue);
-        let value = self.submitted.load(Ordering::Relaxed) + 1;
-        let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(commands)];
-        let signal = [vk::SemaphoreSubmitInfo::default()
-            .semaphore(self.timeline)
-            .value(value)
-            .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
-        let submit = [vk::SubmitInfo2::default().command_buffer_infos(&commands).signal_semaphore_infos(&signal)];
-        // SAFETY: the queue is locked; the recording keeps its command buffer and all it uses until the value is reached.
-        unsafe { self.raw.queue_submit2(*queue, &submit, vk::Fence::null()) }
-            .map_err(|result| self.failure(result, "submit work", || passes.first().cloned()))?;
-        self.submitted.store(value, Ordering::Relaxed);
-        Ok(value)
+impl Device {
+    /// A buffer of `len` elements of `T`. What it holds at first is undefined.
+    ///
+    /// # Errors
+    /// [`super::OutOfMemory`] when it does not fit; otherwise when it is empty or larger than a storage buffer may be.
+    pub fn buffer<T: Pod>(&self, name: &str, len: usize, memory: Memory) -> Result<Buffer> {
+        Buffer::new(&self.shared, name, (len as u64).saturating_mul(size_of::<T>() as u64), memory)
     }
 
-    /// Waits until the timeline has reached `value`, as long as the device gets on. `begun` tells the last one of `passes` that
-    /// has begun.
-    pub(super) fn wait(&self, value: u64, passes: &[String], begun: impl Fn() -> Option<usize>) -> Result<()> {
-        const LOOK_EVERY: Duration = Duration::from_secs(1);
-        self.check_alive()?;
-        let patience = self.settings.patience;
-        let between_looks = patience.min(LOOK_EVERY).as_nanos() as u64;
-        let (semaphores, values) = ([self.timeline], [value]);
-        let info = vk::SemaphoreWaitInfo::default().semaphores(&semaphores).values(&values);
-        let last_pass = || begun().and_then(|pass| passes.get(pass).cloned());
-        // The breadcrumbs are first read when the first look is due: most work is done by then.
-        let (mut seen, mut since) = (None, Instant::now());
-        loop {
-            // SAFETY: the semaphore is a timeline of this device.
-            match unsafe { self.raw.wait_semaphores(&info, between_looks) } {
-                Ok(()) => return Ok(()),
-                Err(vk::Result::TIMEOUT) => {}
-                Err(result) => return Err(self.failure(result, "finish its work", last_pass)),
-            }
-            let now = begun();
-            if now != seen {
-                (seen, since) = (now, Instant::now());
-            } else if since.elapsed() >= patience {
-                self.is_given_up.store(true, Ordering::Relaxed);
-                return Err(DeviceLost { given_up_after: Some(patience), ..self.lose(last_pass()) }.into());
-            }
-        }
+    /// An image of `size` = [width, height] pixels. What it holds at first is undefined.
+    ///
+    /// # Errors
+    /// [`super::OutOfMemory`] when it does not fit; otherwise when a side is zero or larger than the device allows, or the
+    /// device cannot use the format so.
+    pub fn image(&self, name: &str, format: Format, size: [u32; 2], purpose: ImageUse) -> Result<Image> {
+        let image = Image::new(&self.shared, name, format, size, purpose)?;
+        self.settle(&image)?;
+        Ok(image)
     }
 
-    /// Whether the device has done everything up to `value`, or never will.
-    pub(super) fn has_done(&self, value: u64) -> bool {
-        // SAFETY: the semaphore is a timeline of this device.
-        unsafe { self.raw.get_semaphore_counter_value(self.timeline) }.is_ok_and(|done| done >= value)
-            || self.is_lost.load(Ordering::Relaxed) && !self.is_given_up.load(Ordering::Relaxed)
+    /// The pipeline of a compute stage.
+    ///
+    /// # Errors
+    /// When the stage is not one for compute, exceeds a limit of the device, or its driver refuses it.
+    pub fn compute_pipeline(&self, stage: &ShaderStage) -> Result<Pipeline> {
+        let source = Source { stages: vec![stage.clone()], drawing: None };
+        self.owner.compiled.of(source, |_| Pipeline::compute(&self.shared, stage))
     }
 
-    /// Keeps what a recording held until the device is done with it.
-    pub(super) fn retire(&self, value: u64, parts: RecordingParts) {
-        lock(&self.retired).push((value, parts));
+    /// The pipeline of these stages, without vertex buffers: vertex stages read storage buffers. Viewport and scissor are set a
+    /// draw.
+    ///
+    /// # Errors
+    /// When the driver refuses it.
+    pub fn graphics_pipeline<S>(&self, name: &str, stages: &[S], drawing: &Drawing) -> Result<Pipeline>
+    where
+        S: Clone + Into<ShaderStage>,
+    {
+        let stages = stages.iter().cloned().map(Into::into).collect();
+        let source = Source { stages, drawing: Some(*drawing) };
+        self.owner.compiled.of(source, |source| Pipeline::graphics(&self.shared, name, &source.stages, drawing))
     }
 
-    /// Drops the recordings that the device is done with.
-    fn collect(&self) {
-        let done: Vec<_> = {
-            let mut retired = lock(&self.retired);
-            if retired.is_empty() {
-                return;
-            }
-            let (done, waiting) = retired.drain(..).partition(|(value, _)| self.has_done(*value));
-            *retired = waiting;
-            done
-        };
-        // Outside of the lock: dropping frees memory, which may come back here.
-        drop(done);
+    /// Compiles compute stages side by side ahead of their first use: drivers take up to a tenth of a second for one.
+    ///
+    /// # Errors
+    /// As [`Self::compute_pipeline`].
+    pub fn compile(&self, stages: &[ShaderStage]) -> Result<()> {
+        stages.par_iter().try_for_each(|stage| self.compute_pipeline(stage).map(drop))
     }
-
-    /// An error if the device has been lost.
-    pub(super) fn check_alive(&self) -> Result<()> {
-        if self.is_lost.load(Ordering::Relaxed) {
-            return Err(self.lost(None).into());
-        }
-        Ok(())
-    }
-
-    fn lose(&self, pass: Option<String>) -> DeviceLost {
-        self.is_lost.store(true, Ordering::Relaxed);
-        self.lost(pass)
-    }
-
-    fn lost(&self, pass: Option<String>) -> DeviceLost {
-        DeviceLost { device: self.facts.name.clone(), pass, given_up_after: None }
-    }
-
-    /// The error of a Vulkan call that should have let the device `purpose`.
-    pub(super) fn failure(
-        &self,
-        result: vk::Result,
-        purpose: &str,
-        pass: impl FnOnce() -> Option<String>,
-    ) -> anyhow::Error {
-        if result == vk::Result::ERROR_DEVICE_LOST {
-            return self.lose(pass()).into();
-        }
-        anyhow!("the Vulkan device {} failed to {purpose} ({result})", self.facts.name)
-    }
-
-    /// Gives an object the name that capture tools and the validation layer show.
-    pub(super) fn name(&self, handle: impl vk::Handle, name: &str) {
-        if let Some(debug) = &self.debug
-            && let Ok(name) = std::ffi::CString::new(name)
-        {
-            let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
-            // SAFETY: the handle is one of this device and the name lives through the call. A failure costs the name only.
-            let _ = unsafe { debug.set_debug_utils_object_name(&info) };
-        }
-    }
-
-    fn save_pipelines(&self) {
-        let Some(folder) = &self.settings.pipeline_cache else { return };
-        // SAFETY: the cache belongs to this device.
-        let Ok(data) = (unsafe { self.raw.get_pipeline_cache_data(self.pipelines) }) else { return };
-        // A cache that cannot be kept costs time in the next run, nothing else.
-        let _ = fs::create_dir_all(folder).map_err(anyhow::Error::from).and_then(|()| {
-            let path = cache_file(folder, &self.facts);
-            write_atomically(&path, Overwrite::Replace, |file| Ok(file.write_all(&data)?))
-        });
-    }
-}
-
-/// The pipeline cache of a device and driver: another driver version has another file.
-fn cache_file(folder: &std::path::Path, facts: &DeviceFacts) -> PathBuf {
-    let plain: String = format!("{} {}", facts.name, facts.driver)
-        .chars()
-        .map(|c| if c.is_ascii_alphanumeric() || c == '.' { c.to_ascii_lowercase() } else { '-' })
-        .collect();
-    folder.join(format!("pipelines-{plain}.bin"))
 }
 
 impl Drop for Owner {
@@ -453,24 +269,4 @@ impl Drop for Owner {
         }
         self.shared.collect();
     }
-}
-
-impl Drop for DeviceShared {
-    fn drop(&mut self) {
-        // SAFETY: every resource and pipeline holds this struct, so all are gone, and the device is idle since `Owner`
-        // went or the last recording was waited for.
-        unsafe {
-            let _ = self.raw.device_wait_idle();
-            self.save_pipelines();
-            self.raw.destroy_pipeline_cache(self.pipelines, None);
-            self.raw.destroy_semaphore(self.timeline, None);
-            drop(lock(&self.allocator).take());
-            self.raw.destroy_device(None);
-        }
-    }
-}
-
-/// A panic elsewhere leaves these values whole: each is replaced or read in one step.
-pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

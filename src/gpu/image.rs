@@ -7,7 +7,7 @@ use ash::vk;
 use ash::vk::Handle as _;
 use gpu_allocator::vulkan::Allocation;
 
-use super::device::{Device, DeviceShared};
+use super::device_shared::DeviceShared;
 use super::memory::Memory;
 
 /// How a texel is stored.
@@ -89,14 +89,16 @@ impl std::fmt::Debug for Image {
     }
 }
 
-impl Device {
-    /// An image of `size` = [width, height] pixels. What it holds at first is undefined.
-    ///
-    /// # Errors
-    /// [`super::OutOfMemory`] when it does not fit; otherwise when a side is zero or larger than the device allows, or the
-    /// device cannot use the format so.
-    pub fn image(&self, name: &str, format: Format, size: [u32; 2], purpose: ImageUse) -> Result<Image> {
-        let limit = self.capabilities().max_image;
+impl Image {
+    /// Makes one, in no layout yet.
+    pub(super) fn new(
+        device: &Arc<DeviceShared>,
+        name: &str,
+        format: Format,
+        size: [u32; 2],
+        purpose: ImageUse,
+    ) -> Result<Self> {
+        let limit = device.facts.capabilities.max_image;
         let [width, height] = size;
         ensure!(
             (1..=limit).contains(&width) && (1..=limit).contains(&height),
@@ -114,11 +116,11 @@ impl Device {
             };
         let has_words = (purpose, format) == (ImageUse::Target, Format::Rgba8);
         let flags = if has_words { vk::ImageCreateFlags::MUTABLE_FORMAT } else { vk::ImageCreateFlags::empty() };
-        let vulkan = &self.shared.instance.shared.raw;
+        let vulkan = &device.instance.shared.raw;
         // SAFETY: the handle belongs to the instance.
         let supported = unsafe {
             vulkan.get_physical_device_image_format_properties(
-                self.shared.facts.handle,
+                device.facts.handle,
                 format.vulkan(),
                 vk::ImageType::TYPE_2D,
                 vk::ImageTiling::OPTIMAL,
@@ -143,13 +145,13 @@ impl Device {
         if has_words {
             info = info.push_next(&mut list);
         }
-        let raw = &self.shared.raw;
+        let raw = &device.raw;
         // SAFETY: the device is open and has such images.
         let handle = unsafe { raw.create_image(&info, None) }
-            .map_err(|result| self.shared.failure(result, &format!("make the image {name}"), || None))?;
+            .map_err(|result| device.failure(result, &format!("make the image {name}"), || None))?;
         // SAFETY: the handle was just made.
         let requirements = unsafe { raw.get_image_memory_requirements(handle) };
-        let made = self.allocate(name, requirements, Memory::Device, false).and_then(|allocation| {
+        let made = device.allocate(name, requirements, Memory::Device, false).and_then(|allocation| {
             let view = |format: Format| {
                 let info = vk::ImageViewCreateInfo::default()
                     .image(handle)
@@ -173,8 +175,8 @@ impl Device {
             match views {
                 Ok(views) => Ok((views, allocation)),
                 Err(result) => {
-                    self.shared.free(allocation);
-                    Err(self.shared.failure(result, &format!("bind memory to the image {name}"), || None))
+                    device.free(allocation);
+                    Err(device.failure(result, &format!("bind memory to the image {name}"), || None))
                 }
             }
         });
@@ -186,10 +188,10 @@ impl Device {
                 return Err(error);
             }
         };
-        self.shared.name(handle, name);
-        let image = Image {
+        device.name(handle, name);
+        Ok(Self {
             shared: Arc::new(ImageShared {
-                device: self.shared.clone(),
+                device: device.clone(),
                 name: name.to_string(),
                 handle,
                 view,
@@ -199,18 +201,9 @@ impl Device {
                 allocation: Some(allocation),
             }),
             as_words: false,
-        };
-        self.settle(&image)?;
-        Ok(image)
+        })
     }
-}
 
-/// All of an image, as ranges name it.
-pub(super) fn whole(format: Format) -> vk::ImageSubresourceRange {
-    vk::ImageSubresourceRange { aspect_mask: format.aspect(), level_count: 1, layer_count: 1, ..Default::default() }
-}
-
-impl Image {
     /// As [`super::Buffer::id`].
     pub(super) fn id(&self) -> u64 {
         self.shared.handle.as_raw() << 1 | 1
@@ -256,4 +249,9 @@ impl Drop for ImageShared {
             self.device.free(allocation);
         }
     }
+}
+
+/// All of an image, as ranges name it.
+pub(super) fn whole(format: Format) -> vk::ImageSubresourceRange {
+    vk::ImageSubresourceRange { aspect_mask: format.aspect(), level_count: 1, layer_count: 1, ..Default::default() }
 }

@@ -11,6 +11,7 @@ mod compute_stage;
 mod copies;
 mod descriptors;
 mod device;
+mod device_shared;
 mod drawing;
 mod hazards;
 mod image;
@@ -33,7 +34,8 @@ mod validation;
 pub use buffer::Buffer;
 pub use capability::{Capabilities, DeviceFacts, DeviceKind, devices};
 pub use compute_stage::{ComputeStage, Stage};
-pub use device::{ClockPair, Device, DeviceSettings};
+pub use device::Device;
+pub use device_shared::DeviceSettings;
 pub use image::{Format, Image, ImageUse};
 pub use instance::Instance;
 pub use interface::{Access, BindingKind, ShaderKind};
@@ -45,7 +47,7 @@ pub use recorder::Recorder;
 pub use recording::Recording;
 pub use shader::{Binding, BindingLayout, Bound, Shader, ShaderStage, SpecConstant};
 pub use staged::StagedBuffer;
-pub use timing::{DevicePass, PassStatistics, PassTiming, Timing, by_name};
+pub use timing::{ClockPair, DevicePass, PassStatistics, PassTiming, Timing, by_name};
 pub use validation::{Validation, ValidationLog};
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use anyhow::{Result, anyhow, bail, ensure};
 use ash::vk;
 
-use super::device::DeviceShared;
+use super::device_shared::DeviceShared;
 use super::hazards::Use;
 use super::image::Format;
 use super::interface::{Access, BindingKind, ShaderKind};

@@ -8,7 +8,8 @@ use anyhow::Result;
 use ash::vk;
 
 use super::buffer::Buffer;
-use super::device::{Device, DeviceShared};
+use super::device::Device;
+use super::device_shared::DeviceShared;
 use super::image::Image;
 use super::pipeline::Pipeline;
 use super::timing::{DevicePass, PassStatistics, PassTiming, on_host_clock};

@@ -2,7 +2,14 @@
 
 use std::time::{Duration, Instant};
 
-use super::ClockPair;
+/// A moment on the device's clock and on the host's.
+#[derive(Clone, Copy, Debug)]
+pub struct ClockPair {
+    /// Device time, nanoseconds from an arbitrary start.
+    pub device_ns: f64,
+    /// The same moment on the host.
+    pub host: Instant,
+}
 
 /// What a recording measures of its passes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

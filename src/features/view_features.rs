@@ -1,0 +1,34 @@
+//! Everything that is found in one view of a frame.
+
+use super::{BitImage, DistanceMap, Observation, Region};
+
+/// What was found in one view of one frame; every intermediate picture can be looked at.
+#[derive(Clone, Debug)]
+pub struct ViewFeatures {
+    /// Foreground as segmented, before cleaning; a ready mask as it came.
+    pub foreground: BitImage,
+    /// The cleaned silhouette: up to four blobs.
+    pub silhouette: BitImage,
+    /// Edges near the silhouette.
+    pub edges: BitImage,
+    /// Distances from them, up to the distance at which proximity ends.
+    pub distance: DistanceMap,
+    /// The silhouette's bounding box enlarged for motion; the whole picture where there is no silhouette.
+    pub region: Region,
+    /// Silhouette and edge proximity, packed.
+    pub observation: Observation,
+}
+
+impl ViewFeatures {
+    /// Features of nothing.
+    pub fn empty(width: u32, height: u32) -> Self {
+        Self {
+            foreground: BitImage::new(width, height),
+            silhouette: BitImage::new(width, height),
+            edges: BitImage::new(width, height),
+            distance: DistanceMap::default(),
+            region: Region::whole(width, height),
+            observation: Observation::empty(width, height),
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! An open device as everything made on it holds it: its queue, its memory's account, and what it is known to have lost.
+
+use std::any::Any;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use anyhow::{Result, anyhow};
+use ash::{ext, vk};
+use gpu_allocator::vulkan::Allocator;
+
+use crate::files::{Overwrite, write_atomically};
+
+use super::capability::{Capabilities, DeviceFacts};
+use super::instance::Instance;
+use super::loss::DeviceLost;
+use super::transform_feedback::FeedbackFunctions;
+
+/// How a device is opened.
+#[derive(Clone, Debug)]
+pub struct DeviceSettings {
+    /// Its place in Vulkan's list; without one, the best usable one by kind.
+    pub index: Option<usize>,
+    /// Changes what the device is taken to be capable of: how tests lower limits.
+    pub lower: Option<fn(&mut Capabilities)>,
+    /// Folder that keeps compiled pipelines between runs; without one they are compiled anew.
+    pub pipeline_cache: Option<PathBuf>,
+    /// Whether every pass leaves a mark that tells how far a lost device came.
+    pub breadcrumbs: bool,
+    /// How long a device may be at work without beginning another pass (or, without breadcrumbs, without coming to an end)
+    /// before it is given up. Drivers reset a graphics card that hangs after seconds and say so; a software device may take
+    /// minutes for one pass.
+    pub patience: Duration,
+    /// Lose the device, as a crash would, when it has run so many passes: a fault for tests to inject.
+    pub lose_after_passes: Option<u64>,
+}
+
+impl Default for DeviceSettings {
+    fn default() -> Self {
+        Self {
+            index: None,
+            lower: None,
+            pipeline_cache: None,
+            breadcrumbs: true,
+            patience: Duration::from_secs(600),
+            lose_after_passes: None,
+        }
+    }
+}
+
+/// What all handles of an open device share.
+pub(super) struct DeviceShared {
+    pub(super) raw: ash::Device,
+    pub(super) instance: Instance,
+    pub(super) facts: DeviceFacts,
+    pub(super) debug: Option<ext::debug_utils::Device>,
+    pub(super) feedback: Option<FeedbackFunctions>,
+    pub(super) settings: DeviceSettings,
+    pub(super) allocator: Mutex<Option<Allocator>>,
+    /// Bytes taken of `facts.capabilities.memory`.
+    pub(super) memory_used: AtomicU64,
+    pub(super) pipelines: vk::PipelineCache,
+    pub(super) timeline: vk::Semaphore,
+    pub(super) queue: Mutex<vk::Queue>,
+    /// Value the timeline takes when the last submission is done.
+    pub(super) submitted: AtomicU64,
+    pub(super) passes_run: AtomicU64,
+    /// Whether nothing more may be run on it.
+    pub(super) is_lost: AtomicBool,
+    /// Whether it is lost because it was given up: it may still be at work, and nothing that it uses is ever freed.
+    pub(super) is_given_up: AtomicBool,
+    /// Recordings that were dropped while the device ran them, and the timeline value that ends that.
+    pub(super) retired: Mutex<Vec<(u64, Box<dyn Any + Send>)>>,
+    pub(super) calibrated: Option<ext::calibrated_timestamps::Device>,
+}
+
+impl DeviceShared {
+    /// Submits a command buffer that runs `passes`. Gives the timeline value that marks its end.
+    pub(super) fn submit(&self, commands: vk::CommandBuffer, passes: &[String]) -> Result<u64> {
+        self.check_alive()?;
+        let before = self.passes_run.fetch_add(passes.len() as u64, Ordering::Relaxed);
+        if let Some(limit) = self.settings.lose_after_passes
+            && before + passes.len() as u64 > limit
+        {
+            let pass = passes.get(limit.saturating_sub(before) as usize).cloned();
+            // A crash leaves nothing running: let go of what was submitted before.
+            let queue = lock(&self.queue);
+            // SAFETY: the device is open, and its one queue is locked while this waits.
+            let _ = unsafe { self.raw.device_wait_idle() };
+            drop(queue);
+            return Err(self.lose(pass).into());
+        }
+        self.collect();
+        let queue = lock(&self.queue);
+        let value = self.submitted.load(Ordering::Relaxed) + 1;
+        let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(commands)];
+        let signal = [vk::SemaphoreSubmitInfo::default()
+            .semaphore(self.timeline)
+            .value(value)
+            .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
+        let submit = [vk::SubmitInfo2::default().command_buffer_infos(&commands).signal_semaphore_infos(&signal)];
+        // SAFETY: the queue is locked; the recording keeps its command buffer and all it uses until the value is reached.
+        unsafe { self.raw.queue_submit2(*queue, &submit, vk::Fence::null()) }
+            .map_err(|result| self.failure(result, "submit work", || passes.first().cloned()))?;
+        self.submitted.store(value, Ordering::Relaxed);
+        Ok(value)
+    }
+
+    /// Waits until the timeline has reached `value`, as long as the device gets on. `begun` tells the last one of `passes` that
+    /// has begun.
+    pub(super) fn wait(&self, value: u64, passes: &[String], begun: impl Fn() -> Option<usize>) -> Result<()> {
+        const LOOK_EVERY: Duration = Duration::from_secs(1);
+        self.check_alive()?;
+        let patience = self.settings.patience;
+        let between_looks = patience.min(LOOK_EVERY).as_nanos() as u64;
+        let (semaphores, values) = ([self.timeline], [value]);
+        let info = vk::SemaphoreWaitInfo::default().semaphores(&semaphores).values(&values);
+        let last_pass = || begun().and_then(|pass| passes.get(pass).cloned());
+        // The breadcrumbs are first read when the first look is due: most work is done by then.
+        let (mut seen, mut since) = (None, Instant::now());
+        loop {
+            // SAFETY: the semaphore is a timeline of this device.
+            match unsafe { self.raw.wait_semaphores(&info, between_looks) } {
+                Ok(()) => return Ok(()),
+                Err(vk::Result::TIMEOUT) => {}
+                Err(result) => return Err(self.failure(result, "finish its work", last_pass)),
+            }
+            let now = begun();
+            if now != seen {
+                (seen, since) = (now, Instant::now());
+            } else if since.elapsed() >= patience {
+                self.is_given_up.store(true, Ordering::Relaxed);
+                return Err(DeviceLost { given_up_after: Some(patience), ..self.lose(last_pass()) }.into());
+            }
+        }
+    }
+
+    /// Whether the device has done everything up to `value`, or never will.
+    pub(super) fn has_done(&self, value: u64) -> bool {
+        // SAFETY: the semaphore is a timeline of this device.
+        unsafe { self.raw.get_semaphore_counter_value(self.timeline) }.is_ok_and(|done| done >= value)
+            || self.is_lost.load(Ordering::Relaxed) && !self.is_given_up.load(Ordering::Relaxed)
+    }
+
+    /// Keeps what a recording held until the device is done with it.
+    pub(super) fn retire(&self, value: u64, parts: impl Any + Send) {
+        lock(&self.retired).push((value, Box::new(parts)));
+    }
+
+    /// Drops the recordings that the device is done with.
+    pub(super) fn collect(&self) {
+        let done: Vec<_> = {
+            let mut retired = lock(&self.retired);
+            if retired.is_empty() {
+                return;
+            }
+            let (done, waiting) = retired.drain(..).partition(|(value, _)| self.has_done(*value));
+            *retired = waiting;
+            done
+        };
+        // Outside of the lock: dropping frees memory, which may come back here.
+        drop(done);
+    }
+
+    /// An error if the device has been lost.
+    pub(super) fn check_alive(&self) -> Result<()> {
+        if self.is_lost.load(Ordering::Relaxed) {
+            return Err(self.lost(None).into());
+        }
+        Ok(())
+    }
+
+    fn lose(&self, pass: Option<String>) -> DeviceLost {
+        self.is_lost.store(true, Ordering::Relaxed);
+        self.lost(pass)
+    }
+
+    fn lost(&self, pass: Option<String>) -> DeviceLost {
+        DeviceLost { device: self.facts.name.clone(), pass, given_up_after: None }
+    }
+
+    /// The error of a Vulkan call that should have let the device `purpose`.
+    pub(super) fn failure(
+        &self,
+        result: vk::Result,
+        purpose: &str,
+        pass: impl FnOnce() -> Option<String>,
+    ) -> anyhow::Error {
+        if result == vk::Result::ERROR_DEVICE_LOST {
+            return self.lose(pass()).into();
+        }
+        anyhow!("the Vulkan device {} failed to {purpose} ({result})", self.facts.name)
+    }
+
+    /// Gives an object the name that capture tools and the validation layer show.
+    pub(super) fn name(&self, handle: impl vk::Handle, name: &str) {
+        if let Some(debug) = &self.debug
+            && let Ok(name) = std::ffi::CString::new(name)
+        {
+            let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
+            // SAFETY: the handle is one of this device and the name lives through the call. A failure costs the name only.
+            let _ = unsafe { debug.set_debug_utils_object_name(&info) };
+        }
+    }
+
+    fn save_pipelines(&self) {
+        let Some(folder) = &self.settings.pipeline_cache else { return };
+        // SAFETY: the cache belongs to this device.
+        let Ok(data) = (unsafe { self.raw.get_pipeline_cache_data(self.pipelines) }) else { return };
+        // A cache that cannot be kept costs time in the next run, nothing else.
+        let _ = fs::create_dir_all(folder).map_err(anyhow::Error::from).and_then(|()| {
+            let path = cache_file(folder, &self.facts);
+            write_atomically(&path, Overwrite::Replace, |file| Ok(file.write_all(&data)?))
+        });
+    }
+}
+
+/// The pipeline cache of a device and driver: another driver version has another file.
+pub(super) fn cache_file(folder: &Path, facts: &DeviceFacts) -> PathBuf {
+    let plain: String = format!("{} {}", facts.name, facts.driver)
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() || c == '.' { c.to_ascii_lowercase() } else { '-' })
+        .collect();
+    folder.join(format!("pipelines-{plain}.bin"))
+}
+
+impl Drop for DeviceShared {
+    fn drop(&mut self) {
+        // SAFETY: every resource and pipeline holds this struct, so all are gone, and the device is idle since `Owner`
+        // went or the last recording was waited for.
+        unsafe {
+            let _ = self.raw.device_wait_idle();
+            self.save_pipelines();
+            self.raw.destroy_pipeline_cache(self.pipelines, None);
+            self.raw.destroy_semaphore(self.timeline, None);
+            drop(lock(&self.allocator).take());
+            self.raw.destroy_device(None);
+        }
+    }
+}
+
+/// A panic elsewhere leaves these values whole: each is replaced or read in one step.
+pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
