@@ -48,19 +48,6 @@ const KNOWN_CIRCLES: &[&[&str]] = &[
     &["body::retarget", "body::retarget::ground"],
     &["check", "check::exchanges", "check::person", "check::timing", "check::turns"],
     &["command", "command::convert", "command::score"],
-<<<<<<< HEAD
-    &["features::device", "features::extractor"],
-=======
-    &[
-        "evaluate",
-        "evaluate::mesh_raster",
-        "evaluate::objective",
-        "evaluate::reference",
-        "evaluate::segments",
-        "evaluate::device::device_evaluator",
-    ],
-    &["evaluate::device::graphics", "evaluate::device::graphics::room"],
->>>>>>> 935b16e (gpu, features: no import in a circle)
     &["geometry::camera", "geometry::tsai"],
     &["motion::bvh", "motion::skeletal"],
     &["report::recording", "report::recording::contents"],

@@ -281,6 +281,7 @@ impl View {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Observation;
     use super::*;
     use image::{Luma, Rgb};
 
