@@ -114,7 +114,12 @@ fn wrong_usage_is_said() {
     fs::write(at.join("p.csv"), "camera,x,y,z,u,v\na,0,0,0,1,1\n").unwrap();
     let base = ["calibrate", "p.csv", "-o", "c.toml", "--size", "640x480"];
     refused(at, &base, "p.csv: camera `a`: 1 different points are too few");
-    refused(at, &[&base[..], &["--hold", "focus"]].concat(), "--hold: found \"focus\", expected aspect, centre");
+    refused(
+        at,
+        &[&base[..], &["--hold", "focus"]].concat(),
+        "--hold: unknown parameter to hold `focus`, the nearest is `",
+    );
+    refused(at, &[&base[..], &["--hold", "focus"]].concat(), "(known: aspect, centre, distortion, k2, k3, tangential)");
     refused(at, &[&base[..], &["--pitch", "0"]].concat(), "--pitch is 0");
     refused(at, &["calibrate", "none.csv", "-o", "c.toml", "--size", "640x480"], "cannot read none.csv");
     let (status, _, error) = pantin(at, &["calibrate", "p.csv", "-o", "c.toml", "--size", "640"]);

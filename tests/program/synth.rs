@@ -120,7 +120,7 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
         ("[[actor]]\nmotion = { file = \"walk.amc\" }", "expected an .asf file"),
         (
             "[[actor]]\nmotion = { file = \"scene.toml\" }",
-            "unknown motion format `toml`, the nearest is `json` (known: bvh, amc, txt, json)",
+            "unknown motion format `toml`, the nearest is `txt` (known: bvh, amc, txt, json)",
         ),
         ("frames = 1\n[[actor]]\nmotion = { file = \"stick.bvh\" }", "no joint that is known to be `pelvis`"),
         ("[[actor]]\nmesh = \"nobody.glb\"", "nobody.glb"),
