@@ -120,7 +120,7 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
         ("[[actor]]\nmotion = { file = \"walk.amc\" }", "expected an .asf file"),
         (
             "[[actor]]\nmotion = { file = \"scene.toml\" }",
-            "unknown motion format `toml`, the nearest is `txt` (known: bvh, amc, txt, json)",
+            "unknown motion format `toml`, the nearest is `amc` (known: bvh, amc, txt, json)",
         ),
         ("frames = 1\n[[actor]]\nmotion = { file = \"stick.bvh\" }", "no joint that is known to be `pelvis`"),
         ("[[actor]]\nmesh = \"nobody.glb\"", "nobody.glb"),
@@ -129,7 +129,7 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
         ("frames = 900\n[[actor]]\nmotion = { gait = \"straight\" }", "in frame 0 he is at"),
         (
             "[[actor]]\n[actor.clothes]\nshirt = { material = \"silk\" }",
-            "unknown material `silk`, the nearest is `skin`",
+            "unknown material `silk`, the nearest is `brick`",
         ),
         ("[room]\nfloor = { }", "neither a colour nor a material"),
     ] {
