@@ -3,8 +3,8 @@
 //! climbs to the best one.
 //!
 //! The crate is a house of rooms (see `docs/ARCHITECTURE.md`); an import runs down the floors, never up:
-//! [`command`] → [`study`] → [`track`] → [`search`], [`bench`], [`check`] → [`evaluate`], [`synth`], [`report`] → [`features`],
-//! [`body`], [`sequence`], [`calibrate`] → [`gpu`], [`motion`], [`geometry`] → [`files`].
+//! [`command`] → [`study`] → [`track`] → [`search`], [`bench`], [`check`] → [`evaluate`], [`synth`], [`report`],
+//! [`observe`] → [`features`], [`body`], [`sequence`], [`texture`], [`calibrate`] → [`gpu`], [`motion`], [`geometry`] → [`files`].
 //!
 //! Lengths are millimetres, angles radians (degrees only in files people edit), images row-major with the origin in the
 //! centre of the top-left pixel. The world frame is right-handed with z up.
@@ -20,6 +20,7 @@ pub mod files;
 pub mod geometry;
 pub mod gpu;
 pub mod motion;
+pub mod observe;
 pub mod report;
 pub mod search;
 pub mod sequence;

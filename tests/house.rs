@@ -24,6 +24,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("evaluate", 3),
     ("synth", 3),
     ("report", 3),
+    ("observe", 3),
     ("features", 2),
     ("body", 2),
     ("sequence", 2),

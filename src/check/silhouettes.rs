@@ -2,11 +2,12 @@
 
 use std::ops::{Range, RangeInclusive};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::Result;
 
 use super::agreement::Moment;
 use super::signed_distance::SignedDistance;
-use crate::features::{Extractor, FeatureSettings, ViewSource};
+use crate::features::ViewFeatures;
+use crate::observe::{Observer, check_background, silhouette_settings};
 use crate::sequence::Sequence;
 
 /// Frames by which a camera may be early or late.
@@ -31,40 +32,18 @@ impl Silhouettes {
     /// When the range is not the sequence's, the features' settings make no sense, a picture cannot be read, or a
     /// background would have to be learnt and no frame comes before the range.
     pub(super) fn read(sequence: &Sequence, frames: Range<usize>, count: usize) -> Result<Self> {
-        let learns = sequence.views.iter().find(|view| view.mask.is_none() && view.background.is_none());
-        if let Some(view) = learns {
-            ensure!(
-                frames.start > 0,
-                "{}: camera {:?} has neither a background picture nor masks, and no frame comes before frame 0 to learn \
-                 the empty scene from: give it one of them, or start later with --frames",
-                sequence.path.display(),
-                view.camera
-            );
-        }
-        let name = sequence.path.display().to_string();
-        let table = sequence.features.as_ref().map(|table| FeatureSettings::from_table(table, &name));
-        let sources = sequence.backgrounds()?.into_iter().zip(&sequence.sizes);
-        let sources = sources.map(|(plate, &[width, height])| ViewSource { width, height, plate }).collect();
-        let settings = table.transpose()?.unwrap_or_default().without_segments();
-        let mut extractor = Extractor::new(settings, sources).context(name)?;
+        check_background(sequence, &frames)?;
         let samples = spread(&frames, count);
-        let mut reader = sequence.read_frames(if learns.is_some() { 0 } else { frames.start }..frames.end)?;
-        let mut features = Vec::new();
-        let mut fields = Vec::new();
-        while let Some(frame) = reader.next_frame()? {
-            if frame.index < frames.start {
-                extractor.prime(&frame.pictures)?;
-                continue;
+        let is_wanted =
+            |frame: usize| samples.iter().any(|&sample| SHIFTS.contains(&(frame as isize - sample as isize)));
+        let mut observer = Observer::new(sequence, silhouette_settings(sequence)?, frames.clone(), frames.start)?;
+        let mut fields = vec![Vec::new(); frames.len()];
+        while let Some(frame) = observer.read()? {
+            if let Some(features) = observer.features(&frame, is_wanted(frame.index))? {
+                let field =
+                    |view: &ViewFeatures| SignedDistance::of(&view.silhouette, view.silhouette.height().div_ceil(ROWS));
+                fields[frame.index - frames.start] = features.iter().map(field).collect();
             }
-            let near = |sample: &usize| SHIFTS.contains(&(frame.index as isize - *sample as isize));
-            let is_wanted = samples.iter().any(near);
-            if is_wanted || learns.is_some() {
-                extractor.extract_into(&frame.pictures, &frame.masks, &mut features)?;
-            }
-            let field = |view: &crate::features::ViewFeatures| {
-                SignedDistance::of(&view.silhouette, view.silhouette.height().div_ceil(ROWS))
-            };
-            fields.push(if is_wanted { features.iter().map(field).collect() } else { Vec::new() });
         }
         Ok(Self { frames, samples, fields })
     }

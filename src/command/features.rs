@@ -2,15 +2,14 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use image::codecs::png::PngEncoder;
 use rayon::prelude::*;
 
 use super::progress::Progress;
-use crate::body::Body;
 use crate::evaluate::device::open_device;
-use crate::features::{Extractor, FeatureSettings, ViewSource};
 use crate::files::{OutputFolder, Overwrite, choices};
+use crate::observe::{Observer, feature_settings};
 use crate::sequence::Sequence;
 use crate::track::FrameRange;
 
@@ -55,42 +54,18 @@ choices! {
 pub fn run(args: &FeaturesArgs) -> Result<()> {
     let sequence = Sequence::open(&args.sequence)?;
     let frames = args.frames.within(sequence.frame_count, &sequence.path.display().to_string())?;
-    let name = args.sequence.display().to_string();
-    let mut settings = match &sequence.features {
-        Some(table) => FeatureSettings::from_table(table, &name)?,
-        None => FeatureSettings::default(),
-    };
-    if settings.segment.iter().any(|segment| !segment.parts.is_empty()) {
-        let body = Body::load(&sequence.body)?;
-        let parts: Vec<_> = body.parts.iter().map(|part| (part.name.as_str(), part.label)).collect();
-        settings.take_labels(&parts).with_context(|| name.clone())?;
-    }
-    let views = sequence
-        .sizes
-        .iter()
-        .zip(sequence.backgrounds()?)
-        .map(|(&[width, height], plate)| ViewSource { width, height, plate })
-        .collect();
-    let mut extractor = Extractor::new(settings, views).with_context(|| name.clone())?;
+    let mut observer = Observer::new(&sequence, feature_settings(&sequence)?, frames.clone(), frames.start)?;
     if args.backend == FeatureBackend::Device
-        && let Err(error) = extractor.move_to(&open_device()?)
+        && let Err(error) = observer.move_to(&open_device()?)
     {
         eprintln!("note: the processor makes the features: {error:#}");
     }
     let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;
 
-    // A background that is learnt needs the frames before the first one wanted.
-    let learns = sequence.views.iter().any(|view| view.background.is_none() && view.mask.is_none());
-    let mut reader = sequence.read_frames(if learns { 0 } else { frames.start }..frames.end)?;
     let mut progress = Progress::new("features", frames.len());
-    let mut features = Vec::new();
-    while let Some(set) = reader.next_frame()? {
-        if set.index < frames.start {
-            extractor.prime(&set.pictures)?;
-            continue;
-        }
-        extractor.extract_into(&set.pictures, &set.masks, &mut features)?;
-        let views = sequence.views.par_iter().zip(&set.pictures).zip(&features);
+    while let Some(set) = observer.read()? {
+        let Some(features) = observer.features(&set, true)? else { continue };
+        let views = sequence.views.par_iter().zip(&set.pictures).zip(&*features);
         views.try_for_each(|((view, picture), features)| -> Result<()> {
             let frame = set.index;
             for (stage, picture) in features.pictures(picture) {

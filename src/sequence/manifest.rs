@@ -63,6 +63,13 @@ pub struct View {
     pub mask: Option<(Source, [u32; 2])>,
 }
 
+impl View {
+    /// Whether it has neither mask nor plate, so that its background must be learnt from the frames.
+    pub fn learns_background(&self) -> bool {
+        self.mask.is_none() && self.background.is_none()
+    }
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ManifestFile {

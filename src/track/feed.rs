@@ -5,12 +5,13 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, bail};
 use image::RgbImage;
 
 use super::stages::Span;
-use crate::features::{Extractor, FeatureSettings, Observation, ViewFeatures, ViewSource};
-use crate::sequence::{FrameReader, Sequence};
+use crate::features::{FeatureSettings, Observation};
+use crate::observe::{Observer, take_observations};
+use crate::sequence::Sequence;
 
 /// Frames that wait for the search. Together with the one being prepared this bounds the memory.
 const AHEAD: usize = 1;
@@ -47,13 +48,10 @@ pub(super) struct Feed {
 }
 
 impl Feed {
-    /// Prepares the frames of `range`, handing over those from `from` on. Views whose background is learnt (neither mask
-    /// nor plate) are shown every frame before `range` as empty scene, and every frame in it: their features depend on all
-    /// of them, so a run that is resumed must see them again.
+    /// Prepares the frames of `range`, handing over those from `from` on.
     ///
     /// # Errors
-    /// When the feature settings make no sense, a plate cannot be read, decoders cannot be started, or a background
-    /// would have to be learnt with no frame to learn it from.
+    /// As [`Observer::new`], or when the thread cannot be started.
     pub(super) fn start(
         sequence: &Sequence,
         settings: FeatureSettings,
@@ -61,12 +59,9 @@ impl Feed {
         from: usize,
         stall_timeout: Duration,
     ) -> Result<Self> {
-        let first_read = if learns_background(sequence, &range)? { 0 } else { from };
-        let extractor =
-            Extractor::new(settings, view_sources(sequence)?).with_context(|| sequence.path.display().to_string())?;
-        let reader = sequence.read_frames(first_read..range.end)?.with_stall_timeout(stall_timeout);
+        let observer = Observer::new(sequence, settings, range, from)?.with_stall_timeout(stall_timeout);
         let (sender, frames) = sync_channel(AHEAD);
-        let mut worker = Worker { reader, extractor, features: Vec::new(), range, from };
+        let mut worker = Worker { observer, from };
         let thread = thread::Builder::new()
             .name("features".to_string())
             .spawn(move || worker.run(&sender))
@@ -101,38 +96,8 @@ impl Drop for Feed {
     }
 }
 
-/// What the features must know of each view.
-///
-/// # Errors
-/// When a plate cannot be read.
-pub(super) fn view_sources(sequence: &Sequence) -> Result<Vec<ViewSource>> {
-    let sources = sequence.backgrounds()?.into_iter().zip(&sequence.sizes);
-    Ok(sources.map(|(plate, &[width, height])| ViewSource { width, height, plate }).collect())
-}
-
-/// Whether a view's background must be learnt from the frames, having neither mask nor plate.
-///
-/// # Errors
-/// When one must and no frame comes before `range` to learn it from.
-pub(super) fn learns_background(sequence: &Sequence, range: &Range<usize>) -> Result<bool> {
-    let Some(view) = sequence.views.iter().find(|view| view.mask.is_none() && view.background.is_none()) else {
-        return Ok(false);
-    };
-    ensure!(
-        range.start > 0,
-        "{}: camera {:?} has neither a background picture nor masks, and no frame comes before frame 0 to learn the empty \
-         scene from: give it one of them, or start later with --frames",
-        sequence.path.display(),
-        view.camera
-    );
-    Ok(true)
-}
-
 struct Worker {
-    reader: FrameReader,
-    extractor: Extractor,
-    features: Vec<ViewFeatures>,
-    range: Range<usize>,
+    observer: Observer,
     from: usize,
 }
 
@@ -152,26 +117,19 @@ impl Worker {
     fn prepare(&mut self) -> Result<Option<Prepared>> {
         loop {
             let start = Instant::now();
-            let Some(frame) = self.reader.next_frame()? else { return Ok(None) };
+            let Some(frame) = self.observer.read()? else { return Ok(None) };
             let read = Span::since(start);
-            if frame.index < self.range.start {
-                self.extractor.prime(&frame.pictures)?;
-                continue;
-            }
             let start = Instant::now();
-            self.extractor.extract_into(&frame.pictures, &frame.masks, &mut self.features)?;
-            let features = Span::since(start);
-            if frame.index >= self.from {
-                let take = |view: &mut ViewFeatures| std::mem::replace(&mut view.observation, Observation::empty(0, 0));
-                return Ok(Some(Prepared {
-                    index: frame.index,
-                    observations: self.features.iter_mut().map(take).collect(),
-                    pictures: frame.pictures,
-                    read,
-                    features,
-                    captured: None,
-                }));
-            }
+            let Some(features) = self.observer.features(&frame, frame.index >= self.from)? else { continue };
+            let made = Span::since(start);
+            return Ok(Some(Prepared {
+                index: frame.index,
+                observations: take_observations(features),
+                pictures: frame.pictures,
+                read,
+                features: made,
+                captured: None,
+            }));
         }
     }
 }

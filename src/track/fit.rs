@@ -10,13 +10,13 @@ use anyhow::{Context, Result, bail, ensure};
 use rayon::prelude::*;
 
 use super::hull::Hull;
-use super::plan::feature_settings;
 use super::{FrameRange, ObjectiveChoice};
 use crate::body::{Body, PoseTable, Proportions};
 use crate::evaluate::cpu::{Cpu, InstructionSet};
 use crate::evaluate::{Components, Evaluator, Objective};
-use crate::features::{Extractor, Observation, ViewSource};
+use crate::features::Observation;
 use crate::geometry::Camera;
+use crate::observe::{Observer, silhouette_settings, take_observations};
 use crate::search::{SearchSettings, SearchSpace};
 use crate::sequence::Sequence;
 
@@ -190,25 +190,18 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
 
 /// What was seen in some frames: `[frame][view]`.
 fn observe(sequence: &Sequence, frames: &[usize]) -> Result<Vec<Vec<Observation>>> {
-    let plates = sequence.backgrounds()?;
-    if let Some((view, _)) = sequence.views.iter().zip(&plates).find(|(v, plate)| v.mask.is_none() && plate.is_none()) {
+    if let Some(view) = sequence.views.iter().find(|view| view.learns_background()) {
         bail!(
             "{}: camera {:?} has neither a background picture nor masks, expected one of them to measure a person with",
             sequence.path.display(),
             view.camera
         );
     }
-    let sources = plates.into_iter().zip(&sequence.sizes);
-    let sources = sources.map(|(plate, &[width, height])| ViewSource { width, height, plate }).collect();
-    let mut extractor = Extractor::new(feature_settings(sequence)?.without_segments(), sources)?;
-    let (Some(first), Some(last)) = (frames.first(), frames.last()) else { return Ok(Vec::new()) };
-    let mut reader = sequence.read_frames(*first..last + 1)?;
+    let (Some(&first), Some(last)) = (frames.first(), frames.last()) else { return Ok(Vec::new()) };
+    let mut observer = Observer::new(sequence, silhouette_settings(sequence)?, first..last + 1, first)?;
     let mut observations = Vec::new();
-    while let Some(frame) = reader.next_frame()? {
-        if frames.contains(&frame.index) {
-            let features = extractor.extract(&frame.pictures, &frame.masks)?;
-            observations.push(features.into_iter().map(|view| view.observation).collect());
-        }
+    while let Some(frame) = observer.read()? {
+        observations.extend(observer.features(&frame, frames.contains(&frame.index))?.map(take_observations));
     }
     Ok(observations)
 }

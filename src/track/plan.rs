@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 
-use super::feed::learns_background;
 use super::searcher::Searcher;
 use super::{Backend, BuiltBackend, TrackSettings};
 use crate::body::{Body, Mesh, PoseTable};
 use crate::evaluate::Objective;
 use crate::features::FeatureSettings;
 use crate::gpu::Timing;
+use crate::observe::{check_background, feature_settings};
 use crate::search::{SearchSettings, SearchSpace};
 use crate::sequence::Sequence;
 
@@ -48,10 +48,8 @@ impl Plan {
         u32::try_from(range.end).map_err(|_| anyhow::anyhow!("{name} has {} frames, too many", range.end))?;
         let body = Body::load(&sequence.body)?;
         let objective = settings.objective.resolve(sequence.objective.as_ref(), &name)?;
-        let mut features = feature_settings(sequence)?;
-        let parts: Vec<_> = body.parts.iter().map(|part| (part.name.as_str(), part.label)).collect();
-        features.take_labels(&parts).with_context(|| name.clone())?;
-        learns_background(sequence, &range)?;
+        let features = feature_settings(sequence)?;
+        check_background(sequence, &range)?;
         let Some(start_path) = settings.start.clone().or_else(|| sequence.start.clone()) else {
             bail!("{name} names no start pose, expected a poses.csv as `start` there or as --start");
         };
@@ -98,13 +96,6 @@ impl Plan {
         let interval = 1.0 / self.fps;
         self.space.spread(self.spread * if is_first_frame { interval.max(START_AGE) } else { interval })
     }
-}
-
-/// The feature settings of a sequence: its `[features]` table over the defaults.
-pub(super) fn feature_settings(sequence: &Sequence) -> Result<FeatureSettings> {
-    let table = sequence.features.as_ref();
-    let name = sequence.path.display().to_string();
-    Ok(table.map(|table| FeatureSettings::from_table(table, &name)).transpose()?.unwrap_or_default())
 }
 
 /// The pose to start with: the file's only one, or that of the first frame.

@@ -3,20 +3,19 @@
 use std::io::Write;
 use std::path::Path;
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 
 use super::Backend;
-use super::feed::{Feed, Frames};
 use super::overlay::file_stem;
-use super::plan::feature_settings;
 use crate::body::{Body, Model, PoseTable};
 use crate::evaluate::{Components, Evaluator, Objective, Reference, SegmentSums};
 use crate::features::Observation;
 use crate::files::OutputFolder;
 use crate::geometry::Camera;
-use crate::sequence::{STALL_TIMEOUT, Sequence};
+use crate::observe::{Observer, check_background, feature_settings, take_observations};
+use crate::sequence::Sequence;
 
 /// Poses scored at once: enough to keep every worker busy, and a bound on the memory.
 const BATCH: usize = 4096;
@@ -43,14 +42,17 @@ impl ScoredFrame {
             sequence.path.display(),
             sequence.frame_count.saturating_sub(1)
         );
-        let mut feed = Feed::start(sequence, feature_settings(sequence)?, frame..frame + 1, frame, STALL_TIMEOUT)?;
-        let Some(prepared) = feed.next()? else {
-            bail!("{} ended before frame {frame}", sequence.path.display());
-        };
+        let range = frame..frame + 1;
+        check_background(sequence, &range)?;
+        let mut observer = Observer::new(sequence, feature_settings(sequence)?, range, frame)?;
+        let mut seen = None;
+        while let Some(set) = observer.read()? {
+            seen = observer.features(&set, true)?.map(take_observations);
+        }
         Ok(Self {
             body: Body::load(&sequence.body)?,
             cameras: sequence.cameras.clone(),
-            observations: prepared.observations,
+            observations: seen.with_context(|| format!("{} ended before frame {frame}", sequence.path.display()))?,
         })
     }
 

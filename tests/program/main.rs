@@ -20,6 +20,7 @@ mod evaluate;
 mod example_bodies;
 mod features;
 mod losses;
+mod observe;
 mod reliability;
 mod report_in_browser;
 #[cfg(feature = "rerun")]

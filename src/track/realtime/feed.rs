@@ -12,9 +12,10 @@ use super::processing::Processing;
 use super::slot::Slot;
 use super::tally::Counts;
 use super::timeline::{Row, Timeline};
-use crate::features::{Extractor, FeatureSettings};
+use crate::features::FeatureSettings;
+use crate::observe::view_extractors;
 use crate::sequence::{Captured, LiveReader, Playback, Player, Sequence};
-use crate::track::feed::{Frames, Prepared, learns_background, view_sources};
+use crate::track::feed::{Frames, Prepared};
 
 /// Where captured sets come from.
 pub(super) enum Acquisition {
@@ -89,12 +90,12 @@ impl RealtimeFeed {
     /// frames before the range, which a background is learnt from, cannot be read.
     pub(super) fn start(
         sequence: &Sequence,
-        settings: FeatureSettings,
+        settings: &FeatureSettings,
         input: &Input,
         counts: &Arc<Counts>,
         timeline: &Arc<Timeline>,
     ) -> Result<Self> {
-        let extractors = extractors(sequence, settings, &input.range)?;
+        let extractors = view_extractors(sequence, settings, input.range.start)?;
         let processing = Processing::start(extractors, timeline)?;
         let mut acquisition = Acquisition::open(sequence, input)?;
         let captured: Arc<Slot<Captured>> = Arc::default();
@@ -175,24 +176,6 @@ impl<T> Drop for Closes<T> {
     fn drop(&mut self) {
         self.0.close();
     }
-}
-
-/// An extractor a view; those that learn the background have seen every frame before the range.
-fn extractors(sequence: &Sequence, settings: FeatureSettings, range: &Range<usize>) -> Result<Vec<Extractor>> {
-    let mut extractors = view_sources(sequence)?
-        .into_iter()
-        .map(|source| Extractor::new(settings.clone(), vec![source]))
-        .collect::<Result<Vec<_>>>()
-        .with_context(|| sequence.path.display().to_string())?;
-    if learns_background(sequence, range)? {
-        let mut reader = sequence.read_frames(0..range.start)?;
-        while let Some(frame) = reader.next_frame()? {
-            for (extractor, picture) in extractors.iter_mut().zip(&frame.pictures) {
-                extractor.prime(std::slice::from_ref(picture))?;
-            }
-        }
-    }
-    Ok(extractors)
 }
 
 impl Frames for RealtimeFeed {

@@ -122,7 +122,7 @@ impl Realtime {
             fps: sequence.fps * rate,
             stall_timeout: self.stall_timeout,
         };
-        RealtimeFeed::start(sequence, plan.features.clone(), &input, &self.counts, &self.timeline)
+        RealtimeFeed::start(sequence, &plan.features, &input, &self.counts, &self.timeline)
     }
 
     /// How to search a frame after the frame `before`.
