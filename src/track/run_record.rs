@@ -1,17 +1,21 @@
 //! `run.toml`: what a run was made from, enough to run it again, and to refuse going on with another one.
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fs;
+use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail};
+use serde::{Serialize, Serializer};
 use toml::{Table, Value};
 
 use super::journal::checksum;
 use super::plan::Plan;
-use super::{Backend, TrackSettings};
+use super::{Backend, RealtimeSettings, TrackSettings};
 use crate::body::{MeshSource, Model};
 use crate::evaluate::Objective;
 use crate::files::{OutputFolder, read_toml};
-use crate::search::SearchKind;
+use crate::search::{AnnealingSettings, FilterSettings, HierarchySettings, PsoSettings, SearchKind, SearchSettings};
 use crate::sequence::{Sequence, Source};
 
 /// Its name in a track's folder.
@@ -27,12 +31,15 @@ pub(super) struct RunRecord {
 
 impl RunRecord {
     pub(super) fn new(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Result<Self> {
-        let mut table = Table::new();
-        table.insert("run".into(), Value::Table(run(sequence, settings, plan)));
-        table.insert("settings".into(), Value::Table(settings_table(sequence, settings, plan)));
-        table.insert("inputs".into(), Value::Table(inputs(sequence, settings, plan)?));
-        table.insert("machine".into(), Value::Table(machine(plan)));
-        Ok(Self { table })
+        let contents = Contents {
+            run: Run::of(sequence, settings, plan),
+            settings: Settings::of(sequence, settings, plan),
+            inputs: Inputs::of(sequence, settings, plan)?,
+            machine: Machine::of(plan),
+        };
+        // JSON's text has the shortest decimal of a single-precision number, TOML's would have that of its double.
+        let text = serde_json::to_string(&contents).context("cannot write run.toml")?;
+        Ok(Self { table: serde_json::from_str(&text).context("cannot write run.toml")? })
     }
 
     /// Writes it into the folder.
@@ -97,120 +104,197 @@ fn plain(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_string)
 }
 
-fn run(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Table {
-    let Objective { kind, beta, w1, w2 } = plan.objective;
-    let search = &settings.search;
-    let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
-    let command = format!(
-        "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-         --refine {} --predict {} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}{}",
-        sequence.path.display(),
-        plan.range.start,
-        plan.range.end,
-        search.kind.name(),
-        search.particles,
-        search.iterations,
-        search.seed,
-        settings.spread,
-        search.refine,
-        settings.predict.name(),
-        yes_or_no(settings.recover),
-        kind.name(),
-        plan.backend.evaluator.name(),
-        settings.model.name(),
-        settings.overlay_every,
-        if settings.recording { " --rerun" } else { "" },
-        settings.realtime.as_ref().map(|realtime| realtime.flags()).unwrap_or_default(),
-    );
-    Table::from_iter([
-        ("pantin".to_string(), Value::from(env!("CARGO_PKG_VERSION"))),
-        ("sequence".to_string(), Value::from(sequence.path.display().to_string())),
-        ("start".to_string(), Value::from(plan.start_path.display().to_string())),
-        ("command".to_string(), Value::from(command)),
-    ])
+/// What the file holds.
+#[derive(Serialize)]
+struct Contents<'a> {
+    run: Run,
+    settings: Settings<'a>,
+    inputs: Inputs<'a>,
+    machine: Machine<'a>,
 }
 
-fn settings_table(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Table {
-    let search = &settings.search;
-    let Objective { kind, beta, w1, w2 } = plan.objective;
-    let mut table = Table::new();
-    let mut put = |name: &str, value: Value| table.insert(name.to_string(), value);
-    put("frames", Value::from(format!("{}..{}", plan.range.start, plan.range.end)));
-    put("search", Value::from(search.kind.name()));
-    put("particles", integer(search.particles as u64));
-    put("iterations", integer(search.iterations as u64));
-    put("seed", integer(search.seed));
-    put("spread", Value::from(settings.spread));
-    put("refine", integer(search.refine as u64));
-    put("predict", Value::from(settings.predict.name()));
-    put("recover", Value::from(yes_or_no(settings.recover)));
-    match search.kind {
-        SearchKind::ParticleFilter => {
-            put("sigma", single(search.filter.sigma));
-        }
-        SearchKind::Annealed => {
-            put("survival", single(search.annealing.survival));
-            put("last_noise", single(search.annealing.last_noise));
-        }
-        SearchKind::CmaEs => {
-            put("first_sigma", single(search.cma.sigma));
-            put("generation", integer(search.cma.generation as u64));
-        }
-        SearchKind::Pso | SearchKind::Hierarchical => {
-            put("inertia", Value::from(search.pso.inertia.map(single).to_vec()));
-            put("cognitive", single(search.pso.cognitive));
-            put("social", single(search.pso.social));
+#[derive(Serialize)]
+struct Run {
+    pantin: &'static str,
+    sequence: String,
+    start: String,
+    command: String,
+}
+
+impl Run {
+    fn of(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Self {
+        let Objective { kind, beta, w1, w2 } = plan.objective;
+        let search = &settings.search;
+        let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
+        let command = format!(
+            "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
+             --refine {} --predict {} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}{}",
+            sequence.path.display(),
+            plan.range.start,
+            plan.range.end,
+            search.kind.name(),
+            search.particles,
+            search.iterations,
+            search.seed,
+            settings.spread,
+            search.refine,
+            settings.predict.name(),
+            yes_or_no(settings.recover),
+            kind.name(),
+            plan.backend.evaluator.name(),
+            settings.model.name(),
+            settings.overlay_every,
+            if settings.recording { " --rerun" } else { "" },
+            settings.realtime.as_ref().map(|realtime| realtime.flags()).unwrap_or_default(),
+        );
+        Self {
+            pantin: env!("CARGO_PKG_VERSION"),
+            sequence: sequence.path.display().to_string(),
+            start: plan.start_path.display().to_string(),
+            command,
         }
     }
-    if search.kind == SearchKind::Hierarchical {
-        put("joint_share", single(search.hierarchy.joint_share));
-        put("joint_spread", single(search.hierarchy.joint_spread));
+}
+
+#[derive(Serialize)]
+struct Settings<'a> {
+    frames: String,
+    search: &'static str,
+    particles: usize,
+    iterations: usize,
+    #[serde(serialize_with = "whole")]
+    seed: u64,
+    spread: f64,
+    refine: usize,
+    predict: &'static str,
+    recover: &'static str,
+    #[serde(flatten)]
+    constants: Constants,
+    objective: &'static str,
+    beta: f32,
+    w1: f32,
+    w2: f32,
+    backend: &'static str,
+    model: &'static str,
+    overlay_every: usize,
+    #[serde(flatten)]
+    realtime: Option<Realtime>,
+    features: Cow<'a, Table>,
+}
+
+/// What only the search of the run uses.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Constants {
+    Filter(FilterSettings),
+    Annealing(AnnealingSettings),
+    Evolution {
+        first_sigma: f32,
+        generation: usize,
+    },
+    Swarm(PsoSettings),
+    Hierarchy {
+        #[serde(flatten)]
+        swarm: PsoSettings,
+        #[serde(flatten)]
+        hierarchy: HierarchySettings,
+    },
+}
+
+impl Constants {
+    fn of(&SearchSettings { kind, pso, filter, annealing, hierarchy, cma, .. }: &SearchSettings) -> Self {
+        match kind {
+            SearchKind::ParticleFilter => Self::Filter(filter),
+            SearchKind::Annealed => Self::Annealing(annealing),
+            SearchKind::CmaEs => Self::Evolution { first_sigma: cma.sigma, generation: cma.generation },
+            SearchKind::Pso => Self::Swarm(pso),
+            SearchKind::Hierarchical => Self::Hierarchy { swarm: pso, hierarchy },
+        }
     }
-    put("objective", Value::from(kind.name()));
-    put("beta", single(beta));
-    put("w1", single(w1));
-    put("w2", single(w2));
-    put("backend", Value::from(plan.backend.evaluator.name()));
-    put("model", Value::from(settings.model.name()));
-    put("overlay_every", integer(settings.overlay_every as u64));
-    if let Some(realtime) = &settings.realtime {
-        put("rate", Value::from(realtime.rate));
-        put("loop", Value::from(realtime.repeat.to_string()));
-        put("deadline", Value::from(realtime.deadline.map_or_else(|| "none".to_string(), |time| format!("{time:?}"))));
+}
+
+#[derive(Serialize)]
+struct Realtime {
+    rate: f64,
+    r#loop: String,
+    deadline: String,
+}
+
+impl<'a> Settings<'a> {
+    fn of(sequence: &'a Sequence, settings: &TrackSettings, plan: &Plan) -> Self {
+        let search = &settings.search;
+        let Objective { kind, beta, w1, w2 } = plan.objective;
+        let realtime = |realtime: &RealtimeSettings| Realtime {
+            rate: realtime.rate,
+            r#loop: realtime.repeat.to_string(),
+            deadline: realtime.deadline.map_or_else(|| "none".to_string(), |time| format!("{time:?}")),
+        };
+        Self {
+            frames: format!("{}..{}", plan.range.start, plan.range.end),
+            search: search.kind.name(),
+            particles: search.particles,
+            iterations: search.iterations,
+            seed: search.seed,
+            spread: settings.spread,
+            refine: search.refine,
+            predict: settings.predict.name(),
+            recover: yes_or_no(settings.recover),
+            constants: Constants::of(search),
+            objective: kind.name(),
+            beta,
+            w1,
+            w2,
+            backend: plan.backend.evaluator.name(),
+            model: settings.model.name(),
+            overlay_every: settings.overlay_every,
+            realtime: settings.realtime.as_ref().map(realtime),
+            features: sequence.features.as_ref().map_or_else(Cow::default, Cow::Borrowed),
+        }
     }
-    put("features", Value::Table(sequence.features.clone().unwrap_or_default()));
-    table
 }
 
 /// What the run reads: small inputs by a checksum of what they hold, pictures by where they are and how large.
-fn inputs(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Result<Table> {
-    let mut table = Table::new();
-    let mut put = |name: &str, value: Value| table.insert(name.to_string(), value);
-    put("name", Value::from(sequence.name.clone()));
-    put("fps", Value::from(sequence.fps));
-    put("scale", Value::from(sequence.scale));
-    put("frame_count", integer(sequence.frame_count as u64));
-    let body = fs::read(&sequence.body).with_context(|| format!("cannot read {}", sequence.body.display()))?;
-    put("body", sum(&body));
-    if let (Model::Mesh, Some(MeshSource::Skinned { file, .. })) = (settings.model, &plan.body.mesh) {
-        let mesh = fs::read(file).with_context(|| format!("cannot read {}", file.display()))?;
-        put("mesh", sum(&mesh));
-    }
-    put("start_pose", sum(bytemuck::cast_slice(&plan.start)));
-    // The shortest text of every number, so equal exactly where the cameras are.
-    put("cameras", sum(format!("{:?}", sequence.cameras).as_bytes()));
-    for view in &sequence.views {
-        let mut files = vec![described(&view.source)?];
-        if let Some(background) = &view.background {
-            let plate = fs::read(background).with_context(|| format!("cannot read {}", background.display()))?;
-            files.push(plain(&sum(&plate)));
+#[derive(Serialize)]
+struct Inputs<'a> {
+    name: &'a str,
+    fps: f64,
+    scale: f64,
+    frame_count: usize,
+    body: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mesh: Option<String>,
+    start_pose: String,
+    cameras: String,
+    #[serde(flatten)]
+    views: BTreeMap<String, Vec<String>>,
+}
+
+impl<'a> Inputs<'a> {
+    fn of(sequence: &'a Sequence, settings: &TrackSettings, plan: &Plan) -> Result<Self> {
+        let mesh = match (settings.model, &plan.body.mesh) {
+            (Model::Mesh, Some(MeshSource::Skinned { file, .. })) => Some(sum_of(file)?),
+            _ => None,
+        };
+        let mut views = BTreeMap::new();
+        for view in &sequence.views {
+            let mut files = vec![described(&view.source)?];
+            files.extend(view.background.as_deref().map(sum_of).transpose()?);
+            files.extend(view.mask.as_ref().map(|(mask, _)| described(mask)).transpose()?);
+            views.insert(format!("view {}", view.camera), files);
         }
-        if let Some((mask, _)) = &view.mask {
-            files.push(described(mask)?);
-        }
-        put(&format!("view {}", view.camera), Value::from(files));
+        Ok(Self {
+            name: &sequence.name,
+            fps: sequence.fps,
+            scale: sequence.scale,
+            frame_count: sequence.frame_count,
+            body: sum_of(&sequence.body)?,
+            mesh,
+            start_pose: sum(bytemuck::cast_slice(&plan.start)),
+            // The shortest text of every number, so equal exactly where the cameras are.
+            cameras: sum(format!("{:?}", sequence.cameras).as_bytes()),
+            views,
+        })
     }
-    Ok(table)
 }
 
 /// A source by its name and size, which tell a replaced one without reading it.
@@ -230,19 +314,33 @@ fn described(source: &Source) -> Result<String> {
     }
 }
 
-fn machine(plan: &Plan) -> Table {
-    let processors = std::thread::available_parallelism().map_or(1, usize::from);
-    Table::from_iter([
-        ("os".to_string(), Value::from(std::env::consts::OS)),
-        ("architecture".to_string(), Value::from(std::env::consts::ARCH)),
-        ("processors".to_string(), integer(processors as u64)),
-        ("variant".to_string(), Value::from(plan.backend.evaluator.variant())),
-        ("backend_reason".to_string(), Value::from(plan.backend.reason.clone())),
-    ])
+#[derive(Serialize)]
+struct Machine<'a> {
+    os: &'static str,
+    architecture: &'static str,
+    processors: usize,
+    variant: &'static str,
+    backend_reason: &'a str,
 }
 
-fn sum(bytes: &[u8]) -> Value {
-    Value::from(format!("{:016x} ({} bytes)", checksum(bytes), bytes.len()))
+impl<'a> Machine<'a> {
+    fn of(plan: &'a Plan) -> Self {
+        Self {
+            os: std::env::consts::OS,
+            architecture: std::env::consts::ARCH,
+            processors: std::thread::available_parallelism().map_or(1, usize::from),
+            variant: plan.backend.evaluator.variant(),
+            backend_reason: &plan.backend.reason,
+        }
+    }
+}
+
+fn sum(bytes: &[u8]) -> String {
+    format!("{:016x} ({} bytes)", checksum(bytes), bytes.len())
+}
+
+fn sum_of(file: &Path) -> Result<String> {
+    Ok(sum(&fs::read(file).with_context(|| format!("cannot read {}", file.display()))?))
 }
 
 fn yes_or_no(value: bool) -> &'static str {
@@ -250,11 +348,9 @@ fn yes_or_no(value: bool) -> &'static str {
 }
 
 /// TOML's integers end at 2^63; a larger one is kept as text.
-fn integer(value: u64) -> Value {
-    i64::try_from(value).map_or_else(|_| Value::from(value.to_string()), Value::from)
-}
-
-/// The shortest decimal of a single-precision number.
-fn single(value: f32) -> Value {
-    Value::from(value.to_string().parse::<f64>().unwrap_or(f64::from(value)))
+fn whole<S: Serializer>(value: &u64, serializer: S) -> Result<S::Ok, S::Error> {
+    match i64::try_from(*value) {
+        Ok(value) => serializer.serialize_i64(value),
+        Err(_) => serializer.collect_str(value),
+    }
 }
