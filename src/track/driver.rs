@@ -6,112 +6,25 @@ use anyhow::{Context, Result, anyhow};
 use serde_json::json;
 
 use super::confidence::{Confidence, LossRule, seen_joints};
-use super::feed::{Feed, Frames, Prepared};
-use super::journal::{Extent, FrameResult, Journal, Numbering};
+use super::feed::Prepared;
+use super::journal::{Extent, FrameResult, Journal};
 use super::overlay::Overlay;
-use super::page::write_report;
+use super::pace::{Finished, Offline, Pace};
 use super::plan::Plan;
-use super::realtime::{Realtime, RealtimeSummary};
+use super::progress::{FrameDone, Progress, RunStart};
+use super::realtime::Realtime;
 use super::recovery::{LostFrame, Recovery};
 use super::results::Held;
 use super::run_record::RunRecord;
 use super::searcher::{Searched, Start};
 use super::stages::{Span, Stages, Thread};
+use super::summary::{TrackSummary, lost_sentence, mean};
 use super::truth::Truth;
-use super::{Backend, StageSummary, TrackSettings, results, run_record};
+use super::{Backend, TrackSettings, folder, results, run_record};
 use crate::evaluate::Components;
 use crate::files::OutputFolder;
 use crate::gpu::DeviceLost;
-use crate::motion::TrajectoryError;
 use crate::sequence::Sequence;
-
-/// What a run tells whoever waits for it.
-pub trait Progress {
-    /// The run begins.
-    fn start(&mut self, _run: &RunStart) {}
-
-    /// A frame is done and safe.
-    fn frame(&mut self, _frame: &FrameDone) {}
-
-    /// Whether to stop after the frame in work.
-    fn should_stop(&self) -> bool {
-        false
-    }
-}
-
-/// Nobody waits.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Silent;
-
-impl Progress for Silent {}
-
-/// How a run begins.
-#[derive(Clone, Debug)]
-pub struct RunStart {
-    /// The first frame.
-    pub first_frame: usize,
-    /// Frames in all; none where a live source has no end.
-    pub frames: Option<usize>,
-    /// Frames that an earlier run did already.
-    pub done: usize,
-    /// Which evaluator, and why.
-    pub backend: String,
-    /// Sentences the user should read.
-    pub warnings: Vec<String>,
-}
-
-/// A frame that was tracked.
-#[derive(Clone, Debug)]
-pub struct FrameDone {
-    /// Its index.
-    pub frame: usize,
-    /// Frames done, those of an earlier run and those that real time left out included.
-    pub done: usize,
-    /// The fitness of its pose.
-    pub fitness: f32,
-    /// Its confidence, in [0, 1].
-    pub confidence: f64,
-    /// Mean error against the truth so far, mm.
-    pub mean_error: Option<f64>,
-}
-
-/// The error of a whole track.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ErrorSummary {
-    /// `markers` or `joints`.
-    pub compared: &'static str,
-    /// Mean over frames, then over points, mm; and everything by point and frame.
-    pub error: TrajectoryError,
-}
-
-/// What a run yielded.
-#[derive(Clone, Debug)]
-pub struct TrackSummary {
-    /// The first frame.
-    pub first_frame: usize,
-    /// Every frame that was tracked, in order; none after a run in real time that was too long to be kept.
-    pub frames: Vec<FrameResult>,
-    /// Frames of them that this run did itself, not an earlier one it went on from.
-    pub new_frames: usize,
-    /// Frames a second of this run.
-    pub frames_per_second: f64,
-    /// Mean fitness.
-    pub mean_fitness: f64,
-    /// Mean confidence.
-    pub mean_confidence: f64,
-    /// The error, where there is a truth to compare with.
-    pub error: Option<ErrorSummary>,
-    /// Where the time went.
-    pub stages: Vec<StageSummary>,
-    /// The evaluator's name and variant.
-    pub backend: [&'static str; 2],
-    /// Sentences the user should read.
-    pub warnings: Vec<String>,
-    /// The next frame, when the run was asked to stop before its end; the folder then holds the journal alone.
-    pub stopped_before: Option<usize>,
-    /// How a run in real time kept time.
-    pub realtime: Option<RealtimeSummary>,
-}
 
 /// Tracks a sequence and fills `output` with what INTERFACES calls a track's folder.
 ///
@@ -152,11 +65,8 @@ pub fn track(
     let journal_path = output.path().join(Journal::NAME);
     let (journal, done) = if settings.resume {
         record.check_same(output)?;
-        let (dofs, views) = (plan.body.dof_count(), sequence.cameras.len());
-        let extent = Extent { dofs, views, joints: plan.body.joint_names().len() };
-        let numbering =
-            if settings.realtime.is_some() { Numbering::Rising } else { Numbering::EachFrom(plan.range.start) };
-        let (journal, done) = Journal::resume(&journal_path, numbering, extent)?;
+        let extent = Extent::of(&plan.body, &sequence.cameras);
+        let (journal, done) = Journal::resume(&journal_path, settings.numbering(plan.range.start), extent)?;
         if settings.search.kind.carries_on() && !done.is_empty() && done.len() < plan.range.len() {
             warnings.push(
                 "the particle filter carries its particles on, so the run begins at its first frame again".into(),
@@ -166,17 +76,17 @@ pub fn track(
             (journal, done)
         }
     } else {
-        results::clear(output)?;
+        folder::clear(output)?;
         record.write(output)?;
         (Journal::create(&journal_path)?, Vec::new())
     };
     warnings.extend(plan.search.note(plan.backend.evaluator.as_mut()));
     let stages = Stages::new(&output.file("trace.json")?)?;
-    let realtime = match &settings.realtime {
+    let pace: Box<dyn Pace> = match &settings.realtime {
         Some(realtime) => {
-            Some(Realtime::new(sequence, settings, realtime, output, &plan.body, &mut plan.range, &done)?)
+            Box::new(Realtime::new(sequence, settings, realtime, output, &plan.body, &mut plan.range, &done)?)
         }
-        None => None,
+        None => Box::new(Offline::new(settings)),
     };
     progress.start(&RunStart {
         first_frame: plan.range.start,
@@ -188,8 +98,7 @@ pub fn track(
     plan.backend.evaluator.measure_passes(settings.trace)?;
     let confidence = Confidence::new(&plan.body, LossRule::default());
     let recovery = Recovery::new(&plan.body, &sequence.cameras, &settings.search, &plan.space);
-    // A wider search takes the time that real time has not.
-    let recovery = (settings.recover && realtime.is_none()).then_some(recovery);
+    let recovery = settings.may_recover().then_some(recovery);
     let mut run = Run {
         sequence,
         settings,
@@ -202,11 +111,11 @@ pub fn track(
         stages,
         confidence,
         recovery,
-        realtime,
+        pace,
     };
     run.take_over(done)?;
     let searched = run.search_all(progress);
-    if run.realtime.is_none() || run.done == 0 {
+    if !run.pace.ends_anywhere() || run.done == 0 {
         searched?;
         return run.finish(&record, warnings);
     }
@@ -225,7 +134,7 @@ struct Run<'a> {
     plan: Plan,
     truth: Option<Truth>,
     journal: Journal,
-    /// The frames done; in real time the last of them, so that memory does not grow.
+    /// The frames done that the pace keeps in memory.
     frames: Vec<FrameResult>,
     /// How many are done.
     done: usize,
@@ -233,7 +142,7 @@ struct Run<'a> {
     confidence: Confidence,
     /// The search for a lost person, where one is asked for.
     recovery: Option<Recovery>,
-    realtime: Option<Realtime>,
+    pace: Box<dyn Pace>,
 }
 
 impl Run<'_> {
@@ -270,29 +179,14 @@ impl Run<'_> {
     }
 
     fn keep(&mut self, result: FrameResult) {
-        if self.realtime.is_some() {
-            self.frames.clear();
-        }
-        self.frames.push(result);
+        self.pace.keep(&mut self.frames, result);
         self.done += 1;
     }
 
     /// Mean error against the truth up to and with this frame, mm.
     fn running_error(&mut self, result: &FrameResult) -> Option<f64> {
-        let frame = self.realtime.as_ref().map_or(result.frame, |realtime| realtime.in_sequence(result.frame));
+        let frame = self.pace.in_sequence(result.frame);
         self.truth.as_mut()?.running_error(&self.plan.body, frame, &result.pose, self.sequence.fps)
-    }
-
-    /// Where the frames that are left come from.
-    fn feed(&self) -> Result<Box<dyn Frames>> {
-        let (sequence, next) = (self.sequence, self.next_frame());
-        Ok(match &self.realtime {
-            Some(realtime) => Box::new(realtime.feed(sequence, &self.plan, next)?),
-            None => {
-                let Plan { features, range, .. } = &self.plan;
-                Box::new(Feed::start(sequence, features.clone(), range.clone(), next, self.settings.stall_timeout)?)
-            }
-        })
     }
 
     /// Searches the frames that are left, until the last or until asked to stop.
@@ -300,7 +194,7 @@ impl Run<'_> {
         if self.next_frame() >= self.plan.range.end {
             return Ok(());
         }
-        let mut feed = self.feed()?;
+        let mut feed = self.pace.feed(self.sequence, &self.plan, self.next_frame())?;
         loop {
             let start = Instant::now();
             let Some(prepared) = feed.next()? else { break };
@@ -316,16 +210,12 @@ impl Run<'_> {
                 overlay.write(self.output, frame, &prepared.pictures, &result.pose)?;
             }
             self.journal.append(&result)?;
-            if let Some(realtime) = &mut self.realtime {
-                realtime.deliver(&self.plan.body, &result, prepared.captured)?;
-            }
+            self.pace.deliver(&self.plan.body, &result, prepared.captured)?;
             self.stages.record("output", Thread::Search, frame, Span::since(start))?;
             let (confidence, mean_error) = self.judge(&result);
             let fitness = result.fitness;
             self.keep(result);
-            if let Some(realtime) = &mut self.realtime {
-                realtime.judge(fitness, confidence);
-            }
+            self.pace.judge(fitness, confidence);
             let done = frame + 1 - self.plan.range.start;
             progress.frame(&FrameDone { frame, done, fitness, confidence, mean_error });
             if progress.should_stop() {
@@ -351,17 +241,14 @@ impl Run<'_> {
         let frame = prepared.index;
         let begin = Instant::now();
         let before = self.frames.last().map(|result| result.frame);
-        let turn = self.realtime.as_ref().map(|realtime| realtime.turn(prepared, before, self.sequence.fps));
-        let starts_anew = turn.map_or(before.is_none(), |turn| turn.starts_anew);
-        let mut spread = self.plan.spread(starts_anew)?;
-        if let Some(turn) = turn {
-            spread.iter_mut().for_each(|deviation| *deviation *= turn.widen);
-            let [particles, iterations] = turn.size;
-            self.plan.resize(particles, iterations)?;
-        }
+        let turn = self.pace.turn(prepared, before, self.sequence.fps);
+        let mut spread = self.plan.spread(turn.starts_anew)?;
+        spread.iter_mut().for_each(|deviation| *deviation *= turn.widen);
+        let [particles, iterations] = turn.size;
+        self.plan.resize(particles, iterations)?;
         let Plan { start, objective, backend, search, space, body, .. } = &mut self.plan;
         let predicted = match &*self.frames {
-            _ if starts_anew => start.clone(),
+            _ if turn.starts_anew => start.clone(),
             [] => start.clone(),
             [only] => only.pose.clone(),
             [.., earlier, last] => self.settings.predict.start(space, &last.pose, Some(&earlier.pose)),
@@ -369,8 +256,7 @@ impl Run<'_> {
         let evaluator = backend.evaluator.as_mut();
         let counter =
             u32::try_from(frame).map_err(|_| anyhow!("frame {frame} is beyond the counters of the search"))?;
-        let start =
-            Start { frame: counter, centre: &predicted, spread: &spread, until: turn.and_then(|turn| turn.until) };
+        let start = Start { frame: counter, centre: &predicted, spread: &spread, until: turn.until };
         let observations = &prepared.observations;
         let in_frame = || format!("frame {frame}");
         let mut searched = search.search(evaluator, objective, observations, start).with_context(in_frame)?;
@@ -400,9 +286,7 @@ impl Run<'_> {
         let Searched { estimate, evaluations, passes, .. } = searched;
 
         let whole = Span::since(begin);
-        if let Some(realtime) = &mut self.realtime {
-            realtime.searched(estimate.evaluations, whole);
-        }
+        self.pace.searched(estimate.evaluations, whole);
         self.stages.trace("frame", Thread::Search, frame, whole)?;
         for evaluation in &evaluations {
             self.stages.trace("evaluate", Thread::Search, frame, *evaluation)?;
@@ -415,21 +299,19 @@ impl Run<'_> {
     }
 
     /// Writes the results, unless the run was stopped.
-    fn finish(mut self, record: &RunRecord, warnings: Vec<String>) -> Result<TrackSummary> {
+    fn finish(self, record: &RunRecord, warnings: Vec<String>) -> Result<TrackSummary> {
         let (sequence, output, body) = (self.sequence, self.output, &self.plan.body);
         let next = self.next_frame();
-        let stopped_before = (self.realtime.is_none() && next < self.plan.range.end).then_some(next);
-        if let Some(realtime) = &self.realtime {
-            let journal = output.path().join(Journal::NAME);
-            self.frames = realtime.frames(&journal, body, sequence.cameras.len(), self.done)?;
-        }
-        let confidences = Confidence::of_all(body, LossRule::default(), &self.frames);
-        let held = Held::new(&self.frames, &confidences, self.recovery.is_some());
+        let stopped_before = (!self.pace.ends_anywhere() && next < self.plan.range.end).then_some(next);
+        let extent = Extent::of(body, &sequence.cameras);
+        let frames = self.pace.all_frames(self.frames, &output.path().join(Journal::NAME), extent, self.done)?;
+        let confidences = Confidence::of_all(body, LossRule::default(), &frames);
+        let held = Held::new(&frames, &confidences, self.recovery.is_some());
         let mut summary = TrackSummary {
             first_frame: self.plan.range.start,
             new_frames: 0,
             frames_per_second: 0.0,
-            mean_fitness: mean(self.frames.iter().map(|result| f64::from(result.fitness))),
+            mean_fitness: mean(frames.iter().map(|result| f64::from(result.fitness))),
             mean_confidence: mean(confidences.iter().map(|frame| frame.confidence)),
             error: None,
             stages: Vec::new(),
@@ -437,7 +319,7 @@ impl Run<'_> {
             warnings,
             stopped_before,
             realtime: None,
-            frames: self.frames,
+            frames,
         };
         let has_passes = self.stages.has_device_passes();
         summary.stages = self.stages.finish()?;
@@ -461,12 +343,6 @@ impl Run<'_> {
         if !summary.frames.is_empty() {
             results::write(output, body, &sequence.cameras, &summary.frames, &confidences, &held, sequence.fps)?;
         }
-        if let (Some(truth), None) = (&self.truth, &self.realtime) {
-            match truth.error(body, &held, sequence.fps) {
-                Ok(error) => summary.error = Some(ErrorSummary { compared: truth.compared.name(), error }),
-                Err(why) => summary.warnings.push(format!("{why:#}")),
-            }
-        }
         // A finished run that is gone on with has no times to tell; those of the run that did the work stay.
         if summary.new_frames > 0 || !output.path().join("stages.json").exists() {
             output.write("stages.json", |writer| {
@@ -479,32 +355,10 @@ impl Run<'_> {
                 Ok(serde_json::to_writer_pretty(writer, &object)?)
             })?;
         }
-        if let Some(realtime) = &self.realtime {
-            [summary.mean_fitness, summary.mean_confidence] = realtime.means();
-            let (truth, warnings) = (self.truth.as_ref(), &mut summary.warnings);
-            summary.realtime = Some(realtime.finish(output, sequence, truth, warnings, self.done)?);
-            return Ok(summary);
-        }
-        let (truth, has_recording) = (self.truth.as_ref(), self.settings.recording);
-        write_report(output, sequence, body, &summary, &confidences, &held, truth, record.rows(), has_recording)?;
+        let (settings, truth, done) = (self.settings, self.truth.as_ref(), self.done);
+        let run =
+            Finished { sequence, settings, output, body, confidences: &confidences, held: &held, truth, record, done };
+        self.pace.close(&run, &mut summary)?;
         Ok(summary)
     }
-}
-
-/// What the user should know about the gaps of a track.
-fn lost_sentence(runs: &[[usize; 2]], frames: usize) -> Option<String> {
-    let lost: usize = runs.iter().map(|[first, last]| last + 1 - first).sum();
-    let shown: Vec<String> = runs.iter().take(5).map(|[first, last]| format!("{first} to {last}")).collect();
-    let more = if runs.len() > shown.len() { ", …" } else { "" };
-    (lost > 0).then(|| {
-        format!(
-            "the person is lost in {lost} of {frames} frames, which are gaps in the results: {}{more}",
-            shown.join(", ")
-        )
-    })
-}
-
-fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0_usize), |(sum, count), value| (sum + value, count + 1));
-    if count > 0 { sum / count as f64 } else { 0.0 }
 }

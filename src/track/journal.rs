@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 
+use crate::body::Body;
+use crate::geometry::Camera;
+
 /// What a frame's search found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameResult {
@@ -30,6 +33,12 @@ pub(super) struct Extent {
     pub(super) dofs: usize,
     pub(super) views: usize,
     pub(super) joints: usize,
+}
+
+impl Extent {
+    pub(super) fn of(body: &Body, cameras: &[Camera]) -> Self {
+        Self { dofs: body.dof_count(), views: cameras.len(), joints: body.joint_names().len() }
+    }
 }
 
 impl FrameResult {

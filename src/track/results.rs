@@ -1,61 +1,15 @@
 //! The files of a finished track, all made from the journal: the same journal gives the same bytes.
 
-use std::fs;
 use std::io::Write;
-use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 
 use super::confidence::FrameConfidence;
-use super::journal::{FrameResult, Journal};
-use super::overlay;
-use super::page;
-use super::realtime;
-use super::run_record;
+use super::journal::FrameResult;
 use crate::body::{Body, PoseTable, PoseWriter};
 use crate::files::{OutputFolder, Overwrite};
 use crate::geometry::Camera;
 use crate::motion::{PointTrajectory, write_bvh, write_points};
-
-/// Everything a run writes but its overlays.
-const FILES: [&str; 14] = [
-    "poses.csv",
-    "joints.csv",
-    "joints.trc",
-    "markers.c3d",
-    "motion.bvh",
-    "confidence.csv",
-    "stages.json",
-    "trace.json",
-    "report.html",
-    page::RECORDING,
-    realtime::SUMMARY,
-    realtime::TIMELINE,
-    run_record::NAME,
-    Journal::NAME,
-];
-
-/// Removes what an earlier run left in the folder, so that a new one never stands beside old results.
-pub(super) fn clear(output: &OutputFolder) -> Result<()> {
-    let remove = |path: &Path| fs::remove_file(path).with_context(|| format!("cannot replace {}", path.display()));
-    for name in FILES {
-        let path = output.path().join(name);
-        if path.is_file() {
-            remove(&path)?;
-        }
-    }
-    let overlays = output.path().join(overlay::FOLDER);
-    if overlays.is_dir() {
-        let cannot = || format!("cannot read the folder {}", overlays.display());
-        for entry in fs::read_dir(&overlays).with_context(cannot)? {
-            let path = entry.with_context(cannot)?.path();
-            if path.extension().is_some_and(|extension| extension == "png") {
-                remove(&path)?;
-            }
-        }
-    }
-    Ok(())
-}
 
 /// The poses of a track as its files hold them: where the person is lost, and such frames are to be gaps, the last sure pose
 /// before stands in (the first after, where there is none), so that every frame has its row.

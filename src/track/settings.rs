@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use anyhow::{Result, ensure};
 
+use super::journal::Numbering;
 use super::{Backend, FrameRange, ObjectiveChoice, Prediction, RealtimeSettings};
 use crate::body::Model;
 use crate::report::check_recordings_are_built;
@@ -70,6 +71,16 @@ impl Default for TrackSettings {
 }
 
 impl TrackSettings {
+    /// Whether a lost person is searched for wider: that takes the time that real time has not.
+    pub(super) fn may_recover(&self) -> bool {
+        self.recover && self.realtime.is_none()
+    }
+
+    /// How the journal of a run from frame `first` on counts: real time leaves frames out.
+    pub(super) fn numbering(&self, first: usize) -> Numbering {
+        if self.realtime.is_some() { Numbering::Rising } else { Numbering::EachFrom(first) }
+    }
+
     /// Whether the settings make sense by themselves.
     ///
     /// # Errors

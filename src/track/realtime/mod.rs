@@ -29,10 +29,12 @@ pub use tally::{Drops, LatencySummary, RealtimeSummary};
 use timeline::{Row, Timeline};
 
 use super::TrackSettings;
-use super::feed::Prepared;
+use super::feed::{Frames, Prepared};
 use super::journal::{Extent, FrameResult, Journal, Numbering};
+use super::pace::{Finished, Pace, Turn};
 use super::plan::Plan;
 use super::stages::Span;
+use super::summary::TrackSummary;
 use super::truth::Truth;
 use crate::body::Body;
 use crate::files::OutputFolder;
@@ -59,19 +61,6 @@ pub(super) struct Realtime {
     rows: Rows,
     /// The search of the frame in work and the time after it.
     searched: Option<(Span, Instant)>,
-}
-
-/// How a frame is to be searched.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Turn {
-    /// Whether it has nothing to do with the frame before: a loop has begun again.
-    pub(super) starts_anew: bool,
-    /// Factor on the width of the start: frame times since the frame before.
-    pub(super) widen: f32,
-    /// Particles and iterations.
-    pub(super) size: [usize; 2],
-    /// When to be done.
-    pub(super) until: Option<Instant>,
 }
 
 impl Realtime {
@@ -109,101 +98,9 @@ impl Realtime {
         })
     }
 
-    /// Starts the threads in front of the tracker.
-    ///
-    /// # Errors
-    /// As [`RealtimeFeed::start`].
-    pub(super) fn feed(&self, sequence: &Sequence, plan: &Plan, from: usize) -> Result<RealtimeFeed> {
-        let rate = if sequence.is_live() { 1.0 } else { self.settings.rate };
-        let input = Input {
-            range: self.rounds.range(),
-            frames: plan.range.len(),
-            from,
-            fps: sequence.fps * rate,
-            stall_timeout: self.stall_timeout,
-        };
-        RealtimeFeed::start(sequence, &plan.features, &input, &self.counts, &self.timeline)
-    }
-
-    /// How to search a frame after the frame `before`.
-    pub(super) fn turn(&self, prepared: &Prepared, before: Option<usize>, fps: f64) -> Turn {
-        let frame = prepared.index;
-        let before = before.filter(|before| self.rounds.are_together(*before, frame));
-        let age = before.map_or_else(|| self.rounds.since_start(frame), |before| frame - before);
-        let longest = (LONGEST_AGE * fps).max(1.0);
-        let now = Instant::now();
-        let captured = prepared.captured.unwrap_or(now);
-        let Size { particles, iterations } = self.budget.size(captured, now);
-        Turn {
-            starts_anew: before.is_none(),
-            widen: (age as f64).min(longest) as f32,
-            size: [particles, iterations],
-            until: if self.tally.poses() > 0 { self.budget.until(captured) } else { None },
-        }
-    }
-
-    /// Takes note of a search.
-    pub(super) fn searched(&mut self, evaluations: usize, whole: Span) {
-        self.budget.searched(evaluations, whole.time);
-        self.tally.searched(evaluations);
-        self.searched = Some((whole, Instant::now()));
-    }
-
-    /// Writes the pose out; its age is taken then.
-    ///
-    /// # Errors
-    /// When the rows cannot be written.
-    pub(super) fn deliver(&mut self, body: &Body, result: &FrameResult, captured: Option<Instant>) -> Result<()> {
-        self.rows.append(body, result)?;
-        if let (Some((span, after)), Some(captured)) = (self.searched.take(), captured) {
-            self.tally.deliver(captured, self.settings.deadline);
-            self.budget.delivered(after.elapsed());
-            self.timeline.worked(Row::Tracking, result.frame, Span::since(span.start));
-        }
-        Ok(())
-    }
-
-    /// Takes note of how good a pose is.
-    pub(super) fn judge(&mut self, fitness: f32, confidence: f64) {
-        self.tally.fitness += f64::from(fitness);
-        self.tally.confidence += confidence;
-    }
-
-    /// Means of fitness and confidence over the run.
-    pub(super) fn means(&self) -> [f64; 2] {
-        let count = self.tally.poses().max(1) as f64;
-        [self.tally.fitness / count, self.tally.confidence / count]
-    }
-
-    /// A frame of the run as the truth counts it.
-    pub(super) fn in_sequence(&self, frame: usize) -> usize {
-        self.rounds.in_sequence(frame)
-    }
-
-    /// Every frame of the run, from its journal; none of a run that is too long to be kept in memory.
-    ///
-    /// # Errors
-    /// When the journal cannot be read.
-    pub(super) fn frames(&self, journal: &Path, body: &Body, views: usize, done: usize) -> Result<Vec<FrameResult>> {
-        if done as u64 > LONGEST_RUN {
-            return Ok(Vec::new());
-        }
-        let extent = Extent { dofs: body.dof_count(), views, joints: body.joint_names().len() };
-        Ok(Journal::resume(journal, Numbering::Rising, extent)?.1)
-    }
-
     /// Writes realtime.json and the time-line, if this run did anything.
-    ///
-    /// # Errors
-    /// When they cannot be written.
-    pub(super) fn finish(
-        &self,
-        output: &OutputFolder,
-        sequence: &Sequence,
-        truth: Option<&Truth>,
-        warnings: &mut Vec<String>,
-        done: usize,
-    ) -> Result<RealtimeSummary> {
+    fn write(&self, run: &Finished<'_>, warnings: &mut Vec<String>) -> Result<RealtimeSummary> {
+        let &Finished { sequence, output, truth, done, .. } = run;
         let summary = self.tally.summary(&self.counts, &self.settings, truth.and_then(Truth::mean_error));
         warnings.extend(summary.ended.clone());
         if done as u64 > LONGEST_RUN {
@@ -220,5 +117,86 @@ impl Realtime {
             output.write(TIMELINE, |writer| Ok(writer.write_all(svg.as_bytes())?))?;
         }
         Ok(summary)
+    }
+}
+
+impl Pace for Realtime {
+    fn feed(&self, sequence: &Sequence, plan: &Plan, from: usize) -> Result<Box<dyn Frames>> {
+        let rate = if sequence.is_live() { 1.0 } else { self.settings.rate };
+        let input = Input {
+            range: self.rounds.range(),
+            frames: plan.range.len(),
+            from,
+            fps: sequence.fps * rate,
+            stall_timeout: self.stall_timeout,
+        };
+        Ok(Box::new(RealtimeFeed::start(sequence, &plan.features, &input, &self.counts, &self.timeline)?))
+    }
+
+    fn turn(&self, prepared: &Prepared, before: Option<usize>, fps: f64) -> Turn {
+        let frame = prepared.index;
+        let before = before.filter(|before| self.rounds.are_together(*before, frame));
+        let age = before.map_or_else(|| self.rounds.since_start(frame), |before| frame - before);
+        let longest = (LONGEST_AGE * fps).max(1.0);
+        let now = Instant::now();
+        let captured = prepared.captured.unwrap_or(now);
+        let Size { particles, iterations } = self.budget.size(captured, now);
+        Turn {
+            starts_anew: before.is_none(),
+            widen: (age as f64).min(longest) as f32,
+            size: [particles, iterations],
+            until: if self.tally.poses() > 0 { self.budget.until(captured) } else { None },
+        }
+    }
+
+    fn searched(&mut self, evaluations: usize, whole: Span) {
+        self.budget.searched(evaluations, whole.time);
+        self.tally.searched(evaluations);
+        self.searched = Some((whole, Instant::now()));
+    }
+
+    /// Adds the rows of the tables; the age of the pose is taken then.
+    fn deliver(&mut self, body: &Body, result: &FrameResult, captured: Option<Instant>) -> Result<()> {
+        self.rows.append(body, result)?;
+        if let (Some((span, after)), Some(captured)) = (self.searched.take(), captured) {
+            self.tally.deliver(captured, self.settings.deadline);
+            self.budget.delivered(after.elapsed());
+            self.timeline.worked(Row::Tracking, result.frame, Span::since(span.start));
+        }
+        Ok(())
+    }
+
+    fn judge(&mut self, fitness: f32, confidence: f64) {
+        self.tally.fitness += f64::from(fitness);
+        self.tally.confidence += confidence;
+    }
+
+    fn in_sequence(&self, frame: usize) -> usize {
+        self.rounds.in_sequence(frame)
+    }
+
+    fn ends_anywhere(&self) -> bool {
+        true
+    }
+
+    /// The last alone, so that memory does not grow.
+    fn keep(&self, frames: &mut Vec<FrameResult>, result: FrameResult) {
+        frames.clear();
+        frames.push(result);
+    }
+
+    /// None of a run that is too long to be kept in memory.
+    fn all_frames(&self, _: Vec<FrameResult>, journal: &Path, extent: Extent, done: usize) -> Result<Vec<FrameResult>> {
+        if done as u64 > LONGEST_RUN {
+            return Ok(Vec::new());
+        }
+        Ok(Journal::resume(journal, Numbering::Rising, extent)?.1)
+    }
+
+    fn close(&self, run: &Finished<'_>, summary: &mut TrackSummary) -> Result<()> {
+        let count = self.tally.poses().max(1) as f64;
+        (summary.mean_fitness, summary.mean_confidence) = (self.tally.fitness / count, self.tally.confidence / count);
+        summary.realtime = Some(self.write(run, &mut summary.warnings)?);
+        Ok(())
     }
 }

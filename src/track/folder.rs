@@ -1,0 +1,50 @@
+//! The folder of a track.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+
+use super::journal::Journal;
+use super::{overlay, page, realtime, run_record};
+use crate::files::OutputFolder;
+
+/// Everything a run writes but its overlays.
+const FILES: [&str; 14] = [
+    "poses.csv",
+    "joints.csv",
+    "joints.trc",
+    "markers.c3d",
+    "motion.bvh",
+    "confidence.csv",
+    "stages.json",
+    "trace.json",
+    "report.html",
+    page::RECORDING,
+    realtime::SUMMARY,
+    realtime::TIMELINE,
+    run_record::NAME,
+    Journal::NAME,
+];
+
+/// Removes what an earlier run left in the folder, so that a new one never stands beside old results.
+pub(super) fn clear(output: &OutputFolder) -> Result<()> {
+    let remove = |path: &Path| fs::remove_file(path).with_context(|| format!("cannot replace {}", path.display()));
+    for name in FILES {
+        let path = output.path().join(name);
+        if path.is_file() {
+            remove(&path)?;
+        }
+    }
+    let overlays = output.path().join(overlay::FOLDER);
+    if overlays.is_dir() {
+        let cannot = || format!("cannot read the folder {}", overlays.display());
+        for entry in fs::read_dir(&overlays).with_context(cannot)? {
+            let path = entry.with_context(cannot)?.path();
+            if path.extension().is_some_and(|extension| extension == "png") {
+                remove(&path)?;
+            }
+        }
+    }
+    Ok(())
+}

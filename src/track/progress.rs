@@ -1,0 +1,51 @@
+//! What a run tells whoever waits for it.
+
+/// What a run tells whoever waits for it.
+pub trait Progress {
+    /// The run begins.
+    fn start(&mut self, _run: &RunStart) {}
+
+    /// A frame is done and safe.
+    fn frame(&mut self, _frame: &FrameDone) {}
+
+    /// Whether to stop after the frame in work.
+    fn should_stop(&self) -> bool {
+        false
+    }
+}
+
+/// Nobody waits.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Silent;
+
+impl Progress for Silent {}
+
+/// How a run begins.
+#[derive(Clone, Debug)]
+pub struct RunStart {
+    /// The first frame.
+    pub first_frame: usize,
+    /// Frames in all; none where a live source has no end.
+    pub frames: Option<usize>,
+    /// Frames that an earlier run did already.
+    pub done: usize,
+    /// Which evaluator, and why.
+    pub backend: String,
+    /// Sentences the user should read.
+    pub warnings: Vec<String>,
+}
+
+/// A frame that was tracked.
+#[derive(Clone, Debug)]
+pub struct FrameDone {
+    /// Its index.
+    pub frame: usize,
+    /// Frames done, those of an earlier run and those that real time left out included.
+    pub done: usize,
+    /// The fitness of its pose.
+    pub fitness: f32,
+    /// Its confidence, in [0, 1].
+    pub confidence: f64,
+    /// Mean error against the truth so far, mm.
+    pub mean_error: Option<f64>,
+}
