@@ -14,6 +14,13 @@ const REACH: f64 = 1600.0;
 const COARSE: f64 = 40.0;
 const FINE: f64 = 2.5;
 
+/// Rays a silhouette for a search that needs many of them.
+pub(super) const FEWER_RAYS: usize = 60;
+/// A border ray that misses the other silhouettes by more than this many pixels is not explained by them.
+pub(super) const EXPLAINED: f64 = 1.5;
+/// A ray's excess counts up to this many pixels.
+pub(super) const CAP: f64 = 4.0;
+
 /// One moment: a silhouette a view, None where the person was not seen.
 pub(super) type Moment<'a> = Vec<Option<&'a SignedDistance>>;
 

@@ -1,9 +1,8 @@
 //! Would the views agree with two cameras exchanged, or with all pictures mirrored?
 
-use super::agreement::{Ray, disagreement, rays};
+use super::agreement::{CAP, FEWER_RAYS, Ray, disagreement, rays};
 use super::finding::Finding;
 use super::silhouettes::Silhouettes;
-use super::{CAP, FEWER_RAYS};
 use crate::geometry::{Camera, Lens};
 
 /// Exchanges are only tried where the views disagree by more than this many pixels.

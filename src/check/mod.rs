@@ -22,7 +22,7 @@ use serde::Serialize;
 
 pub use finding::{Finding, Status};
 
-use agreement::{Ray, rays};
+use agreement::{EXPLAINED, Ray, rays};
 use silhouettes::Silhouettes;
 
 use crate::geometry::Camera;
@@ -30,15 +30,10 @@ use crate::sequence::Sequence;
 
 /// Frames looked at unless the user says which: a short stretch says as much as a long one.
 const FRAMES: usize = 100;
-/// Rays a silhouette for a number, and for a search that needs many of them.
+/// Rays a silhouette for a number.
 const RAYS: usize = 150;
-const FEWER_RAYS: usize = 60;
 /// Fewer rays say nothing.
 const FEWEST_RAYS: usize = 200;
-/// A border ray that misses the other silhouettes by more than this many pixels is not explained by them.
-const EXPLAINED: f64 = 1.5;
-/// A ray's excess counts up to this many pixels.
-const CAP: f64 = 4.0;
 
 /// Which frames are looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,8 +5,7 @@ use std::path::Path;
 use anyhow::Result;
 use glam::DVec3;
 
-use super::EXPLAINED;
-use super::agreement::Ray;
+use super::agreement::{EXPLAINED, Ray};
 use super::finding::Finding;
 use crate::body::Body;
 

@@ -3,10 +3,9 @@
 
 use rayon::prelude::*;
 
-use super::agreement::{Moment, disagreement, rays};
+use super::agreement::{CAP, FEWER_RAYS, Moment, disagreement, rays};
 use super::finding::{Finding, Status};
 use super::silhouettes::{SHIFTS, Silhouettes};
-use super::{CAP, FEWER_RAYS};
 use crate::geometry::Camera;
 
 /// More than this many frames is late.

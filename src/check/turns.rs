@@ -5,8 +5,7 @@ use glam::DVec3;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::CAP;
-use super::agreement::{Moment, Ray, again, disagreement, rays};
+use super::agreement::{CAP, Moment, Ray, again, disagreement, rays};
 use super::finding::Finding;
 use crate::geometry::{Camera, rodrigues_matrix};
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, ensure};
 
-use super::name_pair;
+use super::name_pair::name_pair;
 use crate::body::{ADULT_HEIGHT, Body};
 use crate::files::{Overwrite, write_atomically};
 use crate::motion::{PointFormat, read_bvh, read_points, write_bvh, write_points};

@@ -13,6 +13,7 @@ mod evaluate;
 mod features;
 mod fit;
 mod interrupt;
+mod name_pair;
 mod objective_flags;
 mod progress;
 mod realtime_flags;
@@ -99,13 +100,5 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Synth(args) => synth::run(&args),
         Command::Texture(args) => texture::run(&args),
         Command::Track(args) => track::run(&args),
-    }
-}
-
-/// `A=B`, a flag that gives one thing another's name.
-fn name_pair(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((left, right)) if !left.is_empty() && !right.is_empty() => Ok((left.to_string(), right.to_string())),
-        _ => Err(format!("{text:?} is no pair, expected two names with `=` between them")),
     }
 }

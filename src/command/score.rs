@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use serde_json::json;
 
-use super::name_pair;
+use super::name_pair::name_pair;
 use crate::files::{Overwrite, write_atomically};
 use crate::motion::{Matching, PointPairs, TrajectoryError, read_points, write_frame_errors};
 use crate::track::tracked_points;

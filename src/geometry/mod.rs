@@ -5,10 +5,12 @@ mod brown_conrady;
 mod camera;
 mod rotation;
 mod tsai;
+mod tsai_constants;
 mod unit;
 
 pub use brown_conrady::BrownConrady;
 pub use camera::{Camera, LARGEST_SIDE, Lens};
 pub use rotation::{EulerOrder, euler_matrix, rodrigues_matrix, rodrigues_vector};
-pub use tsai::{Tsai, TsaiConstants};
+pub use tsai::Tsai;
+pub use tsai_constants::TsaiConstants;
 pub use unit::LengthUnit;

@@ -1,7 +1,6 @@
 //! The pictures of a sequence, frame by frame, read ahead by one thread a view.
 
 use std::ops::Range;
-use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
@@ -9,11 +8,11 @@ use std::time::Duration;
 use anyhow::{Context, Result, anyhow, bail};
 use image::{GrayImage, RgbImage};
 
-use super::live::LiveSource;
 use super::manifest::{Sequence, View};
 use super::pictures::{PicturePattern, read_picture};
 use super::program::Stopper;
 use super::resample::{area_average, nearest_mask};
+use super::source::Source;
 use super::video::{PixelFormat, VideoDecoder};
 
 /// Frames a view's thread may be ahead of the reader. Together with the one it is working on this bounds the memory,
@@ -29,17 +28,6 @@ pub struct FrameSet {
     pub pictures: Vec<RgbImage>,
     /// A ready silhouette a view, where the view has any: 255 on the person, 0 elsewhere, at the working size.
     pub masks: Vec<Option<GrayImage>>,
-}
-
-/// Where the pictures (or masks) of a view come from.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Source {
-    /// A file that ffmpeg reads.
-    Video(PathBuf),
-    /// Numbered pictures.
-    Pictures(PicturePattern),
-    /// A camera or a stream, without an end and without frame numbers.
-    Live(LiveSource),
 }
 
 /// How long a view may take for a picture before it counts as stalled, unless told otherwise.

@@ -1,7 +1,6 @@
 //! Cameras and streams, through ffmpeg: pictures as they come, put together by when they arrived.
 
 use std::io::{ErrorKind, Read};
-use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -12,35 +11,12 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use image::RgbImage;
 
-use super::frames::{FrameSet, Source};
+use super::frames::FrameSet;
 use super::manifest::Sequence;
 use super::player::Captured;
 use super::program::{Process, Stopper};
+use super::source::{LiveSource, Source};
 use super::video::passthrough_option;
-
-/// A source without an end.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LiveSource {
-    /// What ffmpeg opens.
-    pub address: String,
-    /// Options for ffmpeg before it, each name followed by its value.
-    pub input: Vec<String>,
-}
-
-impl LiveSource {
-    /// What a view's `source` and `input` name, when that is live: an address (`rtsp://…`), a device (`/dev/video0`), or
-    /// anything with `input`. A file beside the manifest (a named pipe, say) may then be named as files are.
-    pub(super) fn of(source: &Path, input: Option<&[String]>, dir: &Path) -> Option<Self> {
-        let text = source.to_string_lossy();
-        if input.is_none() && !text.contains("://") && !text.starts_with("/dev/") {
-            return None;
-        }
-        let input = input.unwrap_or_default().to_vec();
-        let file = dir.join(source);
-        let address = if file.exists() { file.display().to_string() } else { text.into_owned() };
-        Some(Self { address, input })
-    }
-}
 
 /// Pictures on their way from the views' threads: room for two of each view.
 const ON_THEIR_WAY: usize = 2;

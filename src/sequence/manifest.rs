@@ -7,10 +7,9 @@ use serde::Deserialize;
 
 use super::calibration::read_cameras;
 use super::coverage::check_coverage;
-use super::frames::Source;
-use super::live::LiveSource;
 use super::live_options;
 use super::pictures::{PicturePattern, picture_size, shown};
+use super::source::{LiveSource, Source};
 use super::video::{VideoInfo, probe_video};
 use crate::files::{parse_toml, read_toml};
 use crate::geometry::Camera;

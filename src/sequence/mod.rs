@@ -10,6 +10,7 @@ mod pictures;
 mod player;
 mod program;
 mod resample;
+mod source;
 mod video;
 mod video_encoder;
 
@@ -17,10 +18,11 @@ pub use calibration::{
     CalibrationFormat, cameras_toml, parse_cameras_toml, parse_opencv_xml, parse_opencv_yaml, parse_qualisys,
     read_cameras, write_cameras_toml,
 };
-pub use frames::{FrameReader, FrameSet, STALL_TIMEOUT, Source};
-pub use live::{LiveReader, LiveSource};
+pub use frames::{FrameReader, FrameSet, STALL_TIMEOUT};
+pub use live::LiveReader;
 pub use manifest::{Sequence, View, check_manifest};
 pub use pictures::PicturePattern;
 pub use player::{Captured, Playback, Player};
+pub use source::{LiveSource, Source};
 pub use video::{VideoInfo, probe_video};
 pub use video_encoder::VideoEncoder;

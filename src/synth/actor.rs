@@ -3,8 +3,8 @@
 use anyhow::{Result, anyhow};
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::colour::Colour;
 use super::hash::smooth_noise;
-use super::room::Colour;
 use super::solid::{PlacedSolid, Solid};
 use crate::body::Body;
 

@@ -6,8 +6,8 @@ use anyhow::{Context, Result};
 use glam::{DAffine3, DVec3};
 
 use super::actor::{Actor, Material};
+use super::colour::Colour;
 use super::finish::{Finish, FinishSettings};
-use super::room::Colour;
 use super::solid::BoundingBall;
 use super::triangle::{Primitive, Triangle};
 use crate::body::{Body, Mesh};

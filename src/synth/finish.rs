@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 
-use super::room::Colour;
+use super::colour::Colour;
 use crate::texture::materials::{Material, Parameters, StageMaterial};
 
 /// A finish as scene.toml has it.

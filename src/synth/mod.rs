@@ -6,6 +6,7 @@
 //! and [sensor](noise::Sensor) record it.
 
 pub mod actor;
+mod colour;
 pub mod device;
 pub mod figure;
 mod finish;

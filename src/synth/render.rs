@@ -6,9 +6,10 @@ use anyhow::{Result, anyhow};
 use glam::{DVec2, DVec3};
 
 use super::actor::Material;
+use super::colour::Colour;
 use super::figure::PlacedFigure;
 use super::hash::smooth_noise;
-use super::room::{Colour, Room, Surface};
+use super::room::{Room, Surface};
 use super::shaders::TILE_SIDE;
 use super::shadow::{FloorShadow, LightBins};
 use super::solid::Ray;

@@ -5,13 +5,11 @@ use std::sync::Arc;
 use anyhow::Result;
 use glam::{DVec2, DVec3};
 
+use super::colour::Colour;
 use super::finish::Finish;
 use super::hash::{cell, smooth_noise};
 use super::scene::RoomSettings;
 use super::solid::Ray;
-
-/// Linear light or reflectance, red green blue.
-pub type Colour = DVec3;
 
 /// A rectangular room round the origin, floor at z = 0.
 #[derive(Clone, Debug)]

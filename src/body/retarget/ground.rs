@@ -3,7 +3,7 @@
 use anyhow::Result;
 use glam::{DAffine3, DVec2, DVec3};
 
-use super::{Placed, Source};
+use super::source::{Placed, Source};
 use crate::body::Body;
 
 /// Joints other than those of feet are this far inside the body, mm.

@@ -11,10 +11,9 @@ pub use write::write_bvh;
 use std::collections::HashSet;
 
 use anyhow::{Result, ensure};
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 
 use super::points::PointTrajectory;
-use super::skeletal::joint_placement;
 
 /// What one number of a frame moves. Translations are in the file's unit, rotations in degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,6 +202,27 @@ impl BvhMotion {
             .flat_map(|(joint, transform)| joint.end_sites.iter().map(|end| transform.transform_point3(*end)));
         origins.chain(ends).map(Some).collect()
     }
+}
+
+/// A joint's frame in its parent's, its channel values taken from `values`.
+pub(super) fn joint_placement<'a>(
+    offset: DVec3,
+    channels: &[BvhChannel],
+    values: &mut impl Iterator<Item = &'a f64>,
+) -> DAffine3 {
+    let (mut origin, mut rotation) = (offset, DMat3::IDENTITY);
+    for (channel, &value) in channels.iter().zip(values) {
+        let angle = value.to_radians();
+        match channel {
+            BvhChannel::XPosition => origin.x = value,
+            BvhChannel::YPosition => origin.y = value,
+            BvhChannel::ZPosition => origin.z = value,
+            BvhChannel::XRotation => rotation *= DMat3::from_rotation_x(angle),
+            BvhChannel::YRotation => rotation *= DMat3::from_rotation_y(angle),
+            BvhChannel::ZRotation => rotation *= DMat3::from_rotation_z(angle),
+        }
+    }
+    DAffine3 { matrix3: rotation, translation: origin }
 }
 
 #[cfg(test)]

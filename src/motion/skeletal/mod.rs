@@ -15,9 +15,9 @@ pub use file::{MotionFormat, read_skeletal_motion};
 use std::collections::HashSet;
 
 use anyhow::{Result, ensure};
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DQuat, DVec3};
 
-use super::bvh::{BvhChannel, BvhMotion};
+use super::bvh::{BvhMotion, joint_placement};
 use crate::files::choices;
 
 choices! {
@@ -221,27 +221,6 @@ impl BvhMotion {
         motion.check()?;
         Ok(motion)
     }
-}
-
-/// A joint's frame in its parent's, its channel values taken from `values`.
-pub(super) fn joint_placement<'a>(
-    offset: DVec3,
-    channels: &[BvhChannel],
-    values: &mut impl Iterator<Item = &'a f64>,
-) -> DAffine3 {
-    let (mut origin, mut rotation) = (offset, DMat3::IDENTITY);
-    for (channel, &value) in channels.iter().zip(values) {
-        let angle = value.to_radians();
-        match channel {
-            BvhChannel::XPosition => origin.x = value,
-            BvhChannel::YPosition => origin.y = value,
-            BvhChannel::ZPosition => origin.z = value,
-            BvhChannel::XRotation => rotation *= DMat3::from_rotation_x(angle),
-            BvhChannel::YRotation => rotation *= DMat3::from_rotation_y(angle),
-            BvhChannel::ZRotation => rotation *= DMat3::from_rotation_z(angle),
-        }
-    }
-    DAffine3 { matrix3: rotation, translation: origin }
 }
 
 /// Refuses products of joints and frames that no memory should hold.

@@ -14,10 +14,10 @@ use re_sdk_types::archetypes::{
 use re_sdk_types::components::{Color, MediaType};
 use re_sdk_types::datatypes::{AnnotationInfo, ClassDescription};
 
-use super::RecordedView;
 use super::layout::{Windows, write_layout};
 use super::markdown::{settings, summary};
 use super::stream::{Stream, entity};
+use super::view::RecordedView;
 use crate::geometry::Camera;
 use crate::report::html::{ReportData, Skeleton};
 use crate::report::plot::Series;

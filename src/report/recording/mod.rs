@@ -8,26 +8,18 @@ mod layout;
 mod markdown;
 #[cfg(feature = "rerun")]
 mod stream;
+mod view;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Result, ensure};
 
 use super::html::ReportData;
 use crate::files::{Overwrite, write_atomically};
-use crate::geometry::Camera;
 
 #[cfg(feature = "rerun")]
 use contents::write;
-
-/// A view with its pictures. They are read one after the other, so there may be many.
-#[derive(Clone, Debug)]
-pub struct RecordedView<'a> {
-    /// Its camera, for pictures of the size they have.
-    pub camera: &'a Camera,
-    /// Frames and their picture, PNG files.
-    pub pictures: Vec<(usize, PathBuf)>,
-}
+pub use view::RecordedView;
 
 /// Whether this build can write recordings.
 ///

@@ -1,0 +1,40 @@
+//! Where the pictures of a view come from.
+
+use std::path::{Path, PathBuf};
+
+use super::pictures::PicturePattern;
+
+/// Where the pictures (or masks) of a view come from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// A file that ffmpeg reads.
+    Video(PathBuf),
+    /// Numbered pictures.
+    Pictures(PicturePattern),
+    /// A camera or a stream, without an end and without frame numbers.
+    Live(LiveSource),
+}
+
+/// A source without an end.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LiveSource {
+    /// What ffmpeg opens.
+    pub address: String,
+    /// Options for ffmpeg before it, each name followed by its value.
+    pub input: Vec<String>,
+}
+
+impl LiveSource {
+    /// What a view's `source` and `input` name, when that is live: an address (`rtsp://…`), a device (`/dev/video0`), or
+    /// anything with `input`. A file beside the manifest (a named pipe, say) may then be named as files are.
+    pub(super) fn of(source: &Path, input: Option<&[String]>, dir: &Path) -> Option<Self> {
+        let text = source.to_string_lossy();
+        if input.is_none() && !text.contains("://") && !text.starts_with("/dev/") {
+            return None;
+        }
+        let input = input.unwrap_or_default().to_vec();
+        let file = dir.join(source);
+        let address = if file.exists() { file.display().to_string() } else { text.into_owned() };
+        Some(Self { address, input })
+    }
+}

@@ -1,0 +1,6 @@
+//! Colours of synthetic pictures.
+
+use glam::DVec3;
+
+/// Linear light or reflectance, red green blue.
+pub type Colour = DVec3;
