@@ -46,12 +46,6 @@ const KNOWN_CIRCLES: &[&[&str]] = &[
         "body::mesh::source",
         "body::skeleton",
     ],
-    &["body::retarget", "body::retarget::ground"],
-    &["check", "check::exchanges", "check::person", "check::timing", "check::turns"],
-    &["command", "command::convert", "command::score"],
-    &["geometry::camera", "geometry::tsai"],
-    &["motion::bvh", "motion::skeletal"],
-    &["report::recording", "report::recording::contents"],
     &["search", "search::refinement"],
     &[
         "search::kinds",
@@ -61,9 +55,7 @@ const KNOWN_CIRCLES: &[&[&str]] = &[
         "search::kinds::particle_filter",
         "search::kinds::pso",
     ],
-    &["sequence::frames", "sequence::live", "sequence::manifest", "sequence::player"],
     &["study::axes", "study::outcome", "study::plan", "study::settings"],
-    &["synth::finish", "synth::room", "synth::scene", "synth::scene::checks"],
     &[
         "texture::materials",
         "texture::materials::brick",
@@ -77,7 +69,6 @@ const KNOWN_CIRCLES: &[&[&str]] = &[
         "texture::materials::terrain",
         "texture::materials::wood",
     ],
-    &["track::driver", "track::page", "track::realtime", "track::realtime::rows", "track::results", "track::truth"],
 ];
 
 /// Places that may hold `unsafe`, as path prefixes under src/.

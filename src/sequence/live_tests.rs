@@ -1,5 +1,5 @@
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::super::manifest::tests::camera_table;
 use super::super::video::tests::ffmpeg_is_here;

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use proptest::prelude::*;
 
 use super::*;
-use crate::motion::{parse_bvh, read_skeletal_motion};
+use crate::motion::{UpAxis, parse_bvh, read_skeletal_motion};
 
 fn adult() -> Body {
     Body::adult(1750.0).unwrap()
