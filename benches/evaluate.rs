@@ -1,62 +1,41 @@
-//! Throughput of the evaluators, poses in to fitness out, side by side in one run: the rounds of all rows are interleaved,
-//! so that a noisy moment of the machine touches every row alike, and the ratios are of medians.
+//! Throughput of the evaluators, poses in to fitness out, side by side in one run.
 //!
-//! `cargo bench --bench evaluate` prints the table of docs/PERFORMANCE.md; run by `cargo test` it does one round of each
-//! row and checks that all give the same integers. Rows `in segments` are scored by three segments (docs/RASTER.md).
-#![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
+//! `cargo bench --bench evaluate` prints the table of docs/PERFORMANCE.md; run by `cargo test` it scores a few candidates. Either way
+//! it checks first that all give the same integers. Rows `in segments` are scored by three segments (docs/RASTER.md).
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark ends where something fails, and prints")]
 
+mod table;
+
+use std::cell::RefCell;
 use std::sync::Arc;
-use std::time::Instant;
 
-use pantin::bench::{Scene, Yardstick, YardstickKind, swarm};
+use pantin::bench::{Contestant, Scene, pass_times, swarm};
 use pantin::body::Body;
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
 use pantin::evaluate::device::{
-    Comparison, Compute, Coverage, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
-    open_device,
+    Comparison, Coverage, Gathering, GraphicsSettings, Packing, Projection, Tiling, open_device,
 };
 use pantin::evaluate::{Components, Evaluator, Objective, Reference};
 use pantin::features::{Observation, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;
-use pantin::gpu::{PassTiming, Timing, by_name};
+use pantin::gpu::Device;
+use table::{Table, in_a_line, is_measuring, is_wanted};
 
-/// Prints the time of a batch by its size: a candidate should cost the same in any.
+/// The time of a batch by its size: a candidate should cost the same in any.
 fn scaling(threads: usize) {
-    let Scene { body, cameras, observations, pose } = Scene::new([480, 270], 150.0).unwrap();
-    let mut cpu = Cpu::with(&body, &cameras, InstructionSet::best(), threads).unwrap();
-    let poses = swarm(&body, &pose, 1024);
-    cpu.observe(&observations).unwrap();
-    let mut sizes = [128, 256, 512, 1024].map(|count| (count, Vec::new()));
-    let mut fitness = vec![0.0; 1024];
-    for _ in 0..160 {
-        for (count, ms) in &mut sizes {
-            let start = Instant::now();
-            cpu.fitness(&poses[..*count * body.dof_count()], &Objective::default(), &mut fitness[..*count]).unwrap();
-            ms.push(start.elapsed().as_secs_f64() * 1e3);
-        }
+    let scene = Scene::new([480, 270], 150.0).unwrap();
+    let mut cpu = Cpu::with(&scene.body, &scene.cameras, InstructionSet::best(), threads).unwrap();
+    cpu.observe(&scene.observations).unwrap();
+    let (cpu, poses) = (RefCell::new(cpu), swarm(&scene.body, &scene.pose, 1024));
+    let mut table = Table::new(format!("scaling: {} on A, {threads} threads", InstructionSet::best().name()), "image");
+    for count in [128, 256, 512, 1024] {
+        let (poses, mut fitness) = (&poses[..count * scene.pose.len()], vec![0.0; count]);
+        let cpu = &cpu;
+        table.row(format!("scaling: {count} candidates"), count * scene.cameras.len(), move || {
+            cpu.borrow_mut().fitness(poses, &Objective::default(), &mut fitness).unwrap();
+        });
     }
-    println!("scaling: {} on A by candidates, {threads} threads", InstructionSet::best().name());
-    println!("{:>10} {:>9} {:>9} {:>10}", "candidates", "ms", "min", "us/image");
-    for (count, ms) in &mut sizes {
-        ms.sort_by(f64::total_cmp);
-        let median = ms[ms.len() / 2];
-        println!("{count:10} {median:9.3} {:9.3} {:10.3}", ms[0], median * 1e3 / (*count * cameras.len()) as f64);
-    }
-}
-
-/// Prints what each stage on the device takes, of the second of two evaluations.
-fn stages(compute: &mut Compute, poses: &[f32], fitness: &mut [f32]) {
-    compute.time_stages(Timing::Stamps);
-    for _ in 0..2 {
-        compute.fitness(poses, &Objective::default(), fitness).unwrap();
-    }
-    print_stages("compute", &compute.timings().unwrap());
-    compute.time_stages(Timing::Off);
-}
-
-fn print_stages(name: &str, timings: &[PassTiming]) {
-    let text: Vec<String> = by_name(timings).iter().map(|(name, ms, _)| format!("{name} {ms:.3}")).collect();
-    println!("{name} stages, ms: {}", text.join(", "));
+    table.run();
 }
 
 /// Observations whose silhouettes are told apart as the body's own parts in a pose: head and trunk, arms, legs.
@@ -84,242 +63,103 @@ fn in_segments(body: &Body, cameras: &[Camera], pose: &[f32], seen: &[Observatio
         .collect()
 }
 
-struct Row {
-    name: String,
-    rounds_each: usize,
-    /// Of how many rounds it takes part in one.
-    every: usize,
-    /// Whether it gives the reference's integers.
-    is_exact: bool,
-    run: Box<dyn FnMut() -> Vec<Components>>,
-    ms: Vec<f64>,
+/// Who is measured, by the names of the rows: the yardsticks, every instruction set, compute, and of graphics the packings and
+/// comparisons that differ most; in segments those that are fit for it.
+fn contestants(in_segments: bool) -> Vec<(String, Contestant)> {
+    let usual = GraphicsSettings::default();
+    let depth = GraphicsSettings { packing: Packing::Depth, ..usual };
+    let hardware = Coverage::Hardware;
+    // What one writes first: whole pictures, a depth buffer, a write mask a channel.
+    let whole = GraphicsSettings {
+        coverage: hardware,
+        comparison: Comparison::Device(Gathering::Subgroup),
+        tiling: Tiling::Pictures,
+        ..depth
+    };
+    let mut all: Vec<(String, Contestant)> = Vec::new();
+    for contestant in Contestant::of_flat() {
+        let name = match contestant {
+            Contestant::Reference | Contestant::Compute { subgroup: false } => continue,
+            Contestant::Yardstick(_) if in_segments => continue,
+            Contestant::Cpu(set) if !set.is_available() => continue,
+            Contestant::Graphics(settings) if settings.packing == Packing::Depth && settings != depth => continue,
+            Contestant::Compute { .. } => "compute subgroup".to_string(),
+            Contestant::Graphics(settings) => format!("graphics-{}", settings.name()),
+            Contestant::Yardstick(_) | Contestant::Cpu(_) => contestant.variant().to_string(),
+        };
+        all.push((name, contestant));
+    }
+    let more = [
+        ("graphics-whole-pictures", whole),
+        ("graphics-max-feedback", GraphicsSettings { projection: Projection::Feedback, ..usual }),
+        ("graphics-max-hardware", GraphicsSettings { coverage: hardware, ..usual }),
+        ("graphics-depth-hardware", GraphicsSettings { coverage: hardware, ..depth }),
+    ];
+    if !in_segments {
+        all.extend(more.map(|(name, settings)| (name.to_string(), Contestant::Graphics(settings))));
+    }
+    all
+}
+
+/// An evaluator in its row's closure, once its integers are those of the rows before.
+fn row<'a>(
+    name: &str,
+    contestant: Contestant,
+    scene: &Scene,
+    device: &Result<Device, String>,
+    poses: &'a [f32],
+    expected: &mut Option<Vec<Components>>,
+) -> Option<impl FnMut() + 'a> {
+    let mut evaluator = match contestant.build(scene, None, device) {
+        Ok(evaluator) => evaluator,
+        Err(error) => {
+            println!("SKIPPED {name}: {error:#}");
+            return None;
+        }
+    };
+    let count = poses.len() / scene.pose.len();
+    let mut found = vec![Components::default(); count * scene.cameras.len()];
+    evaluator.components(poses, &mut found).unwrap();
+    // The hardware's rule covers other pixels at the edges.
+    let is_exact = !matches!(contestant, Contestant::Graphics(settings) if settings.coverage == Coverage::Hardware);
+    assert!(!is_exact || found == *expected.get_or_insert_with(|| found.clone()), "{name} gives other integers");
+    let (objective, mut fitness) = (Objective::default(), vec![0.0; count]);
+    let passes = pass_times(evaluator.as_mut(), poses, &objective, &mut fitness).unwrap();
+    if !passes.is_empty() {
+        println!("{name} stages, ms: {}", in_a_line(&passes));
+    }
+    Some(move || evaluator.fitness(poses, &objective, &mut fitness).unwrap())
 }
 
 fn main() {
-    // `cargo bench --bench evaluate -- avx` keeps the rows whose names hold that word.
-    let filter: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
-    let measuring = std::env::args().any(|argument| argument == "--bench");
-    let count = if measuring { 512 } else { 32 };
+    let count = if is_measuring() { 512 } else { 32 };
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    if measuring && (filter.is_empty() || filter.iter().any(|word| "scaling".contains(word.as_str()))) {
-        scaling(threads);
-    }
+    scaling(threads);
+    let device = open_device().map_err(|error| format!("{error:#}"));
     for (title, size, person) in [("A", [480, 270], 150.0), ("B", [640, 480], 280.0)] {
-        let Scene { body, cameras, observations: seen, pose } = Scene::new(size, person).unwrap();
-        let poses = swarm(&body, &pose, count);
-        let segmented = in_segments(&body, &cameras, &pose, &seen);
-        let told_apart = [("", &seen), (" in segments", &segmented)];
-        let pixels: u32 = seen.iter().map(Observation::area).sum::<u32>() / 4;
-        println!(
-            "\n{title}: {count} candidates x 4 cameras, {}x{}, person {person} px ({pixels} px silhouette), {threads} threads",
+        let scene = Scene::new(size, person).unwrap();
+        let Scene { body, cameras, observations, pose } = &scene;
+        let poses = swarm(body, pose, count);
+        let segmented = in_segments(body, cameras, pose, observations);
+        let pixels: u32 = observations.iter().map(Observation::area).sum::<u32>() / 4;
+        let title = format!(
+            "{title}: {count} candidates x 4 cameras, {}x{}, person {person} px ({pixels} px silhouette), {threads} threads",
             size[0], size[1]
         );
-
-        let mut rows: Vec<Row> = Vec::new();
-        for kind in YardstickKind::ALL {
-            let mut yardstick = Yardstick::new(&body, &cameras, kind, threads);
-            yardstick.observe(&seen).unwrap();
-            let poses = poses.clone();
-            rows.push(Row {
-                name: kind.name().into(),
-                rounds_each: 1,
-                every: 1,
-                is_exact: true,
-                run: Box::new(move || {
-                    let mut out = vec![Components::default(); count * 4];
-                    yardstick.components(&poses, &mut out).unwrap();
-                    out
-                }),
-                ms: Vec::new(),
-            });
-        }
-        let sets = InstructionSet::ALL.into_iter().filter(|set| set.is_available());
-        for (set, (suffix, seen)) in sets.flat_map(|set| told_apart.map(|each| (set, each))) {
-            let mut cpu = Cpu::with(&body, &cameras, set, threads).unwrap();
-            cpu.observe(seen).unwrap();
-            let poses = poses.clone();
-            let (mut fitness, mut out) = (vec![0.0; count], Vec::new());
-            let objective = Objective::default();
-            rows.push(Row {
-                name: format!("{}{suffix}", set.name()),
-                // The iterations of a frame follow each other; alone, an iteration would mostly wake its threads and fill caches.
-                rounds_each: 15,
-                every: 1,
-                is_exact: true,
-                run: Box::new(move || {
-                    cpu.fitness(&poses, &objective, &mut fitness).unwrap();
-                    if out.is_empty() {
-                        out = vec![Components::default(); count * 4];
-                        cpu.components(&poses, &mut out).unwrap();
-                        return out.clone();
-                    }
-                    Vec::new()
-                }),
-                ms: Vec::new(),
-            });
-        }
-        for (suffix, seen) in told_apart {
-            let mut compute = match Compute::new(&body, &cameras) {
-                Ok(compute) => compute,
-                Err(error) => {
-                    println!("SKIPPED compute: {error:#}");
-                    break;
-                }
-            };
-            compute.observe(seen).unwrap();
-            let (name, poses) = (format!("compute {}{suffix}", compute.variant()), poses.clone());
-            println!("compute on {}", compute.facts().name);
-            let (mut fitness, mut out) = (vec![0.0; count], Vec::new());
-            let objective = Objective::default();
-            rows.push(Row {
-                name,
-                rounds_each: 2,
-                every: 1,
-                is_exact: true,
-                run: Box::new(move || {
-                    compute.fitness(&poses, &objective, &mut fitness).unwrap();
-                    if out.is_empty() {
-                        out = vec![Components::default(); count * 4];
-                        compute.components(&poses, &mut out).unwrap();
-                        stages(&mut compute, &poses, &mut fitness);
-                        return out.clone();
-                    }
-                    Vec::new()
-                }),
-                ms: Vec::new(),
-            });
-        }
-        rows.extend(graphics_rows(&body, &cameras, told_apart, &poses));
-        if !filter.is_empty() {
-            rows.retain(|row| filter.iter().any(|word| row.name.contains(word)));
-        }
-        // The first call warms up and shows that all compute the same.
+        let mut table = Table::new(title, "image").beside(&["rowspan", "zbuffer"]);
         let mut expected = None;
-        for row in &mut rows {
-            let found = (row.run)();
-            if row.is_exact {
-                let expected = expected.get_or_insert_with(|| found.clone());
-                assert!(found == *expected, "{} gives other integers than the rows before", row.name);
-            }
-        }
-        for round in 0..if measuring { 40 } else { 1 } {
-            for row in rows.iter_mut().filter(|row| round % row.every == 0) {
-                let start = Instant::now();
-                for _ in 0..row.rounds_each {
-                    std::hint::black_box((row.run)());
+        let segmented = Scene { observations: segmented, ..scene.clone() };
+        for (suffix, scene) in [("", &scene), (" in segments", &segmented)] {
+            for (name, contestant) in contestants(!suffix.is_empty()) {
+                let name = format!("{name}{suffix}");
+                if !is_wanted(&name) {
+                    continue;
                 }
-                row.ms.push(start.elapsed().as_secs_f64() * 1e3 / row.rounds_each as f64);
+                if let Some(run) = row(&name, contestant, scene, &device, &poses, &mut expected) {
+                    table.row(name, count * cameras.len(), run);
+                }
             }
         }
-        if !measuring {
-            continue;
-        }
-        println!(
-            "{:40} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10}",
-            "variant", "ms", "min", "max", "us/image", "x rowspan", "x zbuffer"
-        );
-        let medians: Vec<f64> = rows
-            .iter_mut()
-            .map(|row| {
-                row.ms.sort_by(f64::total_cmp);
-                row.ms[row.ms.len() / 2]
-            })
-            .collect();
-        let times = |name: &str, ms: f64| {
-            rows.iter().position(|row| row.name == name).map_or(f64::NAN, |index| medians[index] / ms)
-        };
-        for (row, &ms) in rows.iter().zip(&medians) {
-            println!(
-                "{:40} {:9.3} {:9.3} {:9.3} {:10.3} {:10.1} {:10.1}",
-                row.name,
-                ms,
-                row.ms[0],
-                row.ms[row.ms.len() - 1],
-                ms * 1e3 / (count as f64 * 4.0),
-                times("rowspan", ms),
-                times("zbuffer", ms)
-            );
-        }
+        table.run();
     }
-}
-
-/// The graphics backend in all its variants, the first of them what one writes first: whole pictures, a depth buffer, a write mask a
-/// channel; by whole silhouettes, and those that are fit for it by segments too. Nothing where there is no Vulkan.
-fn graphics_rows(
-    body: &Body,
-    cameras: &[Camera],
-    told_apart: [(&str, &Vec<Observation>); 2],
-    poses: &[f32],
-) -> Vec<Row> {
-    let device = match open_device() {
-        Ok(device) => device,
-        Err(error) => {
-            println!("SKIPPED graphics: {error:#}");
-            return Vec::new();
-        }
-    };
-    let usual = GraphicsSettings::default();
-    let compare = |comparison| GraphicsSettings { comparison, ..usual };
-    let whole = GraphicsSettings {
-        packing: Packing::Depth,
-        coverage: Coverage::Hardware,
-        comparison: Comparison::Device(Gathering::Subgroup),
-        tiling: Tiling::Pictures,
-        ..usual
-    };
-    let variants = [
-        ("graphics-whole-pictures", whole),
-        ("graphics-max-texels", usual),
-        ("graphics-max-subgroup", compare(Comparison::Device(Gathering::Subgroup))),
-        ("graphics-max-shared", compare(Comparison::Device(Gathering::Shared))),
-        ("graphics-max-readback", compare(Comparison::Host(HostComparison::Scalar))),
-        ("graphics-max-readback-simd", compare(Comparison::Host(HostComparison::Simd))),
-        ("graphics-max-feedback", GraphicsSettings { projection: Projection::Feedback, ..usual }),
-        ("graphics-max-hardware", GraphicsSettings { coverage: Coverage::Hardware, ..usual }),
-        ("graphics-depth-texels", GraphicsSettings { packing: Packing::Depth, ..usual }),
-        (
-            "graphics-depth-hardware",
-            GraphicsSettings { packing: Packing::Depth, coverage: Coverage::Hardware, ..usual },
-        ),
-    ];
-    let count = poses.len() / body.dof_count();
-    let is_measured = |name: &str, in_segments: bool| {
-        let plain = ["whole-pictures", "feedback", "hardware"].iter().any(|word| name.contains(word));
-        !(in_segments && plain)
-    };
-    variants
-        .into_iter()
-        .flat_map(|(name, settings)| told_apart.map(|(suffix, seen)| (name, suffix, settings, seen)))
-        .filter(|(name, suffix, ..)| is_measured(name, !suffix.is_empty()))
-        .map(|(name, suffix, settings, seen)| {
-            let name = format!("{name}{suffix}");
-            let mut graphics = Graphics::on(&device, body, cameras, settings).unwrap();
-            graphics.observe(seen).unwrap();
-            let poses = poses.to_vec();
-            let (mut fitness, mut out) = (vec![0.0; count], Vec::new());
-            let objective = Objective::default();
-            Row {
-                name: name.clone(),
-                rounds_each: 1,
-                every: 4,
-                is_exact: settings.coverage == Coverage::Exact,
-                run: Box::new(move || {
-                    graphics.fitness(&poses, &objective, &mut fitness).unwrap();
-                    if out.is_empty() {
-                        out = vec![Components::default(); count * 4];
-                        graphics.components(&poses, &mut out).unwrap();
-                        graphics.time_stages(Timing::Stamps);
-                        for _ in 0..2 {
-                            graphics.fitness(&poses, &objective, &mut fitness).unwrap();
-                        }
-                        print_stages(&name, &graphics.timings().unwrap());
-                        graphics.time_stages(Timing::Off);
-                        return out.clone();
-                    }
-                    Vec::new()
-                }),
-                ms: Vec::new(),
-            }
-        })
-        .collect()
 }

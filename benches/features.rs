@@ -1,13 +1,14 @@
 //! The stages of `pantin::features`, ids as their files are named: one view of 640 x 480 pixels each; and the whole extractor
 //! with four such views, with every edge operator and metric, and with one view of 1920 x 1080; and on a Vulkan device, where there is
 //! one.
-#![allow(missing_docs, reason = "criterion_group! makes an undocumented function")]
-#![allow(clippy::print_stdout, reason = "passes on a device are no criterion measurement")]
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark ends where something fails, and prints")]
+
+mod table;
 
 use std::hint::black_box;
 
-use criterion::{Criterion, criterion_group, criterion_main};
 use image::{Rgb, RgbImage};
+use pantin::bench::medians;
 use pantin::features::blobs::Components;
 use pantin::features::edges::EdgeDetector;
 use pantin::features::mixture::Mixture;
@@ -17,6 +18,7 @@ use pantin::features::{
     BitImage, DistanceMap, EdgeSettings, Extractor, FeatureSettings, Metric, Operator, Shape, ViewFeatures, ViewSource,
 };
 use pantin::gpu::{Device, DeviceSettings, Instance, Validation, by_name};
+use table::{Table, in_a_line, is_wanted};
 
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 480;
@@ -49,120 +51,143 @@ fn picture(width: u32, height: u32) -> RgbImage {
     picture
 }
 
-fn stages(criterion: &mut Criterion) {
+fn stages() {
     let settings = FeatureSettings::default();
     let (room, picture) = (room(WIDTH, HEIGHT), picture(WIDTH, HEIGHT));
     let silhouette = BitImage::from_fn(WIDTH, HEIGHT, |x, y| person(x, y, WIDTH, HEIGHT));
-
-    let plate = Plate::new(room.clone());
-    criterion.bench_function("gain", |b| b.iter(|| plate.gain(black_box(&picture))));
-    let mut mixture = Mixture::new(settings.mixture, WIDTH, HEIGHT);
-    let mut flags = vec![0; (WIDTH * HEIGHT) as usize];
-    mixture.update(&room, &settings.shadow, &mut flags);
-    criterion.bench_function("mixture", |b| {
-        b.iter(|| mixture.update(black_box(&picture), &settings.shadow, &mut flags));
-    });
-    let mut morphology = Morphology::default();
-    let mut cleaned = silhouette.clone();
-    criterion.bench_function("morphology", |b| {
-        b.iter(|| {
-            cleaned.clone_from(black_box(&silhouette));
-            morphology.open(&mut cleaned, Element { shape: Shape::Disc, radius: 1 });
-            morphology.close(&mut cleaned, Element { shape: Shape::Disc, radius: 2 });
-        });
-    });
-    let mut components = Components::default();
-    criterion.bench_function("blobs", |b| {
-        b.iter(|| {
-            cleaned.clone_from(black_box(&silhouette));
-            components.keep_largest(&mut cleaned, 4, 60, 0.03);
-            components.fill_holes(&mut cleaned, 60);
-        });
-    });
-    let mut detector = EdgeDetector::default();
-    let mut edges = BitImage::new(WIDTH, HEIGHT);
     let whole = BitImage::from_fn(WIDTH, HEIGHT, |_, _| true);
+    let pixels = (WIDTH * HEIGHT) as usize;
+    let plate = Plate::new(room.clone());
+    let mut mixture = Mixture::new(settings.mixture, WIDTH, HEIGHT);
+    let mut flags = vec![0; pixels];
+    mixture.update(&room, &settings.shadow, &mut flags);
+    let (mut morphology, mut cleaned) = (Morphology::default(), silhouette.clone());
+    let (mut components, mut blobs) = (Components::default(), silhouette.clone());
+
+    let mut table = Table::new("one view of 640 x 480", "pixel");
+    table.row("gain", pixels, || plate.gain(black_box(&picture)));
+    table.row("mixture", pixels, || mixture.update(black_box(&picture), &settings.shadow, &mut flags));
+    table.row("morphology", pixels, || {
+        cleaned.clone_from(black_box(&silhouette));
+        morphology.open(&mut cleaned, Element { shape: Shape::Disc, radius: 1 });
+        morphology.close(&mut cleaned, Element { shape: Shape::Disc, radius: 2 });
+    });
+    table.row("blobs", pixels, || {
+        blobs.clone_from(black_box(&silhouette));
+        components.keep_largest(&mut blobs, 4, 60, 0.03);
+        components.fill_holes(&mut blobs, 60);
+    });
     for operator in Operator::ALL {
         let edge_settings = EdgeSettings { operator, ..settings.edges };
-        criterion.bench_function(&format!("edges, {operator}"), |b| {
-            b.iter(|| detector.detect(black_box(&picture), &whole, &edge_settings, &mut edges));
+        let (mut detector, mut edges) = (EdgeDetector::default(), BitImage::new(WIDTH, HEIGHT));
+        let (picture, whole) = (&picture, &whole);
+        table.row(format!("edges, {operator}"), pixels, move || {
+            detector.detect(black_box(picture), whole, &edge_settings, &mut edges);
         });
     }
-    edges = silhouette.clone();
-    let mut distance = DistanceMap::default();
     for metric in Metric::ALL {
-        criterion.bench_function(&format!("distance, {metric}"), |b| {
-            b.iter(|| distance.measure(black_box(&edges), metric, 16));
-        });
+        let (mut distance, silhouette) = (DistanceMap::default(), &silhouette);
+        table.row(format!("distance, {metric}"), pixels, move || distance.measure(black_box(silhouette), metric, 16));
+    }
+    table.run();
+}
+
+/// Equal views of a size, with plates or without, before a device or none.
+struct Views<'a> {
+    count: usize,
+    size: [u32; 2],
+    plate: bool,
+    device: Option<&'a Device>,
+}
+
+impl Views<'_> {
+    /// An extractor that knows the room, and a frame with the person in it, who is found.
+    fn extractor(&self, settings: FeatureSettings) -> (Extractor, Vec<RgbImage>) {
+        let Self { count, size: [width, height], plate, device } = *self;
+        let room = room(width, height);
+        let sources = vec![ViewSource { width, height, plate: plate.then(|| room.clone()) }; count];
+        let mut extractor = match device {
+            Some(device) => Extractor::on_device(settings, sources, device).unwrap(),
+            None => Extractor::new(settings, sources).unwrap(),
+        };
+        let (seen, mut features) = (vec![picture(width, height); count], Vec::<ViewFeatures>::new());
+        extractor.prime(&vec![room; count]).unwrap();
+        extractor.extract_into(&seen, &vec![None; count], &mut features).unwrap();
+        let expected = BitImage::from_fn(width, height, |x, y| person(x, y, width, height)).count();
+        let found: Vec<u32> = features.iter().map(|view| view.silhouette.count()).collect();
+        let is_found = found.iter().all(|&area| area.abs_diff(expected) < expected / 5);
+        assert!(is_found, "person not found: {found:?}, {expected}");
+        (extractor, seen)
+    }
+
+    /// A row of whole frames.
+    fn row(&self, table: &mut Table<'_>, id: &str, settings: FeatureSettings) {
+        if is_wanted(id) {
+            let (mut extractor, seen) = self.extractor(settings);
+            let (masks, mut features) = (vec![None; seen.len()], Vec::<ViewFeatures>::new());
+            table.row(id, seen.len(), move || extractor.extract_into(black_box(&seen), &masks, &mut features).unwrap());
+        }
     }
 }
 
-/// Whole frames of `views` equal views.
-fn frames(criterion: &mut Criterion, id: &str, settings: FeatureSettings, plate: bool, views: usize, size: [u32; 2]) {
-    let [width, height] = size;
-    let (room, picture) = (room(width, height), picture(width, height));
-    let sources = vec![ViewSource { width, height, plate: plate.then(|| room.clone()) }; views];
-    let Ok(mut extractor) = Extractor::new(settings, sources) else { unreachable!("the settings are sound") };
-    let (empty, seen, masks) = (vec![room; views], vec![picture; views], vec![None; views]);
-    let mut features: Vec<ViewFeatures> = Vec::new();
-    let primed = extractor.prime(&empty);
-    assert!(primed.is_ok() && extractor.extract_into(&seen, &masks, &mut features).is_ok());
-    let expected = BitImage::from_fn(width, height, |x, y| person(x, y, width, height)).count();
-    let found: Vec<u32> = features.iter().map(|view| view.silhouette.count()).collect();
-    assert!(
-        found.iter().all(|&area| area.abs_diff(expected) < expected / 5),
-        "person not found: {found:?}, {expected}"
-    );
-    criterion.bench_function(id, |b| b.iter(|| extractor.extract_into(black_box(&seen), &masks, &mut features)));
-}
-
-fn whole_frames(criterion: &mut Criterion) {
-    let settings = FeatureSettings::default;
-    let (small, large) = ([WIDTH, HEIGHT], [1920, 1080]);
-    frames(criterion, "four views, plate", settings(), true, 4, small);
-    frames(criterion, "four views, mixture", settings(), false, 4, small);
-    let mut dear = settings();
-    dear.edges.operator = Operator::Canny;
-    dear.distance.metric = Metric::Euclidean;
-    frames(criterion, "four views, plate, canny, euclidean", dear, true, 4, small);
-    frames(criterion, "one view, plate", settings(), true, 1, small);
-    frames(criterion, "one view of 1920 x 1080, plate", settings(), true, 1, large);
-    frames(criterion, "one view of 1920 x 1080, mixture", settings(), false, 1, large);
-}
-
-/// Frames on the first Vulkan device beside the same on the processor, and where the device's time goes: the median of each pass by
-/// its own timestamps, printed.
-fn device_frames(criterion: &mut Criterion) {
-    let opened =
-        Instance::open(Validation::Off).and_then(|instance| Device::open(&instance, DeviceSettings::default()));
-    let Ok(device) = opened else { return println!("no device: frames on a device are not measured") };
-    for (id, operator, plate) in [
-        ("device, four views, plate", Operator::Sobel, true),
-        ("device, four views, mixture", Operator::Sobel, false),
-        ("device, four views, plate, canny", Operator::Canny, true),
-    ] {
+/// Frames on the processor, and on the first Vulkan device with where its time goes: the median of each pass by its own
+/// timestamps.
+fn whole_frames() {
+    let with = |operator, metric| {
         let mut settings = FeatureSettings::default();
         settings.edges.operator = operator;
-        let (room, picture) = (room(WIDTH, HEIGHT), picture(WIDTH, HEIGHT));
-        let sources = vec![ViewSource { width: WIDTH, height: HEIGHT, plate: plate.then(|| room.clone()) }; 4];
-        let Ok(mut extractor) = Extractor::on_device(settings, sources, &device) else { unreachable!("it fits") };
-        let (empty, seen, masks) = (vec![room; 4], vec![picture; 4], vec![None; 4]);
-        let mut features: Vec<ViewFeatures> = Vec::new();
-        assert!(extractor.prime(&empty).is_ok());
-        criterion.bench_function(id, |b| b.iter(|| extractor.extract_into(black_box(&seen), &masks, &mut features)));
-        extractor.measure_passes();
-        let mut rounds: Vec<Vec<(String, f64, usize)>> = Vec::new();
-        for _ in 0..9 {
-            assert!(extractor.extract_into(&seen, &masks, &mut features).is_ok());
-            rounds.extend(extractor.passes().map(|passes| by_name(&passes)));
+        settings.distance.metric = metric;
+        settings
+    };
+    let FeatureSettings { edges: EdgeSettings { operator, .. }, distance, .. } = FeatureSettings::default();
+    let usual = || with(operator, distance.metric);
+    let (small, large) = ([WIDTH, HEIGHT], [1920, 1080]);
+    let views = |count, size, plate| Views { count, size, plate, device: None };
+    let mut table = Table::new("whole frames", "view");
+    views(4, small, true).row(&mut table, "four views, plate", usual());
+    views(4, small, false).row(&mut table, "four views, mixture", usual());
+    let dear = with(Operator::Canny, Metric::Euclidean);
+    views(4, small, true).row(&mut table, "four views, plate, canny, euclidean", dear);
+    views(1, small, true).row(&mut table, "one view, plate", usual());
+    views(1, large, true).row(&mut table, "one view of 1920 x 1080, plate", usual());
+    views(1, large, false).row(&mut table, "one view of 1920 x 1080, mixture", usual());
+
+    let device =
+        Instance::open(Validation::Off).and_then(|instance| Device::open(&instance, DeviceSettings::default()));
+    match &device {
+        Ok(device) => {
+            for (id, operator, plate) in [
+                ("device, four views, plate", Operator::Sobel, true),
+                ("device, four views, mixture", Operator::Sobel, false),
+                ("device, four views, plate, canny", Operator::Canny, true),
+            ] {
+                let views = Views { count: 4, size: small, plate, device: Some(device) };
+                let settings = || with(operator, distance.metric);
+                views.row(&mut table, id, settings());
+                if is_wanted(id) {
+                    println!("{id}: {}", in_a_line(&passes(views.extractor(settings()))));
+                }
+            }
         }
-        for (place, (name, ..)) in rounds[0].iter().enumerate() {
-            let mut times: Vec<f64> = rounds.iter().map(|round| round[place].1).collect();
-            times.sort_by(f64::total_cmp);
-            println!("{id}: {name} {:.3} ms", times[times.len() / 2]);
-        }
+        Err(error) => println!("SKIPPED frames on a device: {error:#}"),
     }
+    table.run();
 }
 
-criterion_group!(features, stages, whole_frames, device_frames);
-criterion_main!(features);
+/// The median of each pass on the device, milliseconds.
+fn passes((mut extractor, seen): (Extractor, Vec<RgbImage>)) -> Vec<(String, f64)> {
+    extractor.measure_passes();
+    let (masks, mut features) = (vec![None; seen.len()], Vec::<ViewFeatures>::new());
+    let mut runs = Vec::new();
+    for _ in 0..5 {
+        extractor.extract_into(&seen, &masks, &mut features).unwrap();
+        let run = extractor.passes().map(|passes| by_name(&passes)).into_iter().flatten();
+        runs.push(run.map(|(name, ms, _)| (name, ms)).collect());
+    }
+    medians(&runs)
+}
+
+fn main() {
+    stages();
+    whole_frames();
+}

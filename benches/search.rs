@@ -1,20 +1,19 @@
 //! What a search costs beside the scoring of its poses: the swarm's bookkeeping for 512 particles of 31 degrees of freedom
 //! (at most a tenth of an iteration of 0.6 ms is allowed for it), and the filter's.
+#![allow(clippy::unwrap_used, reason = "a benchmark ends where something fails")]
 
-#![allow(missing_docs, clippy::unwrap_used, reason = "a bench may stop at a failure, and documents itself by its ids")]
+mod table;
 
-use std::hint::black_box;
-
-use criterion::{Criterion, criterion_group, criterion_main};
 use pantin::body::Body;
 use pantin::search::{Draw, Random, SearchKind, SearchSettings, SearchSpace, Stream};
+use table::Table;
 
-fn bookkeeping(criterion: &mut Criterion) {
+fn main() {
     let body = Body::adult(1750.0).unwrap();
     let space = SearchSpace::of(&body).unwrap();
     let centre: Vec<f32> = body.standing_pose().iter().map(|value| *value as f32).collect();
     let spread = space.spread(1.0 / 25.0).unwrap();
-    let mut group = criterion.benchmark_group("search");
+    let mut table = Table::new("search", "particle");
     for kind in SearchKind::ALL {
         let settings = SearchSettings { kind, particles: 512, iterations: 1 << 8, ..SearchSettings::default() };
         let mut search = settings.build(&space).unwrap();
@@ -25,34 +24,26 @@ fn bookkeeping(criterion: &mut Criterion) {
             }
             Ok(())
         };
-        let mut left = 0;
-        group.bench_function(format!("{}_iteration_512x31", kind.name()), |bencher| {
-            bencher.iter(|| {
-                if left == 0 {
-                    search.start_frame(0, &centre, &spread).unwrap();
-                    left = search.iterations();
-                }
-                left -= 1;
-                search.iterate(&mut fitness).unwrap();
-            });
+        let (mut left, centre, spread) = (0, &centre, &spread);
+        table.row(format!("{}_iteration_512x31", kind.name()), 512, move || {
+            if left == 0 {
+                search.start_frame(0, centre, spread).unwrap();
+                left = search.iterations();
+            }
+            left -= 1;
+            search.iterate(&mut fitness).unwrap();
         });
     }
-    let random = Random::new(1);
-    let mut rows = vec![0.0; 512 * 31];
     type Fill = fn(&Random, Stream, &mut [f32]);
     for (name, fill) in [("uniforms", Random::uniforms as Fill), ("normals", Random::normals as Fill)] {
-        group.bench_function(format!("{name}_512x31"), |bencher| {
-            bencher.iter(|| {
-                for (particle, row) in rows.chunks_exact_mut(31).enumerate() {
-                    let stream = Stream { frame: 0, iteration: 0, particle: particle as u32, draw: Draw::Scatter };
-                    fill(&random, stream, row);
-                }
-                black_box(&rows);
-            });
+        let (random, mut rows) = (Random::new(1), vec![0.0; 512 * 31]);
+        table.row(format!("{name}_512x31"), 512, move || {
+            for (particle, row) in rows.chunks_exact_mut(31).enumerate() {
+                let stream = Stream { frame: 0, iteration: 0, particle: particle as u32, draw: Draw::Scatter };
+                fill(&random, stream, row);
+            }
+            std::hint::black_box(&rows);
         });
     }
-    group.finish();
+    table.run();
 }
-
-criterion_group!(benches, bookkeeping);
-criterion_main!(benches);

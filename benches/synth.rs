@@ -1,9 +1,9 @@
 //! Drawing a frame of four views of 640 x 480, by the processor's one thread and by the device that `PANTIN_DEVICE` names or the
 //! first there is.
-#![allow(missing_docs, reason = "criterion_group! makes an undocumented function")]
-#![allow(clippy::unwrap_used, clippy::print_stderr, reason = "a bench may unwrap and say what it leaves out")]
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark ends where something fails, and prints")]
 
-use criterion::{Criterion, criterion_group, criterion_main};
+mod table;
+
 use pantin::body::Body;
 use pantin::evaluate::device::open_device;
 use pantin::gpu::by_name;
@@ -12,8 +12,9 @@ use pantin::synth::figure::{Figure, Wardrobe};
 use pantin::synth::render::{Cast, View};
 use pantin::synth::room::Room;
 use pantin::synth::{Scene, rig};
+use table::Table;
 
-fn of_frames(criterion: &mut Criterion) {
+fn main() {
     let scene = Scene::preset("leewalk").unwrap();
     let room = Room::new(&scene.room).unwrap();
     let cameras = rig::cameras(&scene.rig, &room).unwrap();
@@ -23,30 +24,23 @@ fn of_frames(criterion: &mut Criterion) {
     let wardrobe = Wardrobe::new(&actor.clothes).unwrap();
     let figures = [Figure::of_solids(&body, actor.height, wardrobe).unwrap()];
     let placed = [figures[0].place(&body.standing_pose()).unwrap()];
-    let mut group = criterion.benchmark_group("four views of 640 x 480");
-    group.sample_size(10);
-    group.bench_function("processor, one thread", |b| {
-        b.iter(|| {
-            let cast = Cast::new(&placed, None).unwrap();
-            views.iter().map(|view| view.picture(&cast)).collect::<Vec<_>>()
-        });
+    let cast = || Cast::new(&placed, None).unwrap();
+    let device = open_device().and_then(|device| DevicePainter::new(&device, &views, &figures));
+    let mut table = Table::new("four views of 640 x 480", "view");
+    table.row("processor, one thread", views.len(), || {
+        let cast = cast();
+        views.iter().map(|view| view.picture(&cast)).collect::<Vec<_>>()
     });
-    match open_device().and_then(|device| DevicePainter::new(&device, &views, &figures)) {
+    match &device {
         Ok(painter) => {
-            group.bench_function("device", |b| {
-                b.iter(|| {
-                    let cast = Cast::new(&placed, None).unwrap();
-                    painter.pictures(&cast, &views, &[true; 4]).unwrap()
-                });
-            });
+            let draw = || painter.pictures(&cast(), &views, &[true; 4]).unwrap();
+            draw();
             for (pass, ms, _) in by_name(&painter.timings().unwrap()) {
-                eprintln!("{pass}: {ms:.2} ms by the time stamps around it");
+                println!("{pass}: {ms:.2} ms by the time stamps around it");
             }
+            table.row("device", views.len(), draw);
         }
-        Err(error) => eprintln!("no device: {error:#}"),
+        Err(error) => println!("SKIPPED the device: {error:#}"),
     }
-    group.finish();
+    table.run();
 }
-
-criterion_group!(synth, of_frames);
-criterion_main!(synth);

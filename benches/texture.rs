@@ -1,69 +1,67 @@
 //! Noise beside other crates: samples a second of gradient noise in space and of its fbm (4 octaves), on a grid of
 //! 128 x 128 x 64 points; and synthesis from an example.
-#![allow(missing_docs, reason = "criterion_group! makes an undocumented function")]
+#![allow(clippy::unwrap_used, reason = "a benchmark ends where something fails")]
+
+mod table;
 
 use std::hint::black_box;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use noise::{MultiFractal, NoiseFn};
 use pantin::texture::example::{Settings, synthesise};
 use pantin::texture::materials::{Material, Parameters};
 use pantin::texture::noise::{HashLattice, Octaves, Perlin, TableLattice, Tables, Value};
+use table::{Table, is_measuring};
 
-const SIZE: [usize; 3] = [128, 128, 64];
-const SAMPLES: usize = SIZE[0] * SIZE[1] * SIZE[2];
 const FREQUENCY: f32 = 0.037;
 
-fn grid() -> [Vec<f32>; 3] {
-    let at = |i: usize| [i % SIZE[0], i / SIZE[0] % SIZE[1], i / SIZE[0] / SIZE[1]];
-    std::array::from_fn(|axis| (0..SAMPLES).map(|i| at(i)[axis] as f32).collect())
+/// The work of one task after another.
+fn on_one_thread(rows: [&[f32]; 3], out: &mut [f32], fill: impl Fn([&[f32]; 3], &mut [f32])) {
+    for (i, out) in out.chunks_mut(4096).enumerate() {
+        fill(black_box(rows).map(|row| &row[i * 4096..][..out.len()]), out);
+    }
 }
 
-fn of_noise(criterion: &mut Criterion) {
-    let grid = grid();
+fn of_noise() {
+    let size = if is_measuring() { [128, 128, 64] } else { [128, 8, 4] };
+    let samples = size.iter().product::<usize>();
+    let at = |i: usize| [i % size[0], i / size[0] % size[1], i / size[0] / size[1]];
+    let grid: [Vec<f32>; 3] = std::array::from_fn(|axis| (0..samples).map(|i| at(i)[axis] as f32).collect());
     let rows = [grid[0].as_slice(), grid[1].as_slice(), grid[2].as_slice()];
-    let mut out = vec![0.0; SAMPLES];
-    let lattice = HashLattice::new(1);
-    let tables = Tables::new(1);
-    let point = |i: usize| [grid[0][i], grid[1][i], grid[2][i]];
+    let (lattice, tables) = (HashLattice::new(1), Tables::new(1));
+    let (lattice, from_tables) = (&lattice, TableLattice::new(&tables));
+    let point = |i: usize| [rows[0][i], rows[1][i], rows[2][i]];
     for count in [1, 4] {
         let octaves = Octaves { count, frequency: FREQUENCY, ..Octaves::default() };
-        let mut group = criterion.benchmark_group(format!("{count} octaves"));
-        group.throughput(Throughput::Elements(SAMPLES as u64)).sample_size(10);
-        group.bench_function("pantin perlin, all threads", |b| {
-            b.iter(|| octaves.fill(Perlin, &lattice, black_box(rows), &mut out));
+        let mut table = Table::new(format!("{count} octaves"), "sample");
+        let samples_out = || vec![0.0_f32; samples];
+        let mut out = samples_out();
+        table.row("pantin perlin, all threads", samples, move || {
+            octaves.fill(Perlin, lattice, black_box(rows), &mut out)
         });
-        // The work of one task after another: one thread.
-        let single = |b: &mut criterion::Bencher<'_>, value: bool, out: &mut [f32]| {
-            b.iter(|| {
-                for (i, out) in out.chunks_mut(4096).enumerate() {
-                    let rows = black_box(rows).map(|row| &row[i * 4096..][..out.len()]);
-                    if value {
-                        octaves.fill(Value, &lattice, rows, out);
-                    } else {
-                        octaves.fill(Perlin, &lattice, rows, out);
-                    }
-                }
-            });
-        };
-        group.bench_function("pantin perlin, one thread", |b| single(b, false, &mut out));
-        group.bench_function("pantin value, one thread", |b| single(b, true, &mut out));
-        group.bench_function("pantin perlin, one point at a time", |b| {
-            b.iter(|| (0..SAMPLES / 8).for_each(|i| out[i] = octaves.at(Perlin, &lattice, [0.0; 3], point(i))));
+        let mut out = samples_out();
+        table.row("pantin perlin, one thread", samples, move || {
+            on_one_thread(rows, &mut out, |rows, out| octaves.fill(Perlin, lattice, rows, out));
         });
-        group.bench_function("pantin perlin from tables, one point at a time", |b| {
-            let lattice = TableLattice::new(&tables);
-            b.iter(|| (0..SAMPLES / 8).for_each(|i| out[i] = octaves.at(Perlin, &lattice, [0.0; 3], point(i))));
+        let mut out = samples_out();
+        table.row("pantin value, one thread", samples, move || {
+            on_one_thread(rows, &mut out, |rows, out| octaves.fill(Value, lattice, rows, out));
         });
-        group.bench_function("simdnoise, one thread", |b| {
-            b.iter(|| {
-                let [x, y, z] = SIZE;
-                if count == 1 {
-                    simdnoise::NoiseBuilder::gradient_3d(x, y, z).with_freq(FREQUENCY).generate()
-                } else {
-                    simdnoise::NoiseBuilder::fbm_3d(x, y, z).with_freq(FREQUENCY).with_octaves(4).generate()
-                }
-            });
+        // An eighth of the points.
+        let mut out = samples_out();
+        table.row("pantin perlin, one point at a time", samples / 8, move || {
+            (0..samples / 8).for_each(|i| out[i] = octaves.at(Perlin, lattice, [0.0; 3], point(i)));
+        });
+        let (mut out, from_tables) = (samples_out(), &from_tables);
+        table.row("pantin perlin from tables, one point at a time", samples / 8, move || {
+            (0..samples / 8).for_each(|i| out[i] = octaves.at(Perlin, from_tables, [0.0; 3], point(i)));
+        });
+        table.row("simdnoise, one thread", samples, move || {
+            let [x, y, z] = size;
+            if count == 1 {
+                simdnoise::NoiseBuilder::gradient_3d(x, y, z).with_freq(FREQUENCY).generate()
+            } else {
+                simdnoise::NoiseBuilder::fbm_3d(x, y, z).with_freq(FREQUENCY).with_octaves(4).generate()
+            }
         });
         let mut lite = fastnoise_lite::FastNoiseLite::with_seed(1);
         lite.set_noise_type(Some(fastnoise_lite::NoiseType::Perlin));
@@ -72,49 +70,48 @@ fn of_noise(criterion: &mut Criterion) {
             lite.set_fractal_type(Some(fastnoise_lite::FractalType::FBm));
             lite.set_fractal_octaves(Some(count as i32));
         }
-        group.bench_function("fastnoise-lite, one thread", |b| {
-            b.iter(|| {
-                for (i, out) in out.iter_mut().enumerate() {
-                    let [x, y, z] = point(i);
-                    *out = lite.get_noise_3d(x, y, z);
-                }
-            });
+        let mut out = samples_out();
+        table.row("fastnoise-lite, one thread", samples, move || {
+            for (i, out) in out.iter_mut().enumerate() {
+                let [x, y, z] = point(i);
+                *out = lite.get_noise_3d(x, y, z);
+            }
         });
         let fbm = noise::Fbm::<noise::Perlin>::new(1).set_octaves(count as usize).set_frequency(f64::from(FREQUENCY));
-        group.bench_function("noise-rs, one thread", |b| {
-            b.iter(|| {
-                for (i, out) in out.iter_mut().enumerate() {
-                    *out = fbm.get(point(i).map(f64::from)) as f32;
-                }
-            });
+        let mut out = samples_out();
+        table.row("noise-rs, one thread", samples, move || {
+            for (i, out) in out.iter_mut().enumerate() {
+                *out = fbm.get(point(i).map(f64::from)) as f32;
+            }
         });
-        group.finish();
+        table.run();
     }
 }
 
 /// Time over the size of the result and the number of threads; 64 x 64 pixels of brick.
-fn from_example(criterion: &mut Criterion) {
-    let Ok(brick) = Material::new("brick", Parameters::Defaults, 1, None) else { return };
+fn from_example() {
+    let brick = Material::new("brick", Parameters::Defaults, 1, None).unwrap();
     let example = image::RgbImage::from_fn(64, 64, |x, y| {
         image::Rgb(brick.at([x as f32 * 0.03, y as f32 * 0.03, 0.2]).colour.map(|c| (c * 255.0) as u8))
     });
-    let mut group = criterion.benchmark_group("from an example");
-    group.sample_size(10);
-    for side in [64, 128, 256] {
+    let sides: &[u32] = if is_measuring() { &[64, 128, 256] } else { &[24] };
+    let mut table = Table::new("from an example", "pixel");
+    for &side in sides {
         for threads in [1, 2] {
-            let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build() else { return };
             for delta_max in [0.0, 0.004, 1.0] {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
                 let settings = Settings { size: [side, side], delta_max, ..Settings::default() };
-                let name = format!("{side} x {side}, delta_max {delta_max}, {threads} threads");
-                group.throughput(Throughput::Elements(u64::from(side * side)));
-                group.bench_function(name, |b| {
-                    b.iter(|| pool.install(|| synthesise(black_box(&example), None, &settings, None, || ())));
+                let (name, example) = (format!("{side} x {side}, delta_max {delta_max}, {threads} threads"), &example);
+                table.row(name, (side * side) as usize, move || {
+                    pool.install(|| synthesise(black_box(example), None, &settings, None, || ()))
                 });
             }
         }
     }
-    group.finish();
+    table.run();
 }
 
-criterion_group!(texture, of_noise, from_example);
-criterion_main!(texture);
+fn main() {
+    of_noise();
+    from_example();
+}

@@ -1,11 +1,11 @@
-//! Who is measured: every backend and variant that this machine runs, and why it does not run the others.
+//! Who can be measured: every backend and variant, and why a machine does not run one of them.
 
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, anyhow, bail, ensure};
 use serde::Serialize;
 
 use super::Scene;
 use super::yardstick::{Yardstick, YardstickKind};
-use crate::body::Model;
+use crate::body::Mesh;
 use crate::evaluate::cpu::{Cpu, InstructionSet};
 use crate::evaluate::device::{
     Comparison, Compute, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Tiling, device_settings,
@@ -27,109 +27,119 @@ pub struct Missing {
     pub reason: String,
 }
 
-/// Who is measured on a scene, and who is not.
-#[derive(Default)]
-pub(super) struct Contestants {
-    pub(super) present: Vec<Box<dyn Evaluator>>,
-    pub(super) missing: Vec<Missing>,
+/// A backend in one of its variants.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Contestant {
+    /// The reference, whose fitness the others are held to.
+    Reference,
+    /// What one writes first.
+    Yardstick(YardstickKind),
+    /// The processor with an instruction set.
+    Cpu(InstructionSet),
+    /// The compute backend on a device with arithmetic in subgroups, or with that taken from it.
+    Compute {
+        /// Whether subgroups have arithmetic.
+        subgroup: bool,
+    },
+    /// The graphics backend so set.
+    Graphics(GraphicsSettings),
 }
 
-/// Variants of the compute backend, and what is taken from a device for it to take the variant.
-const COMPUTE: [(&str, Option<Lower>); 2] =
-    [("subgroup", None), ("shared", Some(|capabilities| capabilities.subgroup_arithmetic = false))];
+impl Contestant {
+    /// Everybody who draws the flat model, the reference first: of the graphics backend packings by comparisons, as the thesis
+    /// measured them, and with whole pictures for tiles what one writes first.
+    pub fn of_flat() -> Vec<Self> {
+        let comparisons = [
+            Comparison::Device(Gathering::Texels),
+            Comparison::Device(Gathering::Subgroup),
+            Comparison::Device(Gathering::Shared),
+            Comparison::Host(HostComparison::Scalar),
+            Comparison::Host(HostComparison::Simd),
+        ];
+        let usual = GraphicsSettings::default();
+        let mut all = vec![Self::Reference];
+        all.extend(YardstickKind::ALL.map(Self::Yardstick));
+        all.extend(InstructionSet::ALL.map(Self::Cpu));
+        all.extend([true, false].map(|subgroup| Self::Compute { subgroup }));
+        for packing in [Packing::Max, Packing::Depth] {
+            all.extend(comparisons.map(|comparison| Self::Graphics(GraphicsSettings { packing, comparison, ..usual })));
+        }
+        all.push(Self::Graphics(GraphicsSettings { packing: Packing::Depth, tiling: Tiling::Pictures, ..usual }));
+        all
+    }
 
-/// Variants of the graphics backend: packings by comparisons, as the thesis measured them, and with whole pictures for tiles what
-/// one writes first.
-fn graphics_variants() -> Vec<(String, GraphicsSettings)> {
-    let comparisons = [
-        Comparison::Device(Gathering::Texels),
-        Comparison::Device(Gathering::Subgroup),
-        Comparison::Device(Gathering::Shared),
-        Comparison::Host(HostComparison::Scalar),
-        Comparison::Host(HostComparison::Simd),
-    ];
-    let mut variants = Vec::new();
-    for packing in [Packing::Max, Packing::Depth] {
-        for comparison in comparisons {
-            let settings = GraphicsSettings { packing, comparison, ..GraphicsSettings::default() };
-            variants.push((settings.name().to_string(), settings));
+    /// Everybody who draws meshes, the reference first.
+    pub fn of_meshes() -> Vec<Self> {
+        vec![
+            Self::Reference,
+            Self::Graphics(GraphicsSettings { packing: Packing::Depth, ..GraphicsSettings::default() }),
+        ]
+    }
+
+    /// The backend's name as `--backend` takes it.
+    pub fn backend(self) -> &'static str {
+        match self {
+            Self::Reference => "reference",
+            Self::Yardstick(_) | Self::Cpu(_) => "cpu",
+            Self::Compute { .. } => "compute",
+            Self::Graphics(_) => "graphics",
         }
     }
-    let whole = GraphicsSettings { packing: Packing::Depth, tiling: Tiling::Pictures, ..GraphicsSettings::default() };
-    variants.push((whole.name().to_string(), whole));
-    variants
-}
 
-type Lower = fn(&mut Capabilities);
-
-/// The device, opened once more where it is to be capable of less.
-fn variant_on(device: &Result<Device, String>, lower: Option<Lower>) -> Result<Device> {
-    let device = device.as_ref().map_err(|why| anyhow!("{why}"))?;
-    match lower {
-        None => Ok(device.clone()),
-        Some(_) => Device::open(&open_instance()?, DeviceSettings { lower, ..device_settings()? }),
+    /// The variant's name.
+    pub fn variant(self) -> &'static str {
+        match self {
+            Self::Reference => "exact",
+            Self::Yardstick(kind) => kind.name(),
+            Self::Cpu(set) => set.name(),
+            Self::Compute { subgroup: true } => "subgroup",
+            Self::Compute { subgroup: false } => "shared",
+            Self::Graphics(settings) => settings.name(),
+        }
     }
-}
 
-impl Contestants {
-    /// Everybody who draws the model; the first is the one whose fitness the others are held to.
+    /// Its evaluator, which has seen the scene's observations; of a mesh, or of the flat model.
     ///
     /// `device` is the Vulkan device, or why there is none.
-    pub(super) fn new(model: Model, scene: &Scene, device: &Result<Device, String>) -> Result<Self> {
+    ///
+    /// # Errors
+    /// When this machine cannot run it, or it draws no meshes.
+    pub fn build(
+        self,
+        scene: &Scene,
+        mesh: Option<&Mesh>,
+        device: &Result<Device, String>,
+    ) -> Result<Box<dyn Evaluator>> {
         let Scene { body, cameras, .. } = scene;
+        let device = || device.as_ref().map_err(|why| anyhow!("{why}"));
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        let mut all = Self::default();
-        match model.mesh(body)? {
-            None => {
-                all.add(model, "reference", "", Ok(Box::new(Reference::new(body, cameras))));
-                for kind in YardstickKind::ALL {
-                    all.add(model, "cpu", kind.name(), Ok(Box::new(Yardstick::new(body, cameras, kind, threads))));
-                }
-                for set in InstructionSet::ALL {
-                    let cpu = Cpu::with(body, cameras, set, threads).map(|cpu| Box::new(cpu) as Box<dyn Evaluator>);
-                    all.add(model, "cpu", set.name(), cpu);
-                }
-                for (variant, lower) in COMPUTE {
-                    let compute = variant_on(device, lower).and_then(|device| Compute::on(&device, body, cameras));
-                    let is_it = |compute: &Compute| compute.variant() == variant;
-                    let compute = compute.and_then(|compute| match is_it(&compute) {
-                        true => Ok(Box::new(compute) as Box<dyn Evaluator>),
-                        false => bail!("the device lacks what it needs: pantin devices says what"),
-                    });
-                    all.add(model, "compute", variant, compute);
-                }
-                for (variant, settings) in graphics_variants() {
-                    let graphics = variant_on(device, None)
-                        .and_then(|device| Graphics::on(&device, body, cameras, settings))
-                        .map(|graphics| Box::new(graphics) as Box<dyn Evaluator>);
-                    all.add(model, "graphics", &variant, graphics);
-                }
+        let mut evaluator: Box<dyn Evaluator> = match (self, mesh) {
+            (Self::Reference, None) => Box::new(Reference::new(body, cameras)),
+            (Self::Reference, Some(mesh)) => Box::new(Reference::of_mesh(body, mesh.clone(), cameras)?),
+            (Self::Yardstick(kind), None) => Box::new(Yardstick::new(body, cameras, kind, threads)),
+            (Self::Cpu(set), None) => Box::new(Cpu::with(body, cameras, set, threads)?),
+            (Self::Compute { subgroup }, None) => {
+                let device = if subgroup { device()?.clone() } else { device().and_then(|_| without_subgroups())? };
+                let compute = Compute::on(&device, body, cameras)?;
+                ensure!(
+                    compute.variant() == self.variant(),
+                    "the device lacks what it needs: pantin devices says what"
+                );
+                Box::new(compute)
             }
-            Some(mesh) => {
-                all.add(model, "reference", "", Ok(Box::new(Reference::of_mesh(body, mesh.clone(), cameras)?)));
-                let settings = GraphicsSettings::default();
-                let graphics = variant_on(device, None)
-                    .and_then(|device| Graphics::of_mesh(&device, body, mesh, cameras, settings))
-                    .map(|graphics| Box::new(graphics) as Box<dyn Evaluator>);
-                let variant = graphics.as_ref().map_or("depth-texels", |graphics| graphics.variant());
-                all.add(model, "graphics", variant, graphics);
+            (Self::Graphics(settings), None) => Box::new(Graphics::on(device()?, body, cameras, settings)?),
+            (Self::Graphics(settings), Some(mesh)) => {
+                Box::new(Graphics::of_mesh(device()?, body, mesh.clone(), cameras, settings)?)
             }
-        }
-        for evaluator in &mut all.present {
-            evaluator.observe(&scene.observations)?;
-        }
-        Ok(all)
+            (_, Some(_)) => bail!("{} {} draws the flat model alone", self.backend(), self.variant()),
+        };
+        evaluator.observe(&scene.observations)?;
+        Ok(evaluator)
     }
+}
 
-    fn add(&mut self, model: Model, backend: &str, variant: &str, evaluator: Result<Box<dyn Evaluator>>) {
-        match evaluator {
-            Ok(evaluator) => self.present.push(evaluator),
-            Err(error) => self.missing.push(Missing {
-                backend: backend.to_string(),
-                variant: variant.to_string(),
-                model: model.to_string(),
-                reason: format!("{error:#}"),
-            }),
-        }
-    }
+/// The device that the program would open, opened once more without arithmetic in subgroups.
+fn without_subgroups() -> Result<Device> {
+    let lower = |capabilities: &mut Capabilities| capabilities.subgroup_arithmetic = false;
+    Device::open(&open_instance()?, DeviceSettings { lower: Some(lower), ..device_settings()? })
 }

@@ -12,9 +12,9 @@ mod table;
 mod thesis;
 mod yardstick;
 
-pub use contestants::Missing;
+pub use contestants::{Contestant, Missing};
 pub use preset::{Preset, run};
 pub use report::{BenchReport, Row};
-pub use rounds::{Round, Times, interleaved};
+pub use rounds::{Round, Times, interleaved, medians, pass_times};
 pub use scene::{Scene, seen_of, swarm};
-pub use yardstick::{Yardstick, YardstickKind};
+pub use yardstick::YardstickKind;

@@ -4,14 +4,15 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 
-use super::contestants::{Contestants, Missing};
+use super::contestants::{Contestant, Missing};
 use super::report::{BenchReport, Row, machine};
-use super::rounds::{Round, Times, interleaved};
+use super::rounds::{Round, Times, interleaved, pass_times};
 use super::scene::{Scene, swarm};
 use crate::body::Model;
 use crate::evaluate::device::open_device;
 use crate::evaluate::{Evaluator, Objective};
 use crate::files::choices;
+use crate::gpu::Device;
 
 /// How far a fitness may lie from the first evaluator's.
 const TOLERANCE: f32 = 1e-3;
@@ -19,8 +20,6 @@ const TOLERANCE: f32 = 1e-3;
 const COMPARED: usize = 24;
 /// An evaluator that would take longer for a round is measured on those few candidates, in the quick preset.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// Rounds that stages are measured in, after the others.
-const STAGE_ROUNDS: usize = 5;
 
 choices! {
     /// A set of tasks.
@@ -84,10 +83,8 @@ pub fn run(preset: Preset, begin: &mut dyn FnMut(&str)) -> Result<BenchReport> {
         let [width, height] = task.size;
         begin(&format!("{}, {} particles, {width}x{height}", task.model.name(), task.particles));
         let scene = Scene::new(task.size, task.person)?;
-        let Contestants { present, missing } = Contestants::new(task.model, &scene, &device)?;
-        let unheard = missing.into_iter().filter(|missing| !report.unavailable.contains(missing)).collect::<Vec<_>>();
-        report.unavailable.extend(unheard);
-        measure(preset, &task, &scene, present, &mut report);
+        let evaluators = evaluators(&task, &scene, &device, &mut report)?;
+        measure(preset, &task, &scene, evaluators, &mut report);
     }
     Ok(report)
 }
@@ -100,6 +97,30 @@ fn empty(preset: Preset) -> BenchReport {
         rows: Vec::new(),
         unavailable: Vec::new(),
     }
+}
+
+/// Everybody who can do a task here; who cannot is listed in the report, once.
+fn evaluators(
+    task: &Task,
+    scene: &Scene,
+    device: &Result<Device, String>,
+    report: &mut BenchReport,
+) -> Result<Vec<Box<dyn Evaluator>>> {
+    let mesh = task.model.mesh(&scene.body)?;
+    let all = if mesh.is_some() { Contestant::of_meshes() } else { Contestant::of_flat() };
+    let mut present = Vec::new();
+    for contestant in all {
+        match contestant.build(scene, mesh.as_ref(), device) {
+            Ok(evaluator) => present.push(evaluator),
+            Err(error) => {
+                let missing = refusal(task, contestant.backend(), contestant.variant(), &error);
+                if !report.unavailable.contains(&missing) {
+                    report.unavailable.push(missing);
+                }
+            }
+        }
+    }
+    Ok(present)
 }
 
 /// An evaluator at work on a task.
@@ -133,10 +154,10 @@ fn measure(preset: Preset, task: &Task, scene: &Scene, evaluators: Vec<Box<dyn E
                 let warm = evaluator.fitness(&poses[..fitness.len() * scene.pose.len()], &objective, &mut fitness);
                 match warm {
                     Ok(()) => entries.push(Entry { evaluator, fitness }),
-                    Err(error) => report.unavailable.push(refusal(task, evaluator.as_ref(), &error)),
+                    Err(error) => report.unavailable.push(refusal(task, evaluator.name(), evaluator.variant(), &error)),
                 }
             }
-            Err(error) => report.unavailable.push(refusal(task, evaluator.as_ref(), &error)),
+            Err(error) => report.unavailable.push(refusal(task, evaluator.name(), evaluator.variant(), &error)),
         }
     }
     let mut rounds: Vec<Round<'_>> = entries
@@ -150,10 +171,15 @@ fn measure(preset: Preset, task: &Task, scene: &Scene, evaluators: Vec<Box<dyn E
     let times = interleaved(&mut rounds, 200, preset.share());
     drop(rounds);
     for (mut entry, times) in entries.into_iter().zip(times) {
-        let done = times.and_then(|times| Ok((times, stages(&mut entry, &poses, scene, &objective)?)));
+        let Entry { evaluator, fitness } = &mut entry;
+        let poses = &poses[..fitness.len() * scene.pose.len()];
+        let done = times.and_then(|times| Ok((times, pass_times(evaluator.as_mut(), poses, &objective, fitness)?)));
         match done {
             Ok((times, stages)) => report.rows.push(row(task, scene, &entry, times, stages)),
-            Err(error) => report.unavailable.push(refusal(task, entry.evaluator.as_ref(), &error)),
+            Err(error) => {
+                let Entry { evaluator, .. } = &entry;
+                report.unavailable.push(refusal(task, evaluator.name(), evaluator.variant(), &error));
+            }
         }
     }
 }
@@ -167,43 +193,13 @@ fn agree(name: &str, expected: &[f32], fitness: &[f32]) -> Result<()> {
     Ok(())
 }
 
-fn refusal(task: &Task, evaluator: &dyn Evaluator, error: &anyhow::Error) -> Missing {
+fn refusal(task: &Task, backend: &str, variant: &str, error: &anyhow::Error) -> Missing {
     Missing {
-        backend: evaluator.name().to_string(),
-        variant: evaluator.variant().to_string(),
+        backend: backend.to_string(),
+        variant: variant.to_string(),
         model: task.model.to_string(),
         reason: format!("{error:#}"),
     }
-}
-
-/// Medians of the times of an evaluator's passes by name, from rounds of their own: measuring passes takes time itself.
-fn stages(entry: &mut Entry, poses: &[f32], scene: &Scene, objective: &Objective) -> Result<Vec<(String, f64)>> {
-    let poses = &poses[..entry.fitness.len() * scene.pose.len()];
-    entry.evaluator.measure_passes(true)?;
-    let mut rounds: Vec<Vec<(String, f64)>> = Vec::new();
-    for _ in 0..STAGE_ROUNDS {
-        entry.evaluator.fitness(poses, objective, &mut entry.fitness)?;
-        let mut sums: Vec<(String, f64)> = Vec::new();
-        for pass in entry.evaluator.device_passes() {
-            let ms = pass.duration.as_secs_f64() * 1e3;
-            match sums.iter_mut().find(|(name, _)| *name == pass.name) {
-                Some((_, sum)) => *sum += ms,
-                None => sums.push((pass.name, ms)),
-            }
-        }
-        if sums.is_empty() {
-            break;
-        }
-        rounds.push(sums);
-    }
-    entry.evaluator.measure_passes(false)?;
-    let Some(first) = rounds.first() else { return Ok(Vec::new()) };
-    let median = |place: usize| {
-        let mut ms: Vec<f64> = rounds.iter().filter_map(|sums| Some(sums.get(place)?.1)).collect();
-        ms.sort_by(f64::total_cmp);
-        ms[ms.len() / 2]
-    };
-    Ok(first.iter().enumerate().map(|(place, (name, _))| (name.clone(), median(place))).collect())
 }
 
 fn row(task: &Task, scene: &Scene, entry: &Entry, times: Times, stages: Vec<(String, f64)>) -> Row {
@@ -265,14 +261,15 @@ mod tests {
     fn an_evaluator_that_scores_otherwise_is_not_measured() {
         let task = Task { model: Model::Flat, particles: 6, size: [96, 72], person: 50.0 };
         let scene = Scene::new(task.size, task.person).unwrap();
-        let mut all = Contestants::new(Model::Flat, &scene, &Err("no device".to_string())).unwrap();
+        let mut report = empty(Preset::Quick);
+        let mut all = evaluators(&task, &scene, &Err("no device".to_string()), &mut report).unwrap();
+        report.unavailable.clear();
         // The last of them is made to look at something else.
         let mut blind = scene.observations.clone();
         blind.iter_mut().for_each(|seen| seen.bytes.fill(0));
-        all.present.last_mut().unwrap().observe(&blind).unwrap();
-        let expected = all.present.len() - 1;
-        let mut report = empty(Preset::Quick);
-        measure(Preset::Quick, &task, &scene, all.present, &mut report);
+        all.last_mut().unwrap().observe(&blind).unwrap();
+        let expected = all.len() - 1;
+        measure(Preset::Quick, &task, &scene, all, &mut report);
         assert_eq!((report.rows.len(), report.unavailable.len()), (expected, 1), "{:?}", report.unavailable);
         assert!(report.unavailable[0].reason.contains("from that of reference"), "{:?}", report.unavailable);
         let row = &report.rows[0];

@@ -4,6 +4,11 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 
+use crate::evaluate::{Evaluator, Objective};
+
+/// Rounds that passes are measured in.
+const PASS_ROUNDS: usize = 5;
+
 /// One round of a thing to measure.
 pub type Round<'a> = Box<dyn FnMut() -> Result<()> + 'a>;
 
@@ -56,6 +61,49 @@ pub fn interleaved(things: &mut [Round<'_>], most: usize, share: Duration) -> Ve
         }
     }
     told.into_iter().map(|ms| ms.map(Times::of)).collect()
+}
+
+/// Medians over several runs of times that carry names, in the first run's order: name and milliseconds.
+pub fn medians(runs: &[Vec<(String, f64)>]) -> Vec<(String, f64)> {
+    let names = runs.iter().take(1).flatten().enumerate();
+    names
+        .map(|(place, (name, _))| {
+            let ms = runs.iter().filter_map(|run| Some(run.get(place)?.1)).collect();
+            (name.clone(), Times::of(ms).median)
+        })
+        .collect()
+}
+
+/// Medians of the times of an evaluator's passes by name, from rounds of their own: measuring passes takes time itself. None
+/// where it runs none on a device.
+///
+/// # Errors
+/// When an evaluation fails.
+pub fn pass_times(
+    evaluator: &mut dyn Evaluator,
+    poses: &[f32],
+    objective: &Objective,
+    fitness: &mut [f32],
+) -> Result<Vec<(String, f64)>> {
+    evaluator.measure_passes(true)?;
+    let mut runs: Vec<Vec<(String, f64)>> = Vec::new();
+    for _ in 0..PASS_ROUNDS {
+        evaluator.fitness(poses, objective, fitness)?;
+        let mut sums: Vec<(String, f64)> = Vec::new();
+        for pass in evaluator.device_passes() {
+            let ms = pass.duration.as_secs_f64() * 1e3;
+            match sums.iter_mut().find(|(name, _)| *name == pass.name) {
+                Some((_, sum)) => *sum += ms,
+                None => sums.push((pass.name, ms)),
+            }
+        }
+        if sums.is_empty() {
+            break;
+        }
+        runs.push(sums);
+    }
+    evaluator.measure_passes(false)?;
+    Ok(medians(&runs))
 }
 
 fn timed(run: &mut Round<'_>) -> Result<f64> {
