@@ -1,9 +1,8 @@
 # pantin: two commands do everything on a fresh machine with Rust, gcc and make.
 #   make demo    makes a synthetic four-camera sequence, tracks it and writes out/demo/report.html
-#   make test    formatting, lints, all tests
+#   make test    formatting, lints, all tests, every benchmark once
 #   make bench   the speed tables of docs/PERFORMANCE.md
 #   make portability   the GPU tests on lavapipe (three subgroup sizes), SwiftShader and Mesa 25
-#   make rerun-test    builds with the feature rerun and reads recordings back: some ten minutes the first time
 #   make fuzz    a minute of fuzzing for every reader of a user's file (SECONDS_EACH=60)
 
 CARGO ?= cargo
@@ -18,7 +17,7 @@ SHADERC_PACKAGES := libshaderc-dev glslang-dev spirv-tools
 SHADERC_PARTS := shaderc_combined glslang SPIRV MachineIndependent GenericCodeGen OSDependent OGLCompiler HLSL SPIRV-Tools-opt \
 	SPIRV-Tools glslang-default-resource-limits
 
-.PHONY: demo test bench portability rerun-test fuzz build ffmpeg vulkan shaderc toolchain help
+.PHONY: demo test bench portability fuzz build ffmpeg vulkan shaderc toolchain help
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -40,13 +39,17 @@ NEEDS_VULKAN = $$(if $(HAS_DRIVER) && $(HAS_LAYER); then echo PANTIN_NEEDS_VULKA
 
 # One seed for the property tests: whoever runs them twice gets one answer. A plain `cargo test` draws new cases each time.
 test: export PROPTEST_RNG_SEED = 1
+# What an incremental build keeps for the next one takes a third longer to make.
+test: export CARGO_INCREMENTAL = 0
+# The crate's own tests are built as a user builds it. All that runs the program, and the benchmarks, of which each row runs once,
+# have the feature rerun too: 185 crates more, but no library is built a second time.
 test: toolchain shaderc ffmpeg vulkan
 	$(CARGO) fmt --check
-	$(CARGO) clippy --locked --all-targets -- -D warnings
+	$(CARGO) clippy --locked --features rerun --all-targets -- -D warnings
 	$(CARGO) clippy --locked --features reload --lib -- -D warnings
-	env $(NEEDS_VULKAN) $(CARGO) test --locked
-	@echo "one round of every benchmark, so that none rots"
-	$(CARGO) test --locked --bench evaluate --bench features --bench search --bench mesh
+	env $(NEEDS_VULKAN) $(CARGO) test --locked --lib
+	env $(NEEDS_VULKAN) $(CARGO) test --locked --features rerun --test '*' --bench '*'
+	$(CARGO) test --locked --features rerun --doc
 	@[ -d ../shared/data ] || echo "SKIPPED: the tests on real recordings; ../shared/data is absent"
 
 bench: toolchain shaderc
@@ -54,11 +57,6 @@ bench: toolchain shaderc
 
 portability: toolchain shaderc vulkan
 	tests/portability.sh
-
-# 185 crates more, which no other target compiles.
-rerun-test: toolchain shaderc
-	$(CARGO) clippy --locked --features rerun --all-targets -- -D warnings
-	$(CARGO) test --locked --features rerun --test program rerun::
 
 fuzz: toolchain shaderc
 	tests/fuzz/run.sh all $(SECONDS_EACH)

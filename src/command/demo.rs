@@ -111,3 +111,24 @@ pub fn run(args: &DemoArgs) -> Result<()> {
     println!("the model over frame {best}: {}", path.display());
     Ok(())
 }
+
+#[cfg(all(test, not(feature = "rerun")))]
+mod tests {
+    use std::process::ExitCode;
+
+    use clap::Parser;
+
+    use super::super::{Arguments, dispatch, run};
+
+    #[test]
+    fn a_build_without_recordings_says_so_before_anything_is_written() {
+        let temporary = tempfile::tempdir().unwrap();
+        let folder = temporary.path().join("demo");
+        let arguments = ["pantin", "demo", "--rerun", "-o", folder.to_str().unwrap()];
+        let command = Arguments::try_parse_from(arguments).unwrap().command;
+        let message = format!("{:#}", dispatch(command).unwrap_err());
+        assert_eq!(run(arguments.map(Into::into)), ExitCode::FAILURE, "{message}");
+        assert!(message.contains("cargo build --release --features rerun"), "{message}");
+        assert!(message.trim().lines().count() == 1 && !folder.exists(), "{message}");
+    }
+}

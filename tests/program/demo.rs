@@ -54,15 +54,3 @@ fn impossible_numbers_are_named_before_anything_is_written() {
     let failed = program().args(["demo", "--frames", "0", "-o"]).arg(&folder).output().unwrap();
     assert!(stderr(&failed).contains("frames is 0"));
 }
-
-#[cfg(not(feature = "rerun"))]
-#[test]
-fn a_build_without_recordings_says_so_before_anything_is_written() {
-    let temporary = tempfile::tempdir().unwrap();
-    let folder = temporary.path().join("demo");
-    let failed = demo(&folder, &["--rerun"]);
-    let message = stderr(&failed);
-    assert_eq!(failed.status.code(), Some(1), "{message}");
-    assert!(message.contains("cargo build --release --features rerun"), "{message}");
-    assert!(message.trim().lines().count() == 1 && !folder.exists(), "{message}");
-}
