@@ -2,33 +2,8 @@
 
 use std::arch::x86_64::*;
 
-use super::simd::{Lanes, Simd};
-
-/// Proof that the processor has AVX2 and what comes with it; only [`Avx2::detect`] makes one.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Avx2(());
-
-impl Avx2 {
-    /// The token, on a processor that has the instructions.
-    pub(super) fn detect() -> Option<Self> {
-        let present = is_x86_feature_detected!("avx2")
-            && is_x86_feature_detected!("fma")
-            && is_x86_feature_detected!("bmi1")
-            && is_x86_feature_detected!("bmi2")
-            && is_x86_feature_detected!("lzcnt")
-            && is_x86_feature_detected!("popcnt");
-        present.then_some(Self(()))
-    }
-}
-
-/// An intrinsic called on behalf of a token.
-macro_rules! with_token {
-    ($call:expr) => {
-        // SAFETY: `self` exists, so `detect` found every instruction this file uses; the pointers come from references
-        // to sixteen aligned words, of which each register takes eight.
-        unsafe { $call }
-    };
-}
+use super::instruction_set::Avx2;
+use super::simd::{Lanes, Simd, with_token};
 
 /// Two registers, the first eight lanes and the others.
 type Pair = [__m256i; 2];

@@ -2,39 +2,8 @@
 
 use std::arch::x86_64::*;
 
-use super::simd::{Lanes, Simd};
-
-/// Proof that the processor has the AVX-512 subsets used here; only [`Avx512::detect`] makes one.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Avx512(());
-
-impl Avx512 {
-    /// The token, on a processor that has the instructions.
-    pub(super) fn detect() -> Option<Self> {
-        let present = is_x86_feature_detected!("avx512f")
-            && is_x86_feature_detected!("avx512bw")
-            && is_x86_feature_detected!("avx512cd")
-            && is_x86_feature_detected!("avx512dq")
-            && is_x86_feature_detected!("avx512vl")
-            && is_x86_feature_detected!("avx512vpopcntdq")
-            && is_x86_feature_detected!("avx2")
-            && is_x86_feature_detected!("fma")
-            && is_x86_feature_detected!("bmi1")
-            && is_x86_feature_detected!("bmi2")
-            && is_x86_feature_detected!("lzcnt")
-            && is_x86_feature_detected!("popcnt");
-        present.then_some(Self(()))
-    }
-}
-
-/// An intrinsic called on behalf of a token.
-macro_rules! with_token {
-    ($call:expr) => {
-        // SAFETY: `self` exists, so `detect` found every instruction this file uses; the pointers come from references
-        // to sixteen aligned words.
-        unsafe { $call }
-    };
-}
+use super::instruction_set::Avx512;
+use super::simd::{Lanes, Simd, with_token};
 
 impl Simd for Avx512 {
     const SKIPS_EDGES: bool = false;

@@ -9,6 +9,8 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod front;
+mod group;
+mod instruction_set;
 mod kernel;
 mod outline;
 mod planes;
@@ -33,70 +35,12 @@ use super::rig::Rig;
 use super::segments::{SegmentSums, segments_of};
 
 use front::{Front, LANES, QuadChunk};
-use kernel::{Canvas, Cell, SegmentedCell};
+use group::Scratch;
+use instruction_set::Code;
+pub use instruction_set::InstructionSet;
+use kernel::Canvas;
 use planes::Planes;
-use portable::Portable;
-use simd::Simd;
 use workers::Workers;
-
-/// An instruction set the evaluator is built for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InstructionSet {
-    /// AVX-512 with bit counts in registers (Ice Lake, Zen 4 and later).
-    Avx512,
-    /// AVX2 with FMA and BMI (Haswell, Zen and later).
-    Avx2,
-    /// Any processor.
-    Portable,
-}
-
-impl InstructionSet {
-    /// All of them, fastest first.
-    pub const ALL: [Self; 3] = [Self::Avx512, Self::Avx2, Self::Portable];
-
-    /// The name as the benchmark's `variant` column has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Avx512 => "avx512",
-            Self::Avx2 => "avx2",
-            Self::Portable => "portable",
-        }
-    }
-
-    /// Whether this processor has it.
-    pub fn is_available(self) -> bool {
-        Code::of(self).is_some()
-    }
-
-    /// The fastest one this processor has.
-    pub fn best() -> Self {
-        Self::ALL.into_iter().find(|set| set.is_available()).unwrap_or(Self::Portable)
-    }
-}
-
-/// An instruction set together with the proof that it is there.
-#[derive(Clone, Copy, Debug)]
-enum Code {
-    #[cfg(target_arch = "x86_64")]
-    Avx512(avx512::Avx512),
-    #[cfg(target_arch = "x86_64")]
-    Avx2(avx2::Avx2),
-    Portable,
-}
-
-impl Code {
-    fn of(set: InstructionSet) -> Option<Self> {
-        match set {
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => avx512::Avx512::detect().map(Self::Avx512),
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => avx2::Avx2::detect().map(Self::Avx2),
-            #[cfg(not(target_arch = "x86_64"))]
-            InstructionSet::Avx512 | InstructionSet::Avx2 => None,
-            InstructionSet::Portable => Some(Self::Portable),
-        }
-    }
-}
 
 /// The fast evaluator on the processor.
 #[derive(Debug)]
@@ -112,19 +56,6 @@ pub struct Cpu {
     labels: Vec<u8>,
     /// Those of the newest observations.
     segments: Option<Arc<Segments>>,
-}
-
-/// Working memory of one worker.
-#[derive(Debug)]
-struct Scratch {
-    front: Front,
-    quads: Vec<QuadChunk>,
-    canvas: Canvas<Cell>,
-    components: Vec<Components>,
-    /// In place of `canvas` where there are segments.
-    segmented: Option<Canvas<SegmentedCell>>,
-    /// `[candidate][view][segment]`.
-    segment_sums: Vec<SegmentSums>,
 }
 
 impl Cpu {
@@ -233,84 +164,13 @@ impl Cpu {
                 let Some((poses, results)) = groups.lock().unwrap_or_else(PoisonError::into_inner).next() else {
                     break;
                 };
-                evaluate_group(code, projector, planes, poses, &mut scratch);
+                code.evaluate_group(projector, planes, poses, &mut scratch);
                 let images = poses.len() / dof_count * views;
                 finish(&scratch.components[..images], &scratch.segment_sums[..images * segments], results);
             }
         });
         ensure!(completed, "a worker thread of the cpu evaluator failed; its message stands above");
         Ok(())
-    }
-}
-
-/// Up to sixteen candidates in every view, in the instruction set of `code`.
-fn evaluate_group(code: Code, projector: &Projector, planes: &[Planes], poses: &[f32], scratch: &mut Scratch) {
-    match code {
-        #[cfg(target_arch = "x86_64")]
-        Code::Avx512(simd) => {
-            #[target_feature(
-                enable = "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx512vpopcntdq,avx2,fma,bmi1,bmi2,lzcnt,popcnt"
-            )]
-            fn compiled(
-                simd: avx512::Avx512,
-                projector: &Projector,
-                planes: &[Planes],
-                poses: &[f32],
-                scratch: &mut Scratch,
-            ) {
-                evaluate_group_in(simd, projector, planes, poses, scratch);
-            }
-            // SAFETY: the token proves that the processor has these features.
-            unsafe { compiled(simd, projector, planes, poses, scratch) }
-        }
-        #[cfg(target_arch = "x86_64")]
-        Code::Avx2(simd) => {
-            #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-            fn compiled(
-                simd: avx2::Avx2,
-                projector: &Projector,
-                planes: &[Planes],
-                poses: &[f32],
-                scratch: &mut Scratch,
-            ) {
-                evaluate_group_in(simd, projector, planes, poses, scratch);
-            }
-            // SAFETY: the token proves that the processor has these features.
-            unsafe { compiled(simd, projector, planes, poses, scratch) }
-        }
-        #[cfg(target_arch = "x86_64")]
-        Code::Portable if is_x86_feature_detected!("sse4.2") && is_x86_feature_detected!("popcnt") => {
-            #[target_feature(enable = "sse4.2,popcnt")]
-            fn compiled(projector: &Projector, planes: &[Planes], poses: &[f32], scratch: &mut Scratch) {
-                evaluate_group_in(Portable, projector, planes, poses, scratch);
-            }
-            // SAFETY: the guard has just found both features.
-            unsafe { compiled(projector, planes, poses, scratch) }
-        }
-        Code::Portable => evaluate_group_in(Portable, projector, planes, poses, scratch),
-    }
-}
-
-/// The same in one instruction set; inlined into a function compiled for it.
-#[inline(always)]
-fn evaluate_group_in<S: Simd>(simd: S, projector: &Projector, planes: &[Planes], poses: &[f32], scratch: &mut Scratch) {
-    scratch.front.pose(&projector.rig, poses);
-    let views = planes.len();
-    let count = poses.len() / projector.rig.dof_count;
-    // A view's planes stay in the cache for all sixteen candidates.
-    for (view, (camera, planes)) in projector.cameras.iter().zip(planes).enumerate() {
-        for candidate in 0..count {
-            scratch.front.project(camera, candidate, &mut scratch.quads);
-            let image = candidate * views + view;
-            scratch.components[image] = match &mut scratch.segmented {
-                None => scratch.canvas.compare(simd, &scratch.quads, planes),
-                Some(canvas) => {
-                    let segments = planes.segment_areas.len();
-                    let sums = &mut scratch.segment_sums[image * segments..][..segments];
-                    canvas.compare_segments(simd, &scratch.quads, planes, sums)
-                }
-            };
-        }
     }
 }
 

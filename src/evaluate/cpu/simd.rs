@@ -69,3 +69,15 @@ pub(super) trait Simd: Copy + Send + Sync + 'static {
     fn count(self, sum: Self::Sum, words: Self::Words) -> Self::Sum;
     fn total(self, sum: Self::Sum) -> u32;
 }
+
+/// An intrinsic called on behalf of a token.
+#[cfg(target_arch = "x86_64")]
+macro_rules! with_token {
+    ($call:expr) => {
+        // SAFETY: `self` exists, so `detect` found every instruction its file uses; the pointers come from references to sixteen
+        // aligned words, of which a register takes eight or all.
+        unsafe { $call }
+    };
+}
+#[cfg(target_arch = "x86_64")]
+pub(super) use with_token;
