@@ -23,7 +23,7 @@ pub enum Groups<'a> {
 
 impl Groups<'_> {
     /// Most workgroups in one direction that every device runs.
-    const ROW: u32 = 65535;
+    pub const ROW: u32 = 65535;
 
     /// Their number in x, y, z for workgroups of this size; none where the device alone knows.
     pub(super) fn count(self, size: [u32; 3]) -> Option<[u32; 3]> {

@@ -187,8 +187,9 @@ impl Recorder {
             (_, Some([x, y, z])) => {
                 let limit = self.device.capabilities().max_groups;
                 ensure!(
-                    x <= limit && y <= 65535 && z <= 65535,
-                    "the pass {name} wants {x} x {y} x {z} workgroups, and this device allows {limit} x 65535 x 65535"
+                    x <= limit && y <= Groups::ROW && z <= Groups::ROW,
+                    "the pass {name} wants {x} x {y} x {z} workgroups, and this device allows {limit} x {row} x {row}",
+                    row = Groups::ROW
                 );
                 // SAFETY: recording, with a pipeline, its sets and push constants bound.
                 unsafe { raw.cmd_dispatch(self.parts.commands, x, y, z) };

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use anyhow::{Result, ensure};
 
 use super::host_buffers::{HostBuffers, HostCounts};
+use super::passes;
 use super::rasteriser::Rasteriser;
 use super::resources::Resources;
 use super::runs::Runs;
@@ -79,7 +80,7 @@ impl<R: Rasteriser> DeviceBackend<R> {
 
     /// Host to host: the poses, all stages, fitness or sums. One recording, or with the comparison on the host one a batch.
     fn record_run(&self, objective: Option<&Objective>, candidates: u32) -> Result<Vec<Recording>> {
-        let Resources { scene, workspace, host, segments, pose, .. } = &self.resources;
+        let Resources { scene, workspace, host, segments } = &self.resources;
         let on_host = self.rasteriser.compares_on_host();
         let mut recorder = scene.device.recorder(self.runs.timing())?;
         host.record_poses(&mut recorder, (scene, workspace), candidates)?;
@@ -89,7 +90,7 @@ impl<R: Rasteriser> DeviceBackend<R> {
                 let next = scene.device.recorder(self.runs.timing())?;
                 recorded.push(std::mem::replace(&mut recorder, next));
             }
-            pose.record(&mut recorder, scene, workspace, share)?;
+            passes::pose(&mut recorder, scene, workspace, share)?;
             self.rasteriser.record_host_share(&mut recorder, &self.resources, share)?;
         }
         match objective.filter(|_| !on_host) {
@@ -108,7 +109,7 @@ impl<R: Rasteriser> DeviceBackend<R> {
 
     /// Room for runs of so many candidates.
     fn make_room(&mut self, candidates: u32) -> Result<()> {
-        let Resources { scene, workspace, host, segments, .. } = &mut self.resources;
+        let Resources { scene, workspace, host, segments } = &mut self.resources;
         if candidates > workspace.candidates {
             // Recordings hold the old memory; without them it is free before the new one is taken.
             self.runs.clear();
@@ -320,9 +321,9 @@ impl<R: Rasteriser> DeviceEvaluator for DeviceBackend<R> {
     }
 
     fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
-        let Resources { scene, workspace, pose, .. } = &self.resources;
+        let Resources { scene, workspace, .. } = &self.resources;
         for share in self.resources.shares(candidates, self.rasteriser.batch(workspace))? {
-            pose.record(recorder, scene, workspace, share)?;
+            passes::pose(recorder, scene, workspace, share)?;
             self.rasteriser.record_share(recorder, &self.resources, share)?;
         }
         self.resources.record_objective(recorder, objective, candidates)

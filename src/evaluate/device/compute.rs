@@ -5,9 +5,7 @@ use anyhow::Result;
 
 use super::backend::DeviceBackend;
 use super::open::open_device;
-use super::project::ProjectStage;
-use super::raster::RasterStage;
-use super::raster_segments::RasterSegmentsStage;
+use super::passes::{self, Images, RASTER_TILE, raster_stage};
 use super::rasteriser::Rasteriser;
 use super::resources::Resources;
 use super::scene::{DeviceScene, Share};
@@ -15,6 +13,9 @@ use super::segments::DeviceSegments;
 use super::workspace::Workspace;
 use crate::body::Body;
 use crate::evaluate::evaluator::Footprint;
+use crate::evaluate::shaders::{
+    objective_comp, objective_segments_comp, pose_comp, project_comp, raster_segments_comp,
+};
 use crate::geometry::Camera;
 use crate::gpu::{Device, Recorder};
 
@@ -24,10 +25,7 @@ pub type Compute = DeviceBackend<ComputeRasteriser>;
 /// Draws and compares in one stage, with no picture of a candidate in memory.
 #[derive(Debug)]
 pub struct ComputeRasteriser {
-    project: ProjectStage,
-    raster: RasterStage,
-    /// Compiled when the first segments are seen.
-    raster_segments: Option<RasterSegmentsStage>,
+    has_subgroups: bool,
 }
 
 impl Compute {
@@ -45,8 +43,9 @@ impl Compute {
     /// When a picture has no pixel or is too large, the body has no or too many parts, or the device fails.
     pub fn on(device: &Device, body: &Body, cameras: &[Camera]) -> Result<Self> {
         Self::with(DeviceScene::new(device, body, cameras)?, |_| {
-            let (raster, project) = rayon::join(|| RasterStage::new(device), || ProjectStage::new(device));
-            Ok(ComputeRasteriser { project: project?, raster: raster?, raster_segments: None })
+            let raster = raster_stage(device, false);
+            device.compile(&[raster, pose_comp::stage(), project_comp::stage(), objective_comp::stage()])?;
+            Ok(ComputeRasteriser { has_subgroups: device.capabilities().subgroup_arithmetic })
         })
     }
 }
@@ -55,12 +54,12 @@ impl Rasteriser for ComputeRasteriser {
     const NAME: &'static str = "compute";
 
     fn variant(&self) -> &'static str {
-        self.raster.variant()
+        if self.has_subgroups { "subgroup" } else { "shared" }
     }
 
     fn footprint(&self) -> Footprint {
         // Bits in registers: no pixel of a candidate is written to memory.
-        Footprint { tile: RasterStage::TILE, bytes_per_pixel: 0.0 }
+        Footprint { tile: RASTER_TILE, bytes_per_pixel: 0.0 }
     }
 
     fn set_segments(
@@ -69,21 +68,16 @@ impl Rasteriser for ComputeRasteriser {
         _workspace: &Workspace,
         segments: Option<&DeviceSegments>,
     ) -> Result<()> {
-        if segments.is_some() && self.raster_segments.is_none() {
-            self.raster_segments = Some(RasterSegmentsStage::new(&scene.device, false)?);
+        if segments.is_some() {
+            let raster = raster_segments_comp::stage(raster_segments_comp::Constants { listed: false });
+            scene.device.compile(&[raster, objective_segments_comp::stage()])?;
         }
         Ok(())
     }
 
     fn record_share(&self, recorder: &mut Recorder, resources: &Resources, share: Share) -> Result<()> {
         let Resources { scene, workspace, segments, .. } = resources;
-        self.project.record(recorder, scene, workspace, share)?;
-        match segments.as_ref().zip(self.raster_segments.as_ref()) {
-            None => self.raster.record(recorder, scene, workspace, share),
-            // The list is not read.
-            Some((segments, raster)) => {
-                segments.record_sums(recorder, raster, (scene, workspace), &scene.cameras, share)
-            }
-        }
+        passes::project(recorder, scene, workspace, share)?;
+        passes::raster(recorder, (scene, workspace), segments.as_ref(), Images::All, share)
     }
 }

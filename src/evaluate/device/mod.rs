@@ -5,13 +5,8 @@ mod backend;
 mod compute;
 mod graphics;
 mod host_buffers;
-mod objective;
-mod objective_segments;
 mod open;
-mod pose;
-mod project;
-mod raster;
-mod raster_segments;
+mod passes;
 #[cfg(test)]
 mod raster_tests;
 mod rasteriser;

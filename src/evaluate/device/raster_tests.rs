@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use super::raster::RasterStage;
+use super::passes::{Images, raster, raster_stage};
 use super::scene::{DeviceScene, Share};
 use super::tests::{cameras, device, fetch, set_up_with};
 use super::workspace::Workspace;
@@ -104,8 +104,8 @@ fn rows(quads: &[PartQuad]) -> Vec<layout::Quad> {
         .collect()
 }
 
-pub(super) fn observations(random: &mut Random, model: &DeviceScene) -> Vec<Observation> {
-    model
+pub(super) fn observations(random: &mut Random, scene: &DeviceScene) -> Vec<Observation> {
+    scene
         .sizes
         .iter()
         .map(|&[width, height]| {
@@ -117,13 +117,13 @@ pub(super) fn observations(random: &mut Random, model: &DeviceScene) -> Vec<Obse
 }
 
 /// Puts quads in the workspace in the place of projected ones.
-pub(super) fn put(device: &Device, workspace: &Workspace, model: &DeviceScene, images: &[Vec<PartQuad>]) {
+pub(super) fn put(device: &Device, workspace: &Workspace, scene: &DeviceScene, images: &[Vec<PartQuad>]) {
     let quads: Vec<_> = images.iter().flat_map(|quads| rows(quads)).collect();
     let bounds: Vec<_> = images
         .iter()
         .enumerate()
         .map(|(image, quads)| {
-            let size = model.sizes[image % model.sizes.len()].map(|side| side as i32);
+            let size = scene.sizes[image % scene.sizes.len()].map(|side| side as i32);
             let found = super::tests::bounds_of(quads, size);
             layout::Bounds { low: found.low, high: found.high }
         })
@@ -135,7 +135,7 @@ pub(super) fn put(device: &Device, workspace: &Workspace, model: &DeviceScene, i
     let mut recorder = device.recorder(Timing::Off).unwrap();
     recorder.copy("put", (&quad_staging, 0), (&workspace.quads, 0), quad_staging.size()).unwrap();
     recorder.copy("put", (&bound_staging, 0), (&workspace.bounds, 0), bound_staging.size()).unwrap();
-    model.record_upload(&mut recorder).unwrap();
+    scene.record_upload(&mut recorder).unwrap();
     recorder.finish().unwrap().run().unwrap();
 }
 
@@ -174,25 +174,25 @@ fn check(name: &str, settings: &DeviceSettings, parts: usize, candidates: usize)
     let Some((device, log)) = device(name, settings.clone()) else { return };
     let body = body_of(parts);
     let poses = vec![0.0; candidates * body.dof_count()];
-    let (_, mut model, workspace, share) = set_up_with(&device, &body, &odd_cameras(), &poses);
+    let (_, mut scene, workspace, share) = set_up_with(&device, &body, &odd_cameras(), &poses);
     let mut random = Random(parts as u64);
-    let images: Vec<_> = (0..candidates * model.sizes.len())
-        .map(|i| image(&mut random, parts, model.sizes[i % model.sizes.len()]))
+    let images: Vec<_> = (0..candidates * scene.sizes.len())
+        .map(|i| image(&mut random, parts, scene.sizes[i % scene.sizes.len()]))
         .collect();
-    let seen = observations(&mut random, &model);
-    model.observe(&seen).unwrap();
-    put(&device, &workspace, &model, &images);
-    let stage = RasterStage::new(&device).unwrap();
-    assert_eq!(stage.variant(), if device.capabilities().subgroup_arithmetic { "subgroup" } else { "shared" });
+    let seen = observations(&mut random, &scene);
+    scene.observe(&seen).unwrap();
+    put(&device, &workspace, &scene, &images);
+    let shader = raster_stage(&device, false).shader;
+    assert_eq!(shader.label(), if device.capabilities().subgroup_arithmetic { "raster" } else { "raster_shared" });
     let mut recorder = device.recorder(Timing::Off).unwrap();
-    stage.record(&mut recorder, &model, &workspace, share).unwrap();
+    raster(&mut recorder, (&scene, &workspace), None, Images::All, share).unwrap();
     recorder.finish().unwrap().run().unwrap();
     let expected = expected(&images, &seen);
     let sums = found(&fetch::<layout::Sums>(&device, &workspace.sums, images.len()));
     let drawn = expected.iter().filter(|sums| sums[0] > 0).count();
     assert!(drawn * 2 > images.len(), "only {drawn} of {} images show anything", images.len());
     for (image, (expected, found)) in expected.iter().zip(&sums).enumerate() {
-        let size = model.sizes[image % model.sizes.len()];
+        let size = scene.sizes[image % scene.sizes.len()];
         assert_eq!(expected, found, "image {image} of {size:?}: {:?}", images[image]);
     }
 
@@ -203,13 +203,14 @@ fn check(name: &str, settings: &DeviceSettings, parts: usize, candidates: usize)
     buffer.write(0, &words).unwrap();
     let mut recorder = device.recorder(Timing::Off).unwrap();
     recorder.fill("clear", &workspace.sums, 0xffff_ffff).unwrap();
-    stage.record_listed(&mut recorder, &model, &workspace, Share { first: 0, candidates: 1 }, &buffer).unwrap();
+    let share = Share { first: 0, candidates: 1 };
+    raster(&mut recorder, (&scene, &workspace), None, Images::Listed(&buffer), share).unwrap();
     recorder.finish().unwrap().run().unwrap();
     let sums = found(&fetch::<layout::Sums>(&device, &workspace.sums, images.len()));
     for (image, (expected, found)) in expected.iter().zip(&sums).enumerate() {
         assert_eq!(if image % 3 == 0 { expected } else { &[u32::MAX; 4] }, found, "listed image {image}");
     }
-    drop((stage, workspace, model, device));
+    drop((workspace, scene, device));
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 

@@ -3,8 +3,7 @@
 use anyhow::{Result, ensure};
 
 use super::host_buffers::HostBuffers;
-use super::objective::ObjectiveStage;
-use super::pose::PoseStage;
+use super::passes;
 use super::scene::{DeviceScene, Share};
 use super::segments::DeviceSegments;
 use super::workspace::Workspace;
@@ -19,8 +18,6 @@ pub(crate) struct Resources {
     pub(super) host: HostBuffers,
     /// Where the newest observations have them.
     pub(super) segments: Option<DeviceSegments>,
-    pub(super) pose: PoseStage,
-    pub(super) objective: ObjectiveStage,
 }
 
 impl Resources {
@@ -30,8 +27,6 @@ impl Resources {
             workspace: Workspace::new(&scene.device, scene.counts, 1)?,
             host: HostBuffers::new(&scene, 1)?,
             segments: None,
-            pose: PoseStage::new(&scene.device)?,
-            objective: ObjectiveStage::new(&scene.device)?,
             scene,
         })
     }
@@ -49,13 +44,9 @@ impl Resources {
         objective: &Objective,
         candidates: u32,
     ) -> Result<()> {
-        let Self { scene, workspace, host, .. } = self;
-        match &self.segments {
-            None => self.objective.record(recorder, scene, workspace, objective, candidates, &host.fitness),
-            Some(segments) => {
-                segments.record_objective(recorder, (scene, workspace), (objective, candidates), &host.fitness)
-            }
-        }
+        let Self { scene, workspace, host, segments } = self;
+        let run = (objective, candidates);
+        passes::objective(recorder, (scene, workspace), segments.as_ref(), run, &host.fitness)
     }
 
     /// The batches of at most `batch` candidates of a run.

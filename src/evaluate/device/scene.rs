@@ -9,7 +9,7 @@ use crate::evaluate::rig::{Rig, RigCamera, RigLens};
 use crate::evaluate::shaders::{PROJECT_GROUP, layout};
 use crate::features::Observation;
 use crate::geometry::Camera;
-use crate::gpu::{Buffer, Device, Memory, Recorder};
+use crate::gpu::{Device, Recorder, StagedBuffer};
 
 /// Most parts of a body: a workgroup holds all parts of an image.
 pub(crate) const MOST_PARTS: usize = PROJECT_GROUP as usize;
@@ -32,26 +32,6 @@ pub(crate) struct Share {
     pub(crate) candidates: u32,
 }
 
-/// A buffer of the device and the host's copy of what goes there.
-#[derive(Debug)]
-pub(super) struct Uploaded {
-    pub(super) staging: Buffer,
-    pub(super) target: Buffer,
-}
-
-impl Uploaded {
-    pub(super) fn new<T: bytemuck::Pod>(device: &Device, name: &str, values: &[T]) -> Result<Self> {
-        let staging = device.buffer::<T>(&format!("{name} staging"), values.len(), Memory::Upload)?;
-        staging.write(0, values)?;
-        Ok(Self { staging, target: device.buffer::<T>(name, values.len(), Memory::Device)? })
-    }
-
-    /// Records the copy.
-    pub(super) fn record(&self, recorder: &mut Recorder) -> Result<()> {
-        recorder.copy("upload", (&self.staging, 0), (&self.target, 0), self.target.size())
-    }
-}
-
 /// Body, cameras and observations on the device. The host's side is written at once; the device sees it when the passes of
 /// [`Self::record_upload`] have run.
 #[derive(Debug)]
@@ -62,25 +42,17 @@ pub(crate) struct DeviceScene {
     pub(crate) sizes: Vec<[u32; 2]>,
     /// Labels of the parts in the body's order.
     pub(crate) labels: Vec<u8>,
-    pub(crate) bones: Buffer,
-    pub(crate) parts: Buffer,
-    pub(crate) cameras: Buffer,
+    pub(crate) bones: StagedBuffer,
+    pub(crate) parts: StagedBuffer,
+    pub(crate) cameras: StagedBuffer,
     /// Bit planes of the observations, eight words together: planes 0..=6 the proximity bits, plane 7 the silhouette, of 32
     /// pixels of a row. A view's begin at its camera's `first_plane_word` groups.
-    pub(crate) planes: Buffer,
+    pub(crate) planes: StagedBuffer,
     /// The packed bytes of the observations, four pixels a word, rows padded to whole words. A view's begin at its camera's
     /// `first_pixel_word`.
-    pub(crate) pixels: Buffer,
-    uploads: Vec<Uploaded>,
+    pub(crate) pixels: StagedBuffer,
     camera_rows: Vec<layout::Camera>,
 }
-
-/// Places of the uploads.
-const BONES: usize = 0;
-const PARTS: usize = 1;
-const CAMERAS: usize = 2;
-const PLANES: usize = 3;
-const PIXELS: usize = 4;
 
 impl DeviceScene {
     /// For a body and its cameras. Observations are of nothing at first.
@@ -112,25 +84,16 @@ impl DeviceScene {
             planes += width.div_ceil(32) * height;
             pixels += width.div_ceil(4) * height;
         }
-        let uploads = vec![
-            Uploaded::new(device, "bones", &bone_rows(rig))?,
-            Uploaded::new(device, "parts", &part_rows(rig, &labels))?,
-            Uploaded::new(device, "cameras", &camera_rows)?,
-            Uploaded::new(device, "observed planes", &vec![0_u32; 8 * planes as usize])?,
-            Uploaded::new(device, "observed pixels", &vec![0_u32; pixels as usize])?,
-        ];
-        let target = |place: usize| uploads[place].target.clone();
         Ok(Self {
             device: device.clone(),
             counts,
             sizes: cameras.iter().map(|camera| camera.size).collect(),
+            bones: StagedBuffer::of(device, "bones", &bone_rows(rig))?,
+            parts: StagedBuffer::of(device, "parts", &part_rows(rig, &labels))?,
+            cameras: StagedBuffer::of(device, "cameras", &camera_rows)?,
+            planes: StagedBuffer::of(device, "observed planes", &vec![0_u32; 8 * planes as usize])?,
+            pixels: StagedBuffer::of(device, "observed pixels", &vec![0_u32; pixels as usize])?,
             labels,
-            bones: target(BONES),
-            parts: target(PARTS),
-            cameras: target(CAMERAS),
-            planes: target(PLANES),
-            pixels: target(PIXELS),
-            uploads,
             camera_rows,
         })
     }
@@ -149,8 +112,8 @@ impl DeviceScene {
             self.counts.parts,
             self.counts.dofs
         );
-        self.uploads[BONES].staging.write(0, &bone_rows(rig))?;
-        self.uploads[PARTS].staging.write(0, &part_rows(rig, &self.labels))
+        self.bones.staging.write(0, &bone_rows(rig))?;
+        self.parts.staging.write(0, &part_rows(rig, &self.labels))
     }
 
     /// Takes the observations of a frame, one a view.
@@ -164,10 +127,10 @@ impl DeviceScene {
                 planes.extend(row.chunks(WORD_PIXELS).flat_map(bit_planes));
                 pixels.extend(packed(row));
             }
-            self.uploads[PLANES].staging.write(8 * camera.first_plane_word as usize, &planes)?;
-            self.uploads[PIXELS].staging.write(camera.first_pixel_word as usize, &pixels)?;
+            self.planes.staging.write(8 * camera.first_plane_word as usize, &planes)?;
+            self.pixels.staging.write(camera.first_pixel_word as usize, &pixels)?;
         }
-        self.uploads[CAMERAS].staging.write(0, &self.camera_rows)
+        self.cameras.staging.write(0, &self.camera_rows)
     }
 
     /// Pixels of the observed silhouettes, one a view.
@@ -187,7 +150,8 @@ impl DeviceScene {
 
     /// Records the copies of everything to the device's own memory.
     pub(crate) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
-        self.uploads.iter().try_for_each(|upload| upload.record(recorder))
+        let Self { bones, parts, cameras, planes, pixels, .. } = self;
+        [bones, parts, cameras, planes, pixels].into_iter().try_for_each(|staged| staged.record_upload(recorder))
     }
 
     /// The push constants of a share of the candidates.

@@ -5,24 +5,20 @@ use std::sync::Arc;
 use anyhow::Result;
 
 use super::host_buffers::HostCounts;
-use super::objective_segments::ObjectiveSegmentsStage;
-use super::raster_segments::RasterSegmentsStage;
-use super::scene::{DeviceScene, Share, Uploaded};
-use super::workspace::Workspace;
+use super::scene::DeviceScene;
+use crate::evaluate::SegmentSums;
 use crate::evaluate::shaders::layout;
-use crate::evaluate::{Objective, SegmentSums};
 use crate::features::{Observation, Segments};
-use crate::gpu::{Buffer, Memory, Recorder};
+use crate::gpu::{Buffer, Memory, Recorder, StagedBuffer};
 
-/// The segments of a frame's observations, what scores by them, and the sums of a run.
+/// The segments of a frame's observations, and the sums of a run.
 #[derive(Debug)]
 pub(crate) struct DeviceSegments {
     segments: Arc<Segments>,
-    objective: ObjectiveSegmentsStage,
     /// Weights, the number of each label, observed areas.
-    pub(super) table: Uploaded,
+    pub(super) table: StagedBuffer,
     /// A word a segment for 32 pixels of a row, in the order of the model's planes.
-    planes: Uploaded,
+    pub(super) planes: StagedBuffer,
     /// Observed pixels, `[view][segment]`, in rows of the most segments.
     areas: Vec<u32>,
     /// `[candidate][view][segment]`.
@@ -34,14 +30,13 @@ impl DeviceSegments {
     /// For runs of so many candidates.
     pub(super) fn new(model: &DeviceScene, segments: &Arc<Segments>, candidates: u32) -> Result<Self> {
         let device = &model.device;
-        let words = model.planes.size() as usize / size_of::<u32>();
-        let table = vec![0_u32; size_of::<layout::SegmentTableHeader>() / 4 + model.sizes.len() * Segments::MOST];
+        let words = model.planes.buffer.size() as usize / size_of::<u32>();
+        let table = size_of::<layout::SegmentTableHeader>() / 4 + model.sizes.len() * Segments::MOST;
         let [sums, sums_out] = Self::room(model, candidates)?;
         Ok(Self {
             segments: Arc::clone(segments),
-            objective: ObjectiveSegmentsStage::new(device)?,
-            table: Uploaded::new(device, "segments", &table)?,
-            planes: Uploaded::new(device, "observed segments", &vec![0_u32; words])?,
+            table: StagedBuffer::new::<u32>(device, "segments", table)?,
+            planes: StagedBuffer::of(device, "observed segments", &vec![0_u32; words])?,
             areas: vec![0; model.sizes.len() * Segments::MOST],
             sums,
             sums_out,
@@ -97,34 +92,8 @@ impl DeviceSegments {
 
     /// Records the copies to the device's own memory.
     pub(super) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
-        self.table.record(recorder)?;
-        self.planes.record(recorder)
-    }
-
-    /// Records the drawing of a share without a framebuffer and the comparison with what was observed, whole and in segments;
-    /// `list` is what `raster` takes.
-    pub(super) fn record_sums(
-        &self,
-        recorder: &mut Recorder,
-        raster: &RasterSegmentsStage,
-        (model, workspace): (&DeviceScene, &Workspace),
-        list: &Buffer,
-        share: Share,
-    ) -> Result<()> {
-        let observed = (&self.table.target, &self.planes.target);
-        raster.record(recorder, (model, workspace), observed, &self.sums, list, share)
-    }
-
-    /// Records the fitness of the run.
-    pub(super) fn record_objective(
-        &self,
-        recorder: &mut Recorder,
-        (model, workspace): (&DeviceScene, &Workspace),
-        (objective, candidates): (&Objective, u32),
-        fitness: &Buffer,
-    ) -> Result<()> {
-        let sums = (&self.table.target, &self.sums);
-        self.objective.record(recorder, (model, workspace), sums, (objective, candidates), fitness)
+        self.table.record_upload(recorder)?;
+        self.planes.record_upload(recorder)
     }
 
     /// Records the copy of the sums to the host.

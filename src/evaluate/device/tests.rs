@@ -4,8 +4,7 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-use super::pose::PoseStage;
-use super::project::ProjectStage;
+use super::passes;
 use super::scene::{DeviceScene, Share};
 use super::workspace::Workspace;
 use crate::body::Body;
@@ -98,7 +97,7 @@ pub(super) fn recorded_fitness(
     fetch(device, evaluator.fitness(), candidates as usize)
 }
 
-/// A model and a workspace with its poses on the device.
+/// A scene and a workspace with its poses on the device.
 pub(super) fn set_up(device: &Device, body: &Body, poses: &[f32]) -> (Projector, DeviceScene, Workspace, Share) {
     set_up_with(device, body, &cameras(), poses)
 }
@@ -111,16 +110,16 @@ pub(super) fn set_up_with(
     poses: &[f32],
 ) -> (Projector, DeviceScene, Workspace, Share) {
     let projector = Projector::new(body, cameras);
-    let model = DeviceScene::new(device, body, cameras).unwrap();
+    let scene = DeviceScene::new(device, body, cameras).unwrap();
     let candidates = (poses.len() / body.dof_count()) as u32;
-    let workspace = Workspace::new(device, model.counts, candidates).unwrap();
+    let workspace = Workspace::new(device, scene.counts, candidates).unwrap();
     let staging = device.buffer::<f32>("poses staging", poses.len(), Memory::Upload).unwrap();
     staging.write(0, poses).unwrap();
     let mut recorder = device.recorder(Timing::Off).unwrap();
-    model.record_upload(&mut recorder).unwrap();
+    scene.record_upload(&mut recorder).unwrap();
     recorder.copy("poses", (&staging, 0), (&workspace.poses, 0), staging.size()).unwrap();
     recorder.finish().unwrap().run().unwrap();
-    (projector, model, workspace, Share { first: 0, candidates })
+    (projector, scene, workspace, Share { first: 0, candidates })
 }
 
 #[test]
@@ -130,11 +129,10 @@ fn pose_and_project_give_the_reference_s_corners() {
     };
     let body = Body::adult(1750.0).unwrap();
     let poses = poses(&body, 300);
-    let (projector, model, workspace, share) = set_up(&device, &body, &poses);
-    let (pose, project) = (PoseStage::new(&device).unwrap(), ProjectStage::new(&device).unwrap());
+    let (projector, scene, workspace, share) = set_up(&device, &body, &poses);
     let mut recorder = device.recorder(Timing::Off).unwrap();
-    pose.record(&mut recorder, &model, &workspace, share).unwrap();
-    project.record(&mut recorder, &model, &workspace, share).unwrap();
+    passes::pose(&mut recorder, &scene, &workspace, share).unwrap();
+    passes::project(&mut recorder, &scene, &workspace, share).unwrap();
     recorder.finish().unwrap().run().unwrap();
 
     let (views, parts) = (projector.view_count(), body.parts.len());
@@ -168,14 +166,14 @@ fn pose_and_project_give_the_reference_s_corners() {
         let mut seen: Vec<u32> = found.iter().map(|quad| quad.part).collect();
         seen.sort_unstable();
         assert!(seen.iter().enumerate().all(|(place, &part)| part == place as u32));
-        let size = model.sizes[view].map(|side| side as i32);
+        let size = scene.sizes[view].map(|side| side as i32);
         let Bounds { low, high } = bounds_of(&expected, size);
         assert!((0..2).all(|axis| (bounds[image].low[axis] - low[axis]).abs() <= 1), "{:?}", bounds[image]);
         assert!((0..2).all(|axis| (bounds[image].high[axis] - high[axis]).abs() <= 1), "{:?}", bounds[image]);
     }
     println!("{all} corners: {same} the same, {off_by_one} off by 1/256 pixel");
     assert!(same * 100 >= all * 99);
-    drop((pose, project, workspace, model, device));
+    drop((workspace, scene, device));
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 

@@ -1,16 +1,39 @@
-//! The framebuffer against the observations: components of every image (SPEC A6, A9).
+//! The framebuffer against the observations, whole and segment by segment (SPEC A6, A9, docs/RASTER.md).
 
 use anyhow::Result;
 
 use super::framebuffer::Framebuffer;
-use super::settings::Gathering;
+use super::settings::{Gathering, Packing};
 use crate::evaluate::device::scene::{DeviceScene, Share};
+use crate::evaluate::device::segments::DeviceSegments;
 use crate::evaluate::device::workspace::Workspace;
-use crate::evaluate::shaders::{compare_shared_comp, compare_subgroup_comp, compare_texels_comp};
-use crate::gpu::{ComputeStage, Device, Groups, Recorder, Shader, Stage};
+use crate::evaluate::shaders::{
+    compare_shared_comp, compare_shared_segments_comp, compare_subgroup_comp, compare_subgroup_segments_comp,
+    compare_texels_comp, compare_texels_segments_comp,
+};
+use crate::gpu::{Buffer, Groups, Recorder, Shader, ShaderStage};
+
+/// How a framebuffer is drawn and compared.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Comparing {
+    pub(super) packing: Packing,
+    pub(super) gathering: Gathering,
+    /// Workgroups a tile, each of which takes every nth row.
+    pub(super) bands: u32,
+}
+
+/// What a framebuffer is compared with segment by segment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ObservedSegments<'a> {
+    pub(super) segments: &'a DeviceSegments,
+    /// The number of every observed pixel, in the order of the scene's packed bytes.
+    pub(super) numbers: &'a Buffer,
+    /// Codes of parts, labels or ranks, that a picture may hold.
+    pub(super) codes: u32,
+}
 
 impl Gathering {
-    /// The stage that compares whole silhouettes.
+    /// The shader that compares whole silhouettes.
     fn shader(self) -> &'static Shader {
         match self {
             Self::Texels => &compare_texels_comp::SHADER,
@@ -18,51 +41,71 @@ impl Gathering {
             Self::Shared => &compare_shared_comp::SHADER,
         }
     }
+
+    /// The shader that compares segment by segment.
+    fn segments_shader(self) -> &'static Shader {
+        match self {
+            Self::Texels => &compare_texels_segments_comp::SHADER,
+            Self::Subgroup => &compare_subgroup_segments_comp::SHADER,
+            Self::Shared => &compare_shared_segments_comp::SHADER,
+        }
+    }
 }
 
-/// The stage.
-#[derive(Debug)]
-pub(crate) struct CompareStage {
-    stage: ComputeStage,
-    /// Workgroups a tile, each of which takes every nth row.
-    bands: u32,
-}
-
-impl CompareStage {
-    /// Its name in timings.
-    pub(crate) const NAME: &'static str = "compare";
-
-    /// Compiles it; `edge_bit` is the bit of a pixel's byte that says edge, `bands` the number of workgroups a tile.
-    pub(crate) fn new(device: &Device, gathering: Gathering, edge_bit: u32, bands: u32) -> Result<Self> {
-        let shader = gathering.shader();
-        let stage = ComputeStage::new(device, Self::NAME, Stage { shader, constants: &[(0, edge_bit)] })?;
-        Ok(Self { stage, bands })
+impl Comparing {
+    fn constants(self) -> compare_texels_comp::Constants {
+        compare_texels_comp::Constants { edge_bit: self.packing.edge_bit() }
     }
 
-    /// Records it: the framebuffer and the packed observations to `workspace.sums`.
-    pub(crate) fn record(
-        &self,
+    fn segments_constants(self, codes: u32, segments: u32) -> compare_texels_segments_comp::Constants {
+        compare_texels_segments_comp::Constants { edge_bit: self.packing.edge_bit(), codes, segments }
+    }
+
+    /// What compares whole silhouettes.
+    pub(super) fn stage(self) -> ShaderStage {
+        let stage = compare_texels_comp::stage(self.constants());
+        ShaderStage { shader: self.gathering.shader(), ..stage }
+    }
+
+    /// What compares a number of segments, told apart by so many codes.
+    pub(super) fn segments_stage(self, codes: u32, segments: u32) -> ShaderStage {
+        let stage = compare_texels_segments_comp::stage(self.segments_constants(codes, segments));
+        ShaderStage { shader: self.gathering.segments_shader(), ..stage }
+    }
+
+    /// Records the comparison of a share: the framebuffer and the packed observations to `workspace.sums` and, added to what is
+    /// there, the segments' sums.
+    pub(super) fn record(
+        self,
         recorder: &mut Recorder,
-        model: &DeviceScene,
-        workspace: &Workspace,
+        (scene, workspace): (&DeviceScene, &Workspace),
         framebuffer: &Framebuffer,
+        observed: Option<ObservedSegments<'_>>,
         share: Share,
     ) -> Result<()> {
-        let push: compare_texels_comp::Push = model.batch(share);
-        // All variants have the same bindings.
-        let bindings = compare_texels_comp::Bindings {
-            placements: &framebuffer.placements,
-            tiles: &framebuffer.tiles,
-            cameras: &model.cameras,
-            pixels: &model.pixels,
-            all_sums: &workspace.sums,
-            framebuffer: &framebuffer.words,
+        let push = scene.batch(share);
+        let groups = Groups::Count([share.candidates.div_ceil(4) * scene.counts.views, self.bands, 1]);
+        let (placements, tiles, framebuffer) = (&framebuffer.placements, &framebuffer.tiles, &framebuffer.words);
+        let (cameras, pixels, all_sums) = (&scene.cameras.buffer, &scene.pixels.buffer, &workspace.sums);
+        let Some(ObservedSegments { segments, numbers, codes }) = observed else {
+            let bindings = compare_texels_comp::Bindings { placements, tiles, cameras, pixels, all_sums, framebuffer };
+            let dispatch = bindings.dispatch(self.constants(), push, groups).by(self.gathering.shader());
+            return recorder.compute("compare", &[dispatch]);
         };
-        self.stage.record(
-            recorder,
-            &bindings.bound(),
-            &push,
-            Groups::Count([share.candidates.div_ceil(4) * model.counts.views, self.bands, 1]),
-        )
+        let bindings = compare_texels_segments_comp::Bindings {
+            placements,
+            tiles,
+            cameras,
+            pixels,
+            all_sums,
+            framebuffer,
+            table: &segments.table.buffer,
+            quads: &workspace.quads,
+            segment_pixels: numbers,
+            all_segment_sums: &segments.sums,
+        };
+        let constants = self.segments_constants(codes, segments.segments().as_slice().len() as u32);
+        let dispatch = bindings.dispatch(constants, push, groups).by(self.gathering.segments_shader());
+        recorder.compute("compare_segments", &[dispatch])
     }
 }

@@ -5,13 +5,12 @@ use anyhow::Result;
 
 use super::framebuffer::Framebuffer;
 use super::settings::{Coverage, Packing};
+use super::tiles::CANDIDATES_A_TILE;
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::workspace::Workspace;
-use crate::evaluate::shaders::{
-    draw_border_vert, draw_exact_frag, draw_exact_vert, draw_fill_vert, draw_plain_frag, layout,
-};
+use crate::evaluate::shaders::{draw_border_vert, draw_exact_frag, draw_exact_vert, draw_fill_vert, draw_plain_frag};
 use crate::gpu::{
-    Blend, Buffer, Clear, Device, Draw, Drawing, Format, Memory, Pipeline, Recorder, Stage, Target, Topology, Viewport,
+    Blend, Buffer, Device, Draw, Drawing, Format, Memory, Pipeline, Recorder, ShaderStage, Topology, Viewport,
 };
 
 /// A draw of every image: its pipeline, its vertices and the index buffer that joins them.
@@ -21,9 +20,9 @@ struct Pass {
     lines: bool,
 }
 
-/// The stage.
+/// How a body's parts are drawn.
 #[derive(Debug)]
-pub(crate) struct DrawStage {
+pub(super) struct FlatDrawing {
     packing: Packing,
     /// In the order in which they are drawn; with the packing by depth a channel's after the other's.
     passes: Vec<Pass>,
@@ -34,46 +33,43 @@ pub(crate) struct DrawStage {
     parts: u32,
 }
 
-impl DrawStage {
-    /// Its name in timings.
-    pub(crate) const NAME: &'static str = "draw";
-
-    /// Compiles it for a body of `parts` parts.
-    pub(crate) fn new(device: &Device, parts: u32, packing: Packing, coverage: Coverage) -> Result<Self> {
-        let drawing = |topology, channel: Option<u32>| Drawing {
-            topology,
-            colour: Some(Format::Rgba8),
-            depth_test: packing == Packing::Depth,
-            depth_write: packing == Packing::Depth,
-            depth_bias: None,
-            cull_clockwise: false,
-            blend: if packing == Packing::Max { Blend::Max } else { Blend::Replace },
-            channels: channel.map_or(15, |channel| 1 << channel),
-        };
+impl FlatDrawing {
+    /// For a body of `parts` parts.
+    pub(super) fn new(device: &Device, parts: u32, packing: Packing, coverage: Coverage) -> Result<Self> {
         let channels: Vec<Option<u32>> = match packing {
             Packing::Max => vec![None],
-            Packing::Depth => (0..4).map(Some).collect(),
+            Packing::Depth => (0..CANDIDATES_A_TILE).map(Some).collect(),
         };
+        let by_depth = packing == Packing::Depth;
+        let own = packing.constant();
         let mut passes = Vec::new();
         for channel in channels {
-            let constants = [(0, packing.constant()), (1, channel.unwrap_or(0))];
-            let mut pass = |name: &str, vertex, fragment, lines: bool| -> Result<()> {
-                let stages = [
-                    Stage { shader: vertex, constants: &constants },
-                    Stage { shader: fragment, constants: &constants[..1] },
-                ];
-                let topology = if lines { Topology::Lines } else { Topology::Triangles };
-                let pipeline = device.graphics_pipeline(name, &stages, &drawing(topology, channel))?;
-                passes.push(Pass { pipeline, lines });
+            let place = channel.unwrap_or(0);
+            let mut pass = |name: &str, stages: [ShaderStage; 2], lines: bool| -> Result<()> {
+                let drawing = Drawing {
+                    topology: if lines { Topology::Lines } else { Topology::Triangles },
+                    colour: Some(Format::Rgba8),
+                    depth_test: by_depth,
+                    depth_write: by_depth,
+                    blend: if by_depth { Blend::Replace } else { Blend::Max },
+                    channels: channel.map_or(15, |channel| 1 << channel),
+                    ..Drawing::default()
+                };
+                passes.push(Pass { pipeline: device.graphics_pipeline(name, &stages, &drawing)?, lines });
                 Ok(())
             };
+            let plain = || draw_plain_frag::stage(draw_plain_frag::Constants { packing: own });
             match coverage {
                 Coverage::Exact => {
-                    pass("draw parts", &draw_exact_vert::SHADER, &draw_exact_frag::SHADER, false)?;
+                    let vertex = draw_exact_vert::Constants { packing: own, channel: place };
+                    let fragment = draw_exact_frag::stage(draw_exact_frag::Constants { packing: own });
+                    pass("draw parts", [draw_exact_vert::stage(vertex), fragment], false)?;
                 }
                 Coverage::Hardware => {
-                    pass("draw fills", &draw_fill_vert::SHADER, &draw_plain_frag::SHADER, false)?;
-                    pass("draw borders", &draw_border_vert::SHADER, &draw_plain_frag::SHADER, true)?;
+                    let fill = draw_fill_vert::Constants { packing: own, channel: place };
+                    let border = draw_border_vert::Constants { packing: own, channel: place };
+                    pass("draw fills", [draw_fill_vert::stage(fill), plain()], false)?;
+                    pass("draw borders", [draw_border_vert::stage(border), plain()], true)?;
                 }
             }
         }
@@ -93,19 +89,18 @@ impl DrawStage {
     }
 
     /// Records it: `workspace.quads`, placed, into the framebuffer, whose used area is cleared first.
-    pub(crate) fn record(
+    pub(super) fn record(
         &self,
         recorder: &mut Recorder,
-        model: &DeviceScene,
-        workspace: &Workspace,
+        (scene, workspace): (&DeviceScene, &Workspace),
         framebuffer: &Framebuffer,
         share: Share,
     ) -> Result<()> {
-        let push: layout::Batch = model.batch(share);
+        let push = scene.batch(share);
         let [width, height] = framebuffer.layout.size;
         let candidates = match self.packing {
             Packing::Max => share.candidates,
-            Packing::Depth => share.candidates.div_ceil(4),
+            Packing::Depth => share.candidates.div_ceil(CANDIDATES_A_TILE),
         };
         let side = framebuffer.layout.viewport() as f32;
         // All vertex stages have the same bindings.
@@ -125,16 +120,11 @@ impl DrawStage {
                 viewport: Viewport { area: [0.0, 0.0, side, side], depth: [0.0, 1.0] },
                 scissor: [0, 0, width, height],
                 vertices: 0..self.parts * if pass.lines { 8 } else { 6 },
-                instances: 0..candidates * model.counts.views,
+                instances: 0..candidates * scene.counts.views,
                 indices: Some(if pass.lines { &self.lines } else { &self.triangles }),
                 indirect: None,
             })
             .collect();
-        let target = Target {
-            colour: (&framebuffer.colour, Clear::Value([0.0; 4])),
-            depth: framebuffer.depth.as_ref().map(|depth| (depth, Clear::Value([1.0; 4]))),
-            area: [0, 0, width, height],
-        };
-        recorder.draw(Self::NAME, &target, &draws)
+        recorder.draw("draw", &framebuffer.target(), &draws)
     }
 }

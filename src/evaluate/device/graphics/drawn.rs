@@ -2,54 +2,49 @@
 
 use anyhow::Result;
 
-use super::draw::DrawStage;
-use super::draw_mesh::DrawMeshStage;
+use super::draw::FlatDrawing;
+use super::draw_mesh::{MeshPipelines, draw_mesh, mesh_pipelines};
 use super::framebuffer::Framebuffer;
 use super::mesh::{DeviceMesh, MeshWorkspace};
-use super::place::PlaceStage;
-use super::project_feedback::ProjectFeedbackStage;
+use super::passes::{place, project_by_feedback, skin, skin_stages};
 use super::settings::{Coverage, Packing};
-use super::skin::SkinStage;
 use crate::evaluate::MeshProjector;
-use crate::evaluate::device::project::ProjectStage;
-use crate::evaluate::device::raster::RasterStage;
+use crate::evaluate::device::passes::{Images, project, raster, raster_stage};
 use crate::evaluate::device::scene::{DeviceScene, Share};
+use crate::evaluate::device::segments::DeviceSegments;
 use crate::evaluate::device::workspace::Workspace;
+use crate::evaluate::shaders::{outline_comp, project_comp};
 use crate::gpu::{Buffer, Device, Recorder};
 
 /// The stages of one model, and the memory that it alone needs.
 #[derive(Debug)]
 pub(super) enum Drawn {
-    Flat { project: ProjectStage, draw: DrawStage, raster: RasterStage },
+    Flat(FlatDrawing),
     Mesh(Box<DrawnMesh>),
 }
 
 #[derive(Debug)]
 pub(super) struct DrawnMesh {
     mesh: DeviceMesh,
-    skin: SkinStage,
-    draw: DrawMeshStage,
-    room: MeshWorkspace,
+    pipelines: MeshPipelines,
+    workspace: MeshWorkspace,
 }
 
 impl Drawn {
     /// The flat model of a body of `parts` parts.
     pub(super) fn flat(device: &Device, parts: u32, packing: Packing, coverage: Coverage) -> Result<Self> {
-        let (raster, others) = rayon::join(
-            || RasterStage::new(device),
-            || anyhow::Ok((ProjectStage::new(device)?, DrawStage::new(device, parts, packing, coverage)?)),
-        );
-        let (project, draw) = others?;
-        Ok(Self::Flat { project, draw, raster: raster? })
+        device.compile(&[project_comp::stage(), raster_stage(device, true)])?;
+        Ok(Self::Flat(FlatDrawing::new(device, parts, packing, coverage)?))
     }
 
     /// The mesh of a projector that `model` was made of.
     pub(super) fn mesh(device: &Device, model: &DeviceScene, projector: &MeshProjector) -> Result<Self> {
         let mesh = DeviceMesh::new(device, projector)?;
+        let [bind, skin] = skin_stages(mesh.skinning);
+        device.compile(&[bind, skin, outline_comp::stage()])?;
         Ok(Self::Mesh(Box::new(DrawnMesh {
-            skin: SkinStage::new(device, mesh.skinning)?,
-            draw: DrawMeshStage::new(device)?,
-            room: MeshWorkspace::new(device, model.counts, &mesh, 1)?,
+            pipelines: mesh_pipelines(device)?,
+            workspace: MeshWorkspace::new(device, model.counts, &mesh, 1)?,
             mesh,
         })))
     }
@@ -57,7 +52,7 @@ impl Drawn {
     /// Makes room for batches of `candidates`, or as many as fit.
     pub(super) fn reserve(&mut self, model: &DeviceScene, candidates: u32) -> Result<()> {
         if let Self::Mesh(drawn) = self {
-            drawn.room = MeshWorkspace::new(&model.device, model.counts, &drawn.mesh, candidates)?;
+            drawn.workspace = MeshWorkspace::new(&model.device, model.counts, &drawn.mesh, candidates)?;
         }
         Ok(())
     }
@@ -65,20 +60,20 @@ impl Drawn {
     /// Most candidates of a batch.
     pub(super) fn most(&self) -> u32 {
         match self {
-            Self::Flat { .. } => u32::MAX,
-            Self::Mesh(drawn) => drawn.room.batch,
+            Self::Flat(_) => u32::MAX,
+            Self::Mesh(drawn) => drawn.workspace.batch,
         }
     }
 
     /// Whether images that fit no tile are scored all the same.
     pub(super) fn scores_what_fits_no_tile(&self) -> bool {
-        matches!(self, Self::Flat { .. })
+        matches!(self, Self::Flat(_))
     }
 
     /// The largest label of what is drawn.
     pub(super) fn largest_label(&self, model: &DeviceScene) -> u32 {
         match self {
-            Self::Flat { .. } => model.labels.iter().copied().max().map_or(0, u32::from),
+            Self::Flat(_) => model.labels.iter().copied().max().map_or(0, u32::from),
             Self::Mesh(drawn) => drawn.mesh.largest_label,
         }
     }
@@ -86,35 +81,35 @@ impl Drawn {
     /// Records the copies that bring what is drawn to the device.
     pub(super) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
         match self {
-            Self::Flat { .. } => Ok(()),
+            Self::Flat(_) => Ok(()),
             Self::Mesh(drawn) => drawn.mesh.record_upload(recorder),
         }
     }
 
-    /// Records everything from `workspace.world` to the pictures; the flat model's parts are projected by `feedback` and its room, if
-    /// given.
+    /// Records everything from `workspace.world` to the pictures; the flat model's parts are projected by transform feedback into
+    /// `captured`, if given.
     pub(super) fn record(
         &self,
         recorder: &mut Recorder,
-        (model, workspace): (&DeviceScene, &Workspace),
-        feedback: Option<(&ProjectFeedbackStage, &Buffer)>,
-        (place, framebuffer): (&PlaceStage, &Framebuffer),
+        (scene, workspace): (&DeviceScene, &Workspace),
+        captured: Option<&Buffer>,
+        framebuffer: &Framebuffer,
         share: Share,
     ) -> Result<()> {
         match self {
-            Self::Flat { project, draw, .. } => {
-                match feedback {
-                    Some((feedback, captured)) => feedback.record(recorder, model, workspace, captured, share)?,
-                    None => project.record(recorder, model, workspace, share)?,
+            Self::Flat(draw) => {
+                match captured {
+                    Some(captured) => project_by_feedback(recorder, (scene, workspace), captured, share)?,
+                    None => project(recorder, scene, workspace, share)?,
                 }
-                place.record(recorder, model, workspace, framebuffer, share)?;
-                draw.record(recorder, model, workspace, framebuffer, share)
+                place(recorder, (scene, workspace), framebuffer, scene.counts.parts, share)?;
+                draw.record(recorder, (scene, workspace), framebuffer, share)
             }
             Self::Mesh(drawn) => {
-                let DrawnMesh { mesh, skin, draw, room } = &**drawn;
-                skin.record(recorder, (model, mesh), (workspace, room), share)?;
-                place.record_by_bounds(recorder, model, workspace, framebuffer, share)?;
-                draw.record(recorder, (model, mesh), room, framebuffer, share)
+                let DrawnMesh { mesh, pipelines, workspace: own } = &**drawn;
+                skin(recorder, (scene, mesh), (workspace, own), share)?;
+                place(recorder, (scene, workspace), framebuffer, 0, share)?;
+                draw_mesh(recorder, pipelines, (scene, mesh), own, framebuffer, share)
             }
         }
     }
@@ -123,12 +118,13 @@ impl Drawn {
     pub(super) fn record_unplaced(
         &self,
         recorder: &mut Recorder,
-        (model, workspace): (&DeviceScene, &Workspace),
+        scene: (&DeviceScene, &Workspace),
+        segments: Option<&DeviceSegments>,
         framebuffer: &Framebuffer,
         share: Share,
     ) -> Result<()> {
         match self {
-            Self::Flat { raster, .. } => raster.record_listed(recorder, model, workspace, share, &framebuffer.listed),
+            Self::Flat(_) => raster(recorder, scene, segments, Images::Listed(&framebuffer.listed), share),
             Self::Mesh(_) => Ok(()),
         }
     }

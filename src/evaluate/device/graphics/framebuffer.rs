@@ -5,7 +5,7 @@ use anyhow::Result;
 use super::settings::Packing;
 use super::tiles::TileLayout;
 use crate::evaluate::shaders::layout;
-use crate::gpu::{Buffer, Device, Format, Image, ImageUse, Memory};
+use crate::gpu::{Buffer, Clear, Device, Format, Image, ImageUse, Memory, Target};
 
 /// The memory of a [`TileLayout`].
 #[derive(Debug)]
@@ -57,5 +57,15 @@ impl Framebuffer {
             empty_list,
             layout,
         })
+    }
+
+    /// Its used area, cleared, to draw into.
+    pub(crate) fn target(&self) -> Target<'_> {
+        let [width, height] = self.layout.size;
+        Target {
+            colour: (&self.colour, Clear::Value([0.0; 4])),
+            depth: self.depth.as_ref().map(|depth| (depth, Clear::Value([1.0; 4]))),
+            area: [0, 0, width, height],
+        }
     }
 }

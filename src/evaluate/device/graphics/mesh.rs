@@ -5,12 +5,9 @@ use anyhow::{Result, ensure};
 use super::tiles::CANDIDATES_A_TILE;
 use crate::body::Skinning;
 use crate::evaluate::MeshProjector;
-use crate::evaluate::device::scene::{Counts, Share, Uploaded};
+use crate::evaluate::device::scene::{Counts, Share};
 use crate::evaluate::shaders::{OUTLINE_VERTICES, layout};
-use crate::gpu::{Buffer, Device, Memory, OutOfMemory, Recorder};
-
-/// Most workgroups in y on any device.
-const MOST_ROWS: u32 = 65535;
+use crate::gpu::{Buffer, Device, Groups, Memory, OutOfMemory, Recorder, StagedBuffer};
 
 /// A mesh on the device; the device sees it when the passes of [`Self::record_upload`] have run.
 #[derive(Debug)]
@@ -20,13 +17,12 @@ pub(crate) struct DeviceMesh {
     pub(crate) edge_count: u32,
     pub(crate) largest_label: u32,
     pub(crate) skinning: Skinning,
-    pub(crate) vertices: Buffer,
+    pub(crate) vertices: StagedBuffer,
     /// Three indices a triangle.
-    pub(crate) triangles: Buffer,
-    pub(crate) edges: Buffer,
+    pub(crate) triangles: StagedBuffer,
+    pub(crate) edges: StagedBuffer,
     /// Three rows a bone, in the order of the bone matrices.
-    pub(crate) inverse_bind: Buffer,
-    uploads: Vec<Uploaded>,
+    pub(crate) inverse_bind: StagedBuffer,
 }
 
 impl DeviceMesh {
@@ -48,29 +44,23 @@ impl DeviceMesh {
             .collect();
         let edges: Vec<layout::MeshEdge> =
             mesh.edges.iter().map(|edge| layout::MeshEdge { ends: edge.ends, opposite: edge.opposite }).collect();
-        let uploads = vec![
-            Uploaded::new(device, "mesh vertices", &vertices)?,
-            Uploaded::new(device, "mesh triangles", &mesh.triangles)?,
-            Uploaded::new(device, "mesh edges", &edges)?,
-            Uploaded::new(device, "inverse bind", &projector.inverse_bind)?,
-        ];
         Ok(Self {
             vertex_count: vertices.len() as u32,
             triangle_count: mesh.triangles.len() as u32,
             edge_count: edges.len() as u32,
             largest_label: vertices.iter().map(|vertex| vertex.label).max().unwrap_or(0),
             skinning: mesh.skinning,
-            vertices: uploads[0].target.clone(),
-            triangles: uploads[1].target.clone(),
-            edges: uploads[2].target.clone(),
-            inverse_bind: uploads[3].target.clone(),
-            uploads,
+            vertices: StagedBuffer::of(device, "mesh vertices", &vertices)?,
+            triangles: StagedBuffer::of(device, "mesh triangles", &mesh.triangles)?,
+            edges: StagedBuffer::of(device, "mesh edges", &edges)?,
+            inverse_bind: StagedBuffer::of(device, "inverse bind", &projector.inverse_bind)?,
         })
     }
 
     /// Records the copies of everything to the device's own memory.
     pub(crate) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
-        self.uploads.iter().try_for_each(|upload| upload.record(recorder))
+        let Self { vertices, triangles, edges, inverse_bind, .. } = self;
+        [vertices, triangles, edges, inverse_bind].into_iter().try_for_each(|staged| staged.record_upload(recorder))
     }
 }
 
@@ -105,7 +95,7 @@ impl MeshWorkspace {
         let outlines = images * u64::from(mesh.edge_count) * size_of::<u32>() as u64;
         // The framebuffer wants memory, too.
         let most_bytes = device.memory_available() / 2 / (seen + skin + outlines);
-        let most = (limit / seen.max(skin)).min(u64::from(MOST_ROWS / views)).min(most_bytes);
+        let most = (limit / seen.max(skin)).min(u64::from(Groups::ROW / views)).min(most_bytes);
         // Words of the silhouette edges, of whole tiles; numbers of edges and counts of vertices fit 32 bits.
         let a_tile = images * u64::from(mesh.edge_count) * u64::from(CANDIDATES_A_TILE);
         let countable = u64::from(u32::MAX / OUTLINE_VERTICES) / a_tile;

@@ -2,7 +2,6 @@
 //! with the observations (SPEC A9).
 
 mod compare;
-mod compare_segments;
 mod draw;
 mod draw_mesh;
 mod drawn;
@@ -10,15 +9,13 @@ mod framebuffer;
 mod mesh;
 #[cfg(test)]
 mod mesh_tests;
-mod place;
-mod project_feedback;
+mod passes;
 mod rasteriser;
 mod readback;
 mod segments;
 #[cfg(test)]
 mod segments_tests;
 mod settings;
-mod skin;
 mod target;
 #[cfg(test)]
 mod tests;

@@ -2,13 +2,11 @@
 
 use anyhow::{Result, ensure};
 
-use super::compare::CompareStage;
+use super::compare::Comparing;
 use super::drawn::Drawn;
-use super::framebuffer::Framebuffer;
-use super::place::PlaceStage;
-use super::project_feedback::ProjectFeedbackStage;
+use super::passes::{feedback_pipeline, feedback_room};
 use super::readback::FramebufferCopy;
-use super::segments::{Comparing, GraphicsSegments};
+use super::segments::GraphicsSegments;
 use super::settings::{Comparison, Coverage, Gathering, GraphicsSettings, HostComparison, Packing, Projection, Tiling};
 use super::target::Target;
 use super::tiles::{first_tiles, fitted_tiles};
@@ -16,6 +14,7 @@ use crate::body::{Body, Mesh};
 use crate::evaluate::device::backend::DeviceBackend;
 use crate::evaluate::device::host_buffers::HostCounts;
 use crate::evaluate::device::open::open_device;
+use crate::evaluate::device::passes;
 use crate::evaluate::device::rasteriser::Rasteriser;
 use crate::evaluate::device::resources::Resources;
 use crate::evaluate::device::scene::{DeviceScene, Share};
@@ -24,7 +23,7 @@ use crate::evaluate::device::workspace::Workspace;
 use crate::evaluate::evaluator::Footprint;
 use crate::evaluate::mesh_projection::MeshProjector;
 use crate::evaluate::raster::CandidateImage;
-use crate::evaluate::shaders::layout;
+use crate::evaluate::shaders::{layout, objective_comp, order_comp, place_comp, pose_comp};
 use crate::features::Observation;
 use crate::geometry::Camera;
 use crate::gpu::{Buffer, Device, DeviceKind, Memory, Recorder, Timing};
@@ -37,15 +36,11 @@ pub type Graphics = DeviceBackend<GraphicsRasteriser>;
 pub struct GraphicsRasteriser {
     settings: GraphicsSettings,
     drawn: Drawn,
-    /// What projects by transform feedback, and where to.
-    feedback: Option<(ProjectFeedbackStage, Option<Buffer>)>,
-    place: PlaceStage,
-    compare: CompareStage,
-    /// How segments are compared, where the newest observations have them.
+    comparing: Comparing,
+    /// What segments are compared with, where the newest observations have them.
     segments: Option<GraphicsSegments>,
-    gathering: Gathering,
-    /// Workgroups that compare a tile.
-    bands: u32,
+    /// Where transform feedback projects to, if it does.
+    captured: Option<Buffer>,
     target: Target,
     /// Tile sizes of the views, pixels: those of the framebuffer, and those that are better.
     tiles: Vec<[u32; 2]>,
@@ -151,18 +146,19 @@ impl GraphicsRasteriser {
         }
         // A real device has room for more workgroups than there are tiles; for a processor each is work.
         let bands = if device.facts().kind == DeviceKind::Cpu { 1 } else { 4 };
+        let comparing = Comparing { packing: settings.packing, gathering, bands };
+        let stages = [pose_comp::stage(), place_comp::stage(), comparing.stage(), objective_comp::stage()];
+        device.compile(&stages)?;
+        if settings.projection == Projection::Feedback {
+            device.compile(&[order_comp::stage()])?;
+            feedback_pipeline(device)?;
+        }
         let tiles = scene.sizes.clone();
         Ok(Self {
             drawn,
-            feedback: match settings.projection {
-                Projection::Compute => None,
-                Projection::Feedback => Some((ProjectFeedbackStage::new(device)?, None)),
-            },
-            place: PlaceStage::new(device)?,
-            compare: CompareStage::new(device, gathering, settings.packing.edge_bit(), bands)?,
+            comparing,
             segments: None,
-            gathering,
-            bands,
+            captured: None,
             target: Target::new(scene, &settings, &tiles, 1)?,
             better_tiles: tiles.clone(),
             tiles,
@@ -173,18 +169,6 @@ impl GraphicsRasteriser {
         })
     }
 
-    /// Bone matrices to pictures.
-    fn record_drawing(
-        &self,
-        recorder: &mut Recorder,
-        (scene, workspace): (&DeviceScene, &Workspace),
-        framebuffer: &Framebuffer,
-        share: Share,
-    ) -> Result<()> {
-        let feedback = self.feedback.as_ref().and_then(|(stage, captured)| Some((stage, captured.as_ref()?)));
-        self.drawn.record(recorder, (scene, workspace), feedback, (&self.place, framebuffer), share)
-    }
-
     /// Bone matrices to the sums of a share; with a copy, to that, and the sums of the images that fit no tile.
     fn record_comparison(
         &self,
@@ -193,31 +177,26 @@ impl GraphicsRasteriser {
         share: Share,
         copy: Option<&FramebufferCopy>,
     ) -> Result<()> {
-        let (model, workspace) = (&resources.scene, &resources.workspace);
+        let scene = (&resources.scene, &resources.workspace);
         let framebuffer = &self.target.framebuffer;
-        let scene = (model, workspace);
-        let segments = resources.segments.as_ref().zip(self.segments.as_ref());
-        if let Some((scored, _)) = segments.filter(|_| share.first == 0) {
+        let segments = resources.segments.as_ref();
+        if let Some(segments) = segments.filter(|_| share.first == 0) {
             // Batches add to it.
-            recorder.fill("clear segments", &scored.sums, 0)?;
+            recorder.fill("clear segments", &segments.sums, 0)?;
         }
-        self.record_drawing(recorder, scene, framebuffer, share)?;
-        // What fits no tile is scored without a framebuffer.
-        let Some((scored, segments)) = segments else {
-            match copy {
-                Some(copy) => copy.record(recorder, framebuffer)?,
-                None => self.compare.record(recorder, model, workspace, framebuffer, share)?,
-            }
-            return self.drawn.record_unplaced(recorder, scene, framebuffer, share);
-        };
+        self.drawn.record(recorder, scene, self.captured.as_ref(), framebuffer, share)?;
         match copy {
+            None => {
+                let observed = self.segments.as_ref().zip(segments).map(|(own, segments)| own.observed(segments));
+                self.comparing.record(recorder, scene, framebuffer, observed, share)?;
+            }
             Some(copy) => {
                 copy.record(recorder, framebuffer)?;
-                segments.record_orders(recorder, scene, share)?;
+                self.segments.as_ref().map_or(Ok(()), |own| own.record_orders(recorder, scene, share))?;
             }
-            None => segments.record_comparison(recorder, scene, scored, framebuffer, share)?,
         }
-        segments.record_unplaced(recorder, scene, scored, framebuffer, share)
+        // What fits no tile is scored without a framebuffer.
+        self.drawn.record_unplaced(recorder, scene, segments, framebuffer, share)
     }
 }
 
@@ -242,8 +221,8 @@ impl Rasteriser for GraphicsRasteriser {
     }
 
     fn set_workspace(&mut self, scene: &DeviceScene, workspace: &Workspace) -> Result<()> {
-        if let Some((_, captured)) = &mut self.feedback {
-            *captured = Some(ProjectFeedbackStage::room(&scene.device, scene.counts, workspace.batch)?);
+        if self.settings.projection == Projection::Feedback {
+            self.captured = Some(feedback_room(&scene.device, scene.counts, workspace.batch)?);
         }
         self.segments.as_mut().map_or(Ok(()), |segments| segments.reserve(scene, workspace))
     }
@@ -258,12 +237,7 @@ impl Rasteriser for GraphicsRasteriser {
         workspace: &Workspace,
         segments: Option<&DeviceSegments>,
     ) -> Result<()> {
-        let how = Comparing {
-            packing: self.settings.packing,
-            gathering: self.gathering,
-            bands: self.bands,
-            on_host: self.compares_on_host(),
-        };
+        let how = (self.comparing, self.compares_on_host());
         let scene = (scene, workspace);
         self.segments =
             segments.map(|own| GraphicsSegments::new(scene, &self.drawn, own.segments(), how)).transpose()?;
@@ -375,8 +349,8 @@ impl Rasteriser for GraphicsRasteriser {
         scene.record_upload(&mut recorder)?;
         self.drawn.record_upload(&mut recorder)?;
         recorder.copy("upload poses", (&staging, 0), (&workspace.poses, 0), staging.size())?;
-        resources.pose.record(&mut recorder, scene, &workspace, share)?;
-        self.record_drawing(&mut recorder, (scene, &workspace), &framebuffer, share)?;
+        passes::pose(&mut recorder, scene, &workspace, share)?;
+        self.drawn.record(&mut recorder, (scene, &workspace), self.captured.as_ref(), &framebuffer, share)?;
         recorder.copy("read quads", (&workspace.quads, 0), (&quads_out, 0), quads_out.size())?;
         let Some(copy) = copy else { return Ok(None) };
         copy.record(&mut recorder, &framebuffer)?;

@@ -3,94 +3,75 @@
 
 use anyhow::Result;
 
-use super::compare_segments::{CompareSegmentsStage, ObservedSegments};
+use super::compare::{Comparing, ObservedSegments};
 use super::drawn::Drawn;
-use super::framebuffer::Framebuffer;
 use super::readback::{ByteNumbers, Pictures};
-use super::settings::{Gathering, HostComparison, Packing};
-use crate::evaluate::device::raster_segments::RasterSegmentsStage;
-use crate::evaluate::device::scene::{DeviceScene, Share, Uploaded, packed};
+use super::settings::{HostComparison, Packing};
+use crate::evaluate::device::scene::{DeviceScene, Share, packed};
 use crate::evaluate::device::segments::DeviceSegments;
 use crate::evaluate::device::workspace::Workspace;
 use crate::evaluate::segments::SegmentSums;
-use crate::evaluate::shaders::layout;
+use crate::evaluate::shaders::{LABELS, SHORT_CODES, layout, objective_segments_comp, raster_segments_comp};
 use crate::features::{Observation, Segments};
-use crate::gpu::{Buffer, Memory, Recorder};
+use crate::gpu::{Buffer, Memory, Recorder, StagedBuffer};
 
-/// The stages that compare a framebuffer segment by segment, and what they need beside the segments themselves.
+/// What a framebuffer is compared with segment by segment, beside the segments themselves.
 #[derive(Debug)]
 pub(super) struct GraphicsSegments {
-    compare: CompareSegmentsStage,
-    /// The number of every observed pixel, packed as the model's bytes.
-    numbers: Uploaded,
-    /// For what fits no tile, where that is scored.
-    listed: Option<RasterSegmentsStage>,
     packing: Packing,
+    /// Codes that a picture may hold: in few ones the comparison keeps what they mean in registers.
+    codes: u32,
+    /// The number of every observed pixel, packed as the scene's bytes.
+    numbers: StagedBuffer,
     /// Where the host compares and ranks are drawn: the parts of a batch in their order.
     quads_out: Option<Buffer>,
 }
 
-/// How a framebuffer is drawn and compared.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Comparing {
-    pub(super) packing: Packing,
-    pub(super) gathering: Gathering,
-    /// Workgroups a tile.
-    pub(super) bands: u32,
-    pub(super) on_host: bool,
-}
-
 impl GraphicsSegments {
-    /// For the runs and batches of a workspace.
+    /// For the batches of a workspace, compared so, on the device or on the host.
     pub(super) fn new(
-        (model, workspace): (&DeviceScene, &Workspace),
+        (scene, workspace): (&DeviceScene, &Workspace),
         drawn: &Drawn,
         segments: &Segments,
-        how: Comparing,
+        (comparing, on_host): (Comparing, bool),
     ) -> Result<Self> {
-        let device = &model.device;
-        let Comparing { packing, gathering, bands, on_host } = how;
+        let device = &scene.device;
+        let packing = comparing.packing;
         let largest_code = match packing {
-            Packing::Max => model.counts.parts,
-            Packing::Depth => drawn.largest_label(model),
+            Packing::Max => scene.counts.parts,
+            Packing::Depth => drawn.largest_label(scene),
         };
-        let count = segments.as_slice().len() as u32;
-        let is_scored_unplaced = drawn.scores_what_fits_no_tile();
-        let (listed, compare) = rayon::join(
-            || is_scored_unplaced.then(|| RasterSegmentsStage::new(device, true)).transpose(),
-            || CompareSegmentsStage::new(device, gathering, (packing, largest_code), count, bands),
-        );
-        let words = model.pixels.size() as usize / size_of::<u32>();
-        let mut made = Self {
-            compare: compare?,
-            numbers: Uploaded::new(device, "observed segment numbers", &vec![0_u32; words])?,
-            listed: listed?,
+        let codes = if largest_code < SHORT_CODES { SHORT_CODES } else { LABELS };
+        let compare = comparing.segments_stage(codes, segments.as_slice().len() as u32);
+        let listed = raster_segments_comp::Constants { listed: true };
+        device.compile(&[compare, raster_segments_comp::stage(listed), objective_segments_comp::stage()])?;
+        let words = scene.pixels.buffer.size() as usize / size_of::<u32>();
+        let is_ranked = on_host && packing == Packing::Max;
+        Ok(Self {
             packing,
-            quads_out: None,
-        };
-        if on_host && packing == Packing::Max {
-            made.quads_out = Some(Self::quads_room(model, workspace)?);
-        }
-        Ok(made)
+            codes,
+            numbers: StagedBuffer::of(device, "observed segment numbers", &vec![0_u32; words])?,
+            quads_out: is_ranked.then(|| Self::quads_room(scene, workspace)).transpose()?,
+        })
     }
 
-    fn quads_room(model: &DeviceScene, workspace: &Workspace) -> Result<Buffer> {
-        let count = workspace.batch as usize * model.counts.views as usize * model.counts.parts as usize;
-        model.device.buffer::<layout::Quad>("quads readback", count, Memory::Readback)
+    fn quads_room(scene: &DeviceScene, workspace: &Workspace) -> Result<Buffer> {
+        let count = workspace.batch as usize * scene.counts.views as usize * scene.counts.parts as usize;
+        scene.device.buffer::<layout::Quad>("quads readback", count, Memory::Readback)
     }
 
     /// Makes room for the batches of another workspace.
-    pub(super) fn reserve(&mut self, model: &DeviceScene, workspace: &Workspace) -> Result<()> {
+    pub(super) fn reserve(&mut self, scene: &DeviceScene, workspace: &Workspace) -> Result<()> {
         if self.quads_out.is_some() {
-            self.quads_out = Some(Self::quads_room(model, workspace)?);
+            self.quads_out = Some(Self::quads_room(scene, workspace)?);
         }
         Ok(())
     }
 
     /// Takes the observations of a frame, which have these segments.
-    pub(super) fn observe(&mut self, model: &DeviceScene, observations: &[Observation]) -> Result<()> {
+    pub(super) fn observe(&mut self, scene: &DeviceScene, observations: &[Observation]) -> Result<()> {
         let segmentations = observations.iter().filter_map(|view| view.segmentation.as_ref());
-        for (segmentation, first) in segmentations.zip(model.first_pixel_words()) {
+        for (segmentation, first) in segmentations.zip(scene.first_pixel_words()) {
             let rows = segmentation.numbers().chunks_exact(segmentation.dimensions().0 as usize);
             self.numbers.staging.write(first as usize, &rows.flat_map(packed).collect::<Vec<u32>>())?;
         }
@@ -99,48 +80,25 @@ impl GraphicsSegments {
 
     /// Records the copies to the device's own memory.
     pub(super) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
-        self.numbers.record(recorder)
+        self.numbers.record_upload(recorder)
     }
 
-    /// Records the comparison of a share on the device.
-    pub(super) fn record_comparison(
-        &self,
-        recorder: &mut Recorder,
-        scene: (&DeviceScene, &Workspace),
-        segments: &DeviceSegments,
-        framebuffer: &Framebuffer,
-        share: Share,
-    ) -> Result<()> {
-        let observed = ObservedSegments { table: &segments.table.target, numbers: &self.numbers.target };
-        self.compare.record(recorder, scene, framebuffer, observed, &segments.sums, share)
+    /// What the device compares with.
+    pub(super) fn observed<'a>(&'a self, segments: &'a DeviceSegments) -> ObservedSegments<'a> {
+        ObservedSegments { segments, numbers: &self.numbers.buffer, codes: self.codes }
     }
 
     /// Records what the comparison of a share on the host needs beside the framebuffer.
     pub(super) fn record_orders(
         &self,
         recorder: &mut Recorder,
-        (model, workspace): (&DeviceScene, &Workspace),
+        (scene, workspace): (&DeviceScene, &Workspace),
         share: Share,
     ) -> Result<()> {
         let Some(quads_out) = &self.quads_out else { return Ok(()) };
-        let quads = u64::from(share.candidates) * u64::from(model.counts.views) * u64::from(model.counts.parts);
+        let quads = u64::from(share.candidates) * u64::from(scene.counts.views) * u64::from(scene.counts.parts);
         let bytes = quads * size_of::<layout::Quad>() as u64;
         recorder.copy("readback", (&workspace.quads, 0), (quads_out, 0), bytes)
-    }
-
-    /// Records the sums of the images that fit no tile, where they are scored.
-    pub(super) fn record_unplaced(
-        &self,
-        recorder: &mut Recorder,
-        scene: (&DeviceScene, &Workspace),
-        segments: &DeviceSegments,
-        framebuffer: &Framebuffer,
-        share: Share,
-    ) -> Result<()> {
-        match &self.listed {
-            Some(raster) => segments.record_sums(recorder, raster, scene, &framebuffer.listed, share),
-            None => Ok(()),
-        }
     }
 
     /// What the host counts in the pictures of a finished batch of a body of `parts` parts, `[image][segment]`; anything of images that are not drawn there.

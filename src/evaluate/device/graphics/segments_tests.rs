@@ -6,13 +6,14 @@
 use std::sync::Arc;
 
 use super::Graphics;
+use super::compare::Comparing;
 use super::drawn::Drawn;
 use super::framebuffer::Framebuffer;
 use super::mesh_tests;
 use super::mesh_tests::Tolerance;
-use super::place::PlaceStage;
+use super::passes::place;
 use super::readback::FramebufferCopy;
-use super::segments::{Comparing, GraphicsSegments};
+use super::segments::GraphicsSegments;
 use super::settings::{Comparison, Coverage, Gathering, GraphicsSettings, HostComparison, Packing, Tiling};
 use super::tests::{exact_settings, lowered, pictures};
 use crate::body::{Body, Mesh};
@@ -78,9 +79,9 @@ fn segments_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
         bounds_in.write(0, &bounds).unwrap();
         let quads_in = device.buffer::<layout::Quad>("quads staging", quads.len(), Memory::Upload).unwrap();
         quads_in.write(0, &quads).unwrap();
-        let place = PlaceStage::new(&device).unwrap();
         for packing in [Packing::Max, Packing::Depth] {
             let tiles = pictures(&model.sizes, candidates);
+            let scene = (&model, &workspace);
             let framebuffer = Framebuffer::new(&device, tiles, packing, false).unwrap();
             let [width, height] = framebuffer.layout.size;
             let copy = FramebufferCopy::new(&device, &framebuffer).unwrap();
@@ -89,7 +90,7 @@ fn segments_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
             model.record_upload(&mut recorder).unwrap();
             recorder.copy("bounds", (&bounds_in, 0), (&workspace.bounds, 0), bounds_in.size()).unwrap();
             recorder.copy("quads", (&quads_in, 0), (&workspace.quads, 0), quads_in.size()).unwrap();
-            place.record(&mut recorder, &model, &workspace, &framebuffer, share).unwrap();
+            place(&mut recorder, scene, &framebuffer, model.counts.parts, share).unwrap();
             recorder.finish().unwrap().run().unwrap();
             // Any parts and edges inside of the regions, nothing elsewhere, as drawing leaves it.
             let placements: Vec<layout::Placement> = fetch(&device, &framebuffer.placements, images);
@@ -113,9 +114,8 @@ fn segments_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
             let staging = device.buffer::<u32>("texels staging", texels.len(), Memory::Upload).unwrap();
             for gathering in [Gathering::Texels, Gathering::Subgroup, Gathering::Shared] {
                 for bands in [1, 3] {
-                    let how = Comparing { packing, gathering, bands, on_host: true };
-                    let scene = (&model, &workspace);
-                    let mut compared = GraphicsSegments::new(scene, &drawn, &segments, how).unwrap();
+                    let comparing = Comparing { packing, gathering, bands };
+                    let mut compared = GraphicsSegments::new(scene, &drawn, &segments, (comparing, true)).unwrap();
                     let mut scored = DeviceSegments::new(&model, &segments, candidates).unwrap();
                     scored.observe(&model, &seen).unwrap();
                     compared.observe(&model, &seen).unwrap();
@@ -124,11 +124,12 @@ fn segments_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
                         let mut recorder = device.recorder(Timing::Off).unwrap();
                         scored.record_upload(&mut recorder).unwrap();
                         compared.record_upload(&mut recorder).unwrap();
-                        place.record(&mut recorder, &model, &workspace, &framebuffer, share).unwrap();
+                        place(&mut recorder, scene, &framebuffer, model.counts.parts, share).unwrap();
                         let area = [0, 0, width, height];
                         recorder.write_image("texels", &framebuffer.colour, area, (&staging, 0)).unwrap();
                         recorder.fill("clear segments", &scored.sums, 0).unwrap();
-                        compared.record_comparison(&mut recorder, scene, &scored, &framebuffer, share).unwrap();
+                        let observed = Some(compared.observed(&scored));
+                        comparing.record(&mut recorder, scene, &framebuffer, observed, share).unwrap();
                         compared.record_orders(&mut recorder, scene, share).unwrap();
                         scored.record_readback(&mut recorder).unwrap();
                         copy.record(&mut recorder, &framebuffer).unwrap();

@@ -3,17 +3,15 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use super::Graphics;
-use super::compare::CompareStage;
-use super::draw::DrawStage;
+use super::compare::Comparing;
+use super::draw::FlatDrawing;
 use super::framebuffer::Framebuffer;
-use super::place::PlaceStage;
-use super::project_feedback::ProjectFeedbackStage;
+use super::passes::{feedback_room, place, project_by_feedback};
 use super::readback::FramebufferCopy;
 use super::settings::{Comparison, Coverage, Gathering, GraphicsSettings, HostComparison, Packing, Projection, Tiling};
 use super::tiles::TileLayout;
 use crate::body::Body;
-use crate::evaluate::device::pose::PoseStage;
-use crate::evaluate::device::project::ProjectStage;
+use crate::evaluate::device::passes;
 use crate::evaluate::device::raster_tests::{Random, image, observations, odd_cameras, put};
 use crate::evaluate::device::tests::{cameras, device, fetch, poses, recorded_fitness, set_up, set_up_with};
 use crate::evaluate::device_evaluator::DeviceEvaluator;
@@ -152,23 +150,22 @@ fn odd_quads_are_drawn_to_the_pixel() {
     let body = Body::adult(1750.0).unwrap();
     let (candidates, parts) = (120, body.parts.len());
     let poses = vec![0.0; candidates * body.dof_count()];
-    let (_, mut model, workspace, share) = set_up_with(&device, &body, &odd_cameras(), &poses);
+    let (_, mut scene, workspace, share) = set_up_with(&device, &body, &odd_cameras(), &poses);
     let mut random = Random(11);
-    let views = model.sizes.len();
-    let images: Vec<_> = (0..candidates * views).map(|i| image(&mut random, parts, model.sizes[i % views])).collect();
-    let seen = observations(&mut random, &model);
-    model.observe(&seen).unwrap();
-    put(&device, &workspace, &model, &images);
+    let views = scene.sizes.len();
+    let images: Vec<_> = (0..candidates * views).map(|i| image(&mut random, parts, scene.sizes[i % views])).collect();
+    let seen = observations(&mut random, &scene);
+    scene.observe(&seen).unwrap();
+    put(&device, &workspace, &scene, &images);
     let labels: Vec<u8> = (0..parts).map(|part| part as u8 + 1).collect();
     for packing in [Packing::Max, Packing::Depth] {
-        let layout = pictures(&model.sizes, candidates as u32);
+        let layout = pictures(&scene.sizes, candidates as u32);
         let framebuffer = Framebuffer::new(&device, layout, packing, false).unwrap();
         let copy = FramebufferCopy::new(&device, &framebuffer).unwrap();
-        let place = PlaceStage::new(&device).unwrap();
-        let draw = DrawStage::new(&device, parts as u32, packing, Coverage::Exact).unwrap();
+        let draw = FlatDrawing::new(&device, parts as u32, packing, Coverage::Exact).unwrap();
         let mut recorder = device.recorder(Timing::Off).unwrap();
-        place.record(&mut recorder, &model, &workspace, &framebuffer, share).unwrap();
-        draw.record(&mut recorder, &model, &workspace, &framebuffer, share).unwrap();
+        place(&mut recorder, (&scene, &workspace), &framebuffer, scene.counts.parts, share).unwrap();
+        draw.record(&mut recorder, (&scene, &workspace), &framebuffer, share).unwrap();
         copy.record(&mut recorder, &framebuffer).unwrap();
         recorder.finish().unwrap().run().unwrap();
         let drawn = copy.read(&framebuffer, candidates as u32).unwrap();
@@ -181,7 +178,7 @@ fn odd_quads_are_drawn_to_the_pixel() {
                 continue;
             }
             let (candidate, view) = (index / views, index % views);
-            let size = model.sizes[view];
+            let size = scene.sizes[view];
             let expected = draw_quads(quads, &labels, size[0], size[1]);
             pixels += expected.bytes.iter().filter(|byte| **byte != 0).count();
             let found = drawn.image(candidate as u32, view, size);
@@ -203,7 +200,7 @@ fn odd_quads_are_drawn_to_the_pixel() {
         println!("{packing:?}: {pixels} pixels, {listed} images listed or empty");
         assert!(pixels > 500_000, "only {pixels} pixels were drawn");
     }
-    drop((workspace, model, device));
+    drop((workspace, scene, device));
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 
@@ -242,15 +239,15 @@ fn comparisons_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
         let body = Body::adult(1750.0).unwrap();
         let candidates = 11_u32;
         let poses = vec![0.0; candidates as usize * body.dof_count()];
-        let (_, mut model, workspace, share) = set_up_with(&device, &body, &odd_cameras(), &poses);
+        let (_, mut scene, workspace, share) = set_up_with(&device, &body, &odd_cameras(), &poses);
         let mut random = Random(12);
-        let views = model.sizes.len();
-        let seen = observations(&mut random, &model);
-        model.observe(&seen).unwrap();
+        let views = scene.sizes.len();
+        let seen = observations(&mut random, &scene);
+        scene.observe(&seen).unwrap();
         // Regions of the pictures, some of them empty.
         let bounds: Vec<layout::Bounds> = (0..candidates as usize * views)
             .map(|index| {
-                let [width, height] = model.sizes[index % views].map(|side| side as i32);
+                let [width, height] = scene.sizes[index % views].map(|side| side as i32);
                 let low = [random.below(width), random.below(height)];
                 let empty = random.below(9) == 0;
                 let side = |axis: usize, most: i32, random: &mut Random| low[axis] + 1 + random.below(most - low[axis]);
@@ -260,14 +257,13 @@ fn comparisons_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
             .collect();
         let staging = device.buffer::<layout::Bounds>("bounds staging", bounds.len(), Memory::Upload).unwrap();
         staging.write(0, &bounds).unwrap();
-        let framebuffer = Framebuffer::new(&device, pictures(&model.sizes, candidates), Packing::Max, false).unwrap();
+        let framebuffer = Framebuffer::new(&device, pictures(&scene.sizes, candidates), Packing::Max, false).unwrap();
         let copy = FramebufferCopy::new(&device, &framebuffer).unwrap();
-        let place = PlaceStage::new(&device).unwrap();
         let mut recorder = device.recorder(Timing::Off).unwrap();
-        model.record_upload(&mut recorder).unwrap();
+        scene.record_upload(&mut recorder).unwrap();
         recorder.copy("bounds", (&staging, 0), (&workspace.bounds, 0), staging.size()).unwrap();
         recorder.fill("no quads", &workspace.quads, 0).unwrap();
-        place.record(&mut recorder, &model, &workspace, &framebuffer, share).unwrap();
+        place(&mut recorder, (&scene, &workspace), &framebuffer, scene.counts.parts, share).unwrap();
         copy.record(&mut recorder, &framebuffer).unwrap();
         recorder.finish().unwrap().run().unwrap();
 
@@ -288,21 +284,22 @@ fn comparisons_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
         }
         assert!(drawn.len() > 10_000, "only {} pixels", drawn.len());
         let staging = device.buffer::<u32>("texels staging", texels.len(), Memory::Upload).unwrap();
-        for edge_bit in [0, 7] {
+        for packing in [Packing::Max, Packing::Depth] {
+            let edge_bit = packing.edge_bit();
             for gathering in [Gathering::Texels, Gathering::Subgroup, Gathering::Shared] {
                 if !gathering.works_on(device.capabilities()) {
                     continue;
                 }
                 for bands in [1, 3] {
-                    let compare = CompareStage::new(&device, gathering, edge_bit, bands).unwrap();
+                    let comparing = Comparing { packing, gathering, bands };
                     let sums = |texels: &[u32]| {
                         staging.write(0, texels).unwrap();
                         let mut recorder = device.recorder(Timing::Off).unwrap();
-                        place.record(&mut recorder, &model, &workspace, &framebuffer, share).unwrap();
+                        place(&mut recorder, (&scene, &workspace), &framebuffer, scene.counts.parts, share).unwrap();
                         recorder
                             .write_image("texels", &framebuffer.colour, [0, 0, width, height], (&staging, 0))
                             .unwrap();
-                        compare.record(&mut recorder, &model, &workspace, &framebuffer, share).unwrap();
+                        comparing.record(&mut recorder, (&scene, &workspace), &framebuffer, None, share).unwrap();
                         copy.record(&mut recorder, &framebuffer).unwrap();
                         recorder.finish().unwrap().run().unwrap();
                         let expected: Vec<layout::Sums> = copy
@@ -324,7 +321,7 @@ fn comparisons_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
                 }
             }
         }
-        drop((workspace, model, framebuffer, copy, place, staging, device));
+        drop((workspace, scene, framebuffer, copy, staging, device));
         assert_eq!(log.messages(), Vec::<String>::new());
     }
 }
@@ -338,27 +335,25 @@ fn transform_feedback_gives_the_same_quads() {
         return;
     }
     let body = Body::adult(1750.0).unwrap();
-    let (_, model, workspace, share) = set_up(&device, &body, &poses(&body, 300));
-    let images = share.candidates as usize * model.sizes.len();
-    let (pose, project) = (PoseStage::new(&device).unwrap(), ProjectStage::new(&device).unwrap());
-    let feedback = ProjectFeedbackStage::new(&device).unwrap();
-    let captured = ProjectFeedbackStage::room(&device, model.counts, share.candidates).unwrap();
+    let (_, scene, workspace, share) = set_up(&device, &body, &poses(&body, 300));
+    let images = share.candidates as usize * scene.sizes.len();
+    let captured = feedback_room(&device, scene.counts, share.candidates).unwrap();
     let results = [false, true].map(|by_feedback| {
         let mut recorder = device.recorder(Timing::Off).unwrap();
         recorder.fill("clear", &workspace.quads, 0xdead_beef).unwrap();
         recorder.fill("clear", &workspace.bounds, 0xdead_beef).unwrap();
-        pose.record(&mut recorder, &model, &workspace, share).unwrap();
+        passes::pose(&mut recorder, &scene, &workspace, share).unwrap();
         if by_feedback {
-            feedback.record(&mut recorder, &model, &workspace, &captured, share).unwrap();
+            project_by_feedback(&mut recorder, (&scene, &workspace), &captured, share).unwrap();
         } else {
-            project.record(&mut recorder, &model, &workspace, share).unwrap();
+            passes::project(&mut recorder, &scene, &workspace, share).unwrap();
         }
         recorder.finish().unwrap().run().unwrap();
         let quads: Vec<layout::Quad> = fetch(&device, &workspace.quads, images * body.parts.len());
         (quads, fetch::<layout::Bounds>(&device, &workspace.bounds, images))
     });
     assert!(results[0] == results[1]);
-    drop((pose, project, feedback, captured, workspace, model, device));
+    drop((captured, workspace, scene, device));
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 

@@ -1,0 +1,136 @@
+//! The passes that both ways to draw are made of: poses to parts in every camera, drawing without a framebuffer, sums to fitness.
+
+use anyhow::Result;
+
+use super::scene::{DeviceScene, Share};
+use super::segments::DeviceSegments;
+use super::workspace::Workspace;
+use crate::evaluate::objective::Objective;
+use crate::evaluate::shaders::{
+    PROJECT_GROUP, RASTER_GROUP, RASTER_WORDS, layout, objective_comp, objective_segments_comp, pose_comp,
+    project_comp, raster_comp, raster_segments_comp, raster_shared_comp,
+};
+use crate::gpu::{Buffer, Device, Groups, Recorder, ShaderStage};
+
+/// Columns and rows that a workgroup of [`raster`] works on at once: words of bits of a row, a row an invocation.
+pub(super) const RASTER_TILE: [u32; 2] = [32 * RASTER_WORDS, RASTER_GROUP];
+
+/// Which images of a share are drawn.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Images<'a> {
+    All,
+    /// Those of a list: how many there are, 1, 1, and their numbers, (candidate - first) * views + view.
+    Listed(&'a Buffer),
+}
+
+/// Records poses to bone matrices (SPEC A3): `workspace.poses` to `workspace.world`.
+pub(super) fn pose(recorder: &mut Recorder, scene: &DeviceScene, workspace: &Workspace, share: Share) -> Result<()> {
+    let bindings = pose_comp::Bindings { bones: &scene.bones.buffer, poses: &workspace.poses, world: &workspace.world };
+    recorder.run(bindings.dispatch(scene.batch(share), Groups::Over([share.candidates, 1, 1])))
+}
+
+/// Records every part of every candidate into every camera (SPEC A4, A2): `workspace.world` to snapped corners, nearest parts
+/// first, in `workspace.quads`, and `workspace.bounds`.
+pub(super) fn project(recorder: &mut Recorder, scene: &DeviceScene, workspace: &Workspace, share: Share) -> Result<()> {
+    let bindings = project_comp::Bindings {
+        parts: &scene.parts.buffer,
+        cameras: &scene.cameras.buffer,
+        world: &workspace.world,
+        quads: &workspace.quads,
+        all_bounds: &workspace.bounds,
+    };
+    recorder.run(bindings.dispatch(scene.batch(share), image_groups(scene, share)))
+}
+
+/// The workgroups of a stage that takes whole images, a part an invocation.
+pub(super) fn image_groups(scene: &DeviceScene, share: Share) -> Groups<'static> {
+    let images = share.candidates * scene.counts.views;
+    Groups::Count([images.div_ceil(PROJECT_GROUP / scene.counts.parts), 1, 1])
+}
+
+/// The stage that draws and compares whole silhouettes without a framebuffer, with sums over subgroups where the device has them.
+pub(super) fn raster_stage(device: &Device, listed: bool) -> ShaderStage {
+    let stage = raster_comp::stage(raster_comp::Constants { listed });
+    if device.capabilities().subgroup_arithmetic {
+        stage
+    } else {
+        ShaderStage { shader: &raster_shared_comp::SHADER, ..stage }
+    }
+}
+
+/// Records drawing and comparison without a framebuffer, in the reference's integers (docs/RASTER.md, SPEC A6): `workspace.quads`
+/// and `bounds` to `workspace.sums`, and to the segments' sums where there are segments.
+pub(super) fn raster(
+    recorder: &mut Recorder,
+    (scene, workspace): (&DeviceScene, &Workspace),
+    segments: Option<&DeviceSegments>,
+    images: Images<'_>,
+    share: Share,
+) -> Result<()> {
+    let (listed, list, groups) = match images {
+        // The list is not read.
+        Images::All => (false, &scene.cameras.buffer, Groups::Count([share.candidates * scene.counts.views, 1, 1])),
+        Images::Listed(list) => (true, list, Groups::Indirect(list, 0)),
+    };
+    let whole = raster_comp::Bindings {
+        cameras: &scene.cameras.buffer,
+        quads: &workspace.quads,
+        all_bounds: &workspace.bounds,
+        planes: &scene.planes.buffer,
+        list,
+        all_sums: &workspace.sums,
+    };
+    let Some(segments) = segments else {
+        let dispatch = whole.dispatch(raster_comp::Constants { listed }, scene.batch(share), groups);
+        return recorder.compute("raster", &[dispatch.by(raster_stage(&scene.device, listed).shader)]);
+    };
+    let raster_comp::Bindings { cameras, quads, all_bounds, planes, list, all_sums } = whole;
+    let bindings = raster_segments_comp::Bindings {
+        cameras,
+        quads,
+        all_bounds,
+        planes,
+        list,
+        all_sums,
+        table: &segments.table.buffer,
+        segment_planes: &segments.planes.buffer,
+        all_segment_sums: &segments.sums,
+    };
+    recorder.run(bindings.dispatch(raster_segments_comp::Constants { listed }, scene.batch(share), groups))
+}
+
+/// Records the objective (SPEC A7) of the first `candidates` of a run, in one go however many batches they took: `workspace.sums`,
+/// and the segments' sums where there are segments, to `fitness`, single precision, one a candidate.
+pub(super) fn objective(
+    recorder: &mut Recorder,
+    (scene, workspace): (&DeviceScene, &Workspace),
+    segments: Option<&DeviceSegments>,
+    (objective, candidates): (&Objective, u32),
+    fitness: &Buffer,
+) -> Result<()> {
+    let (terms, over) = objective.kind.formula();
+    let push = layout::Scoring {
+        candidates,
+        views: scene.counts.views,
+        terms: terms as u32,
+        over: over as u32,
+        beta: objective.beta,
+        w1: objective.w1,
+        w2: objective.w2,
+    };
+    let groups = Groups::Over([candidates, 1, 1]);
+    let (cameras, all_sums) = (&scene.cameras.buffer, &workspace.sums);
+    match segments {
+        None => recorder.run(objective_comp::Bindings { cameras, all_sums, fitness }.dispatch(push, groups)),
+        Some(DeviceSegments { table, sums, .. }) => {
+            let bindings = objective_segments_comp::Bindings {
+                cameras,
+                all_sums,
+                fitness,
+                table: &table.buffer,
+                all_segment_sums: sums,
+            };
+            recorder.run(bindings.dispatch(push, groups))
+        }
+    }
+}
