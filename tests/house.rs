@@ -38,14 +38,6 @@ const FLOORS: &[(&str, u32)] = &[
 
 /// Circles that are still to be opened: a circle of modules is one of these or a part of one.
 const KNOWN_CIRCLES: &[&[&str]] = &[
-    &[
-        "body::loader",
-        "body::mesh",
-        "body::mesh::adjacency",
-        "body::mesh::frusta",
-        "body::mesh::source",
-        "body::skeleton",
-    ],
     &["search", "search::refinement"],
     &[
         "search::kinds",
@@ -54,20 +46,6 @@ const KNOWN_CIRCLES: &[&[&str]] = &[
         "search::kinds::hierarchical",
         "search::kinds::particle_filter",
         "search::kinds::pso",
-    ],
-    &["study::axes", "study::outcome", "study::plan", "study::settings"],
-    &[
-        "texture::materials",
-        "texture::materials::brick",
-        "texture::materials::clouds",
-        "texture::materials::fabric",
-        "texture::materials::granite",
-        "texture::materials::grass",
-        "texture::materials::lava",
-        "texture::materials::marble",
-        "texture::materials::skin",
-        "texture::materials::terrain",
-        "texture::materials::wood",
     ],
 ];
 

@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use super::mesh::{MeshEntry, build_source};
 use super::{Body, Bone, Dof, DofAxis, Marker, MeshSource, Part};
-use crate::files::{parse_toml, read_toml, shortened};
+use crate::files::{expected, parse_toml, read_toml, shortened};
 use crate::geometry::{EulerOrder, LengthUnit};
 
 /// Longest length inside a body, mm. Larger ones are a mistaken unit, and would not survive single precision.
@@ -305,18 +305,6 @@ fn cycle(bones: &[Bone], reached: &[usize]) -> String {
         at = bones[index].parent;
     }
     String::new()
-}
-
-/// What to say after an unknown name: the nearest known one and the list, which is cut when it is long.
-pub(super) fn expected(found: &str, known: &[&str]) -> String {
-    // The distance takes memory as the product of both lengths.
-    let found = &shortened(found);
-    let Some(nearest) = known.iter().min_by_key(|name| strsim::damerau_levenshtein(found, name)) else {
-        return "expected none".to_string();
-    };
-    let shown = known.iter().take(40).copied().collect::<Vec<_>>().join(", ");
-    let more = if known.len() > 40 { ", …" } else { "" };
-    format!("the nearest known one is `{nearest}` (known: {shown}{more})")
 }
 
 #[cfg(test)]

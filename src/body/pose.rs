@@ -7,9 +7,8 @@ use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 
-use super::loader::expected;
 use super::{Body, DofAxis};
-use crate::files::{Overwrite, shortened, write_atomically};
+use crate::files::{Overwrite, expected, shortened, write_atomically};
 
 /// Largest value a cell may hold, mm or degrees; single precision resolves less than a millimetre up to there.
 const LARGEST: f64 = 1e7;

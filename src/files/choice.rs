@@ -46,6 +46,16 @@ pub fn unknown(what: &str, found: &str, known: &[&str]) -> Error {
     anyhow!("unknown {what} `{}`, the nearest is `{nearest}` (known: {})", shortened(found), known.join(", "))
 }
 
+/// What to say after an unknown name: the nearest known one and the list, which is cut when it is long.
+pub fn expected(found: &str, known: &[&str]) -> String {
+    let Some(nearest) = nearest(found, known.iter().copied()) else {
+        return "expected none".to_string();
+    };
+    let shown = known.iter().take(40).copied().collect::<Vec<_>>().join(", ");
+    let more = if known.len() > 40 { ", …" } else { "" };
+    format!("the nearest known one is `{nearest}` (known: {shown}{more})")
+}
+
 /// Reads a choice by its name out of any file.
 ///
 /// # Errors

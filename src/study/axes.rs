@@ -1,7 +1,7 @@
 //! What runs differ in, and what of them is compared.
 
 use super::outcome::Outcome;
-use super::plan::Run;
+use super::run::Run;
 use crate::files::choices;
 
 choices! {

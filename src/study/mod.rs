@@ -8,7 +8,9 @@ mod axes;
 mod outcome;
 mod plan;
 mod plots;
+mod run;
 mod runner;
+mod runs_csv;
 mod scenes;
 mod settings;
 mod summary;
@@ -16,7 +18,7 @@ mod tables;
 
 pub use axes::{Axis, Value};
 pub use outcome::{Outcome, Row, StageShare};
-pub use plan::Run;
+pub use run::Run;
 pub use runner::{Progress, StudySummary, run};
 pub use settings::{PlotSettings, SequenceSettings, SharesSettings, Study, TableSettings};
 pub use summary::{Cell, Statistic};

@@ -5,9 +5,10 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 
-use super::outcome::{Outcome, Row, StageShare, write_runs, write_stages};
-use super::plan::Run;
+use super::outcome::{Outcome, Row, StageShare};
 use super::plots;
+use super::run::Run;
+use super::runs_csv::{write_runs, write_stages};
 use super::scenes::Prepared;
 use super::settings::Study;
 use super::tables::{self, Table};

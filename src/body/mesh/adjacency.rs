@@ -4,7 +4,15 @@ use std::collections::HashMap;
 
 use anyhow::{Result, bail, ensure};
 
-use super::MeshEdge;
+/// An edge of a [`super::Mesh`] and the third vertices of its two triangles, which are `(ends[0], ends[1], opposite[0])` and
+/// `(ends[1], ends[0], opposite[1])`. It is a silhouette edge where exactly one of them faces the camera.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MeshEdge {
+    /// The vertices it joins, the smaller index first.
+    pub ends: [u32; 2],
+    /// The third vertex of either triangle.
+    pub opposite: [u32; 2],
+}
 
 /// The edges of a closed, consistently oriented surface, ordered by their ends.
 ///

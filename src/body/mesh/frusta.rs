@@ -6,41 +6,9 @@ use std::f64::consts::PI;
 use anyhow::{Result, ensure};
 use glam::{DAffine3, DVec3};
 
-use super::{Mesh, MeshVertex, Skinning};
+use super::source::{FrustumBase, Skinning, check_flattening};
+use super::{Mesh, MeshVertex};
 use crate::body::{Body, Part};
-
-/// The base of generated frusta.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum FrustumBase {
-    /// Four corners an end: 8 vertices a part.
-    Square,
-    /// Two rings, and a vertex in the centre of either cap.
-    Elliptic {
-        /// Vertices a part, one of [`FrustumBase::LADDER`].
-        vertices: u32,
-    },
-}
-
-impl FrustumBase {
-    /// Vertices a part with an elliptic base: 2 cap centres and 2 rings of 8, 16, 32, 64, 128 and 256.
-    pub const LADDER: [u32; 6] = [18, 34, 66, 130, 258, 514];
-
-    /// Vertices a part.
-    pub fn vertices(self) -> u32 {
-        match self {
-            Self::Square => 8,
-            Self::Elliptic { vertices } => vertices,
-        }
-    }
-
-    /// The name as files write it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Square => "square",
-            Self::Elliptic { .. } => "elliptic",
-        }
-    }
-}
 
 impl Mesh {
     /// A closed frustum a part, rigid on the part's bone and labelled as the part; in the body's rest pose, whose parts come
@@ -63,7 +31,7 @@ impl Mesh {
             );
         }
         let parts: Vec<&str> = body.parts.iter().map(|part| part.name.as_str()).collect();
-        super::source::check_flattening(flattening, &parts)?;
+        check_flattening(flattening, &parts)?;
         let origins = rest_origins(body);
         let mut vertices = Vec::new();
         let mut triangles = Vec::new();

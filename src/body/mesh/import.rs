@@ -15,9 +15,8 @@ use super::frusta::rest_origins;
 use super::gltf_file::{self, SkinnedFile};
 use super::joint_names::JointMap;
 use super::{Mesh, MeshSource, Skinning};
-use crate::body::loader::expected;
 use crate::body::{Body, Part, parse_body};
-use crate::files::shortened;
+use crate::files::{expected, shortened};
 
 /// No person is smaller or taller, mm.
 const HEIGHTS: std::ops::RangeInclusive<f64> = 500.0..=2500.0;

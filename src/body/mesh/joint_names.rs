@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::gltf_file::Joint;
 use crate::body::Body;
-use crate::body::loader::expected;
+use crate::files::expected;
 
 /// Names of joints by bone or free end, both without their side, words run together; the first that a file has counts.
 /// Mixamo and CMU say Shoulder for the clavicle and Arm for the upper arm; SMPL says Collar and Shoulder.

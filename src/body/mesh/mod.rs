@@ -13,10 +13,9 @@ use anyhow::{Result, ensure};
 use glam::{DAffine3, DVec3, Vec3};
 
 use super::Body;
-use crate::files::choices;
-pub use frusta::FrustumBase;
+pub use adjacency::MeshEdge;
 pub(super) use joint_names::plain as plain_name;
-pub use source::MeshSource;
+pub use source::{FrustumBase, MeshSource, Skinning};
 pub(super) use source::{MeshEntry, build_source};
 
 /// A closed triangle mesh bound to the bones of a body.
@@ -50,27 +49,6 @@ pub struct MeshVertex {
     pub weights: [f32; 4],
     /// Label in candidate images, 1..=127: that of the body's part the vertex belongs to.
     pub label: u8,
-}
-
-/// An edge of a [`Mesh`] and the third vertices of its two triangles, which are `(ends[0], ends[1], opposite[0])` and
-/// `(ends[1], ends[0], opposite[1])`. It is a silhouette edge where exactly one of them faces the camera.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MeshEdge {
-    /// The vertices it joins, the smaller index first.
-    pub ends: [u32; 2],
-    /// The third vertex of either triangle.
-    pub opposite: [u32; 2],
-}
-
-choices! {
-    /// How the vertices of a [`Mesh`] hang on bones.
-    #[derive(Default)]
-    "skinning" pub enum Skinning {
-        /// Each on one bone.
-        "rigid" Rigid,
-        /// Each on up to four bones.
-        "smooth" #[default] Smooth,
-    }
 }
 
 /// The mesh that a body without a `[mesh]` is drawn with.

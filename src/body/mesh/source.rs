@@ -6,9 +6,7 @@ use std::path::PathBuf;
 use anyhow::{Result, anyhow, bail, ensure};
 use serde::Deserialize;
 
-use super::{FrustumBase, Skinning};
-use crate::body::loader::expected;
-use crate::files::{shortened, unknown};
+use crate::files::{choices, expected, shortened, unknown};
 
 /// Where the mesh of a body comes from (SPEC A4).
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +27,50 @@ pub enum MeshSource {
         /// Ratio of depth to width by part, where not 1.
         flattening: BTreeMap<String, f64>,
     },
+}
+
+choices! {
+    /// How the vertices of a [`super::Mesh`] hang on bones.
+    #[derive(Default)]
+    "skinning" pub enum Skinning {
+        /// Each on one bone.
+        "rigid" Rigid,
+        /// Each on up to four bones.
+        "smooth" #[default] Smooth,
+    }
+}
+
+/// The base of generated frusta.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FrustumBase {
+    /// Four corners an end: 8 vertices a part.
+    Square,
+    /// Two rings, and a vertex in the centre of either cap.
+    Elliptic {
+        /// Vertices a part, one of [`FrustumBase::LADDER`].
+        vertices: u32,
+    },
+}
+
+impl FrustumBase {
+    /// Vertices a part with an elliptic base: 2 cap centres and 2 rings of 8, 16, 32, 64, 128 and 256.
+    pub const LADDER: [u32; 6] = [18, 34, 66, 130, 258, 514];
+
+    /// Vertices a part.
+    pub fn vertices(self) -> u32 {
+        match self {
+            Self::Square => 8,
+            Self::Elliptic { vertices } => vertices,
+        }
+    }
+
+    /// The name as files write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Square => "square",
+            Self::Elliptic { .. } => "elliptic",
+        }
+    }
 }
 
 /// `[mesh]` as it is written.

@@ -6,8 +6,8 @@ use anyhow::{Result, anyhow, bail};
 use glam::DVec3;
 
 use crate::body::Body;
-use crate::body::loader::expected;
 use crate::body::mesh::plain_name;
+use crate::files::expected;
 use crate::motion::SkeletalMotion;
 
 /// Names of joints by bone or free end, without their side, words run together; the first that a recording has counts.

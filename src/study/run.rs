@@ -1,0 +1,42 @@
+//! A run of a study and the folder it has.
+
+use serde::{Deserialize, Serialize};
+
+use crate::body::Model;
+use crate::evaluate::ObjectiveKind;
+use crate::search::SearchKind;
+use crate::track::Backend;
+
+/// One run: everything that decides what it yields.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Run {
+    /// The sequence's name.
+    pub sequence: String,
+    /// Who scores the poses.
+    pub backend: Backend,
+    /// What the body is drawn as.
+    pub model: Model,
+    /// The objective function.
+    pub objective: ObjectiveKind,
+    /// How poses are searched.
+    pub search: SearchKind,
+    /// Poses scored at once.
+    pub particles: usize,
+    /// Times that many poses are scored a frame.
+    pub iterations: usize,
+    /// The seed of the search.
+    pub seed: u64,
+    /// Which frames, `A..B`.
+    pub frames: String,
+    /// Factor on the width of the search round the previous pose.
+    pub spread: f64,
+}
+
+impl Run {
+    /// The name of its folder.
+    pub fn folder(&self) -> String {
+        let Self { sequence, backend, model, objective, search, particles, iterations, seed, .. } = self;
+        format!("{sequence}_{backend}_{model}_{objective}_{search}_{particles}x{iterations}_seed{seed}")
+    }
+}
