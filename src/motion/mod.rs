@@ -4,6 +4,7 @@ mod bvh;
 mod c3d;
 mod error;
 mod number;
+mod pairing;
 mod point_file;
 mod points;
 mod points_csv;
@@ -17,7 +18,8 @@ pub(crate) use number::{finite, whole};
 
 pub use bvh::{BvhChannel, BvhJoint, BvhMotion, parse_bvh, write_bvh};
 pub use c3d::{parse_c3d, write_c3d};
-pub use error::{FrameError, Matching, PointError, PointPairs, TrajectoryError, write_frame_errors};
+pub use error::{FrameError, Matching, PointError, TrajectoryError, write_frame_errors};
+pub use pairing::PointPairs;
 pub use point_file::{PointFormat, read_bvh, read_points, write_points};
 pub use points::{LARGEST_COORDINATE, PointTrajectory};
 pub use points_csv::{parse_points_csv, write_points_csv};

@@ -49,3 +49,12 @@ pub(crate) fn real_data(test: &str, folder: &str) -> Option<PathBuf> {
     }
     Some(path)
 }
+
+/// `a` moves along x a millimetre a frame, `b` along y.
+pub(crate) fn trajectory(rate: f64, first_frame: usize, frames: usize) -> PointTrajectory {
+    let row = |i: usize| {
+        let seconds = (first_frame + i) as f64 / rate;
+        vec![Some(DVec3::new(seconds * 100.0, 0.0, 0.0)), Some(DVec3::new(0.0, seconds * 50.0, 1000.0))]
+    };
+    PointTrajectory { names: vec!["a".into(), "b".into()], rate, first_frame, frames: (0..frames).map(row).collect() }
+}

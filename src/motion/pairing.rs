@@ -1,0 +1,179 @@
+//! Which points of two trajectories are the same, by name and by a map.
+
+use std::collections::HashSet;
+
+use anyhow::{Result, bail, ensure};
+
+use super::points::PointTrajectory;
+
+/// Which of our points stands for which point of the truth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointPairs {
+    /// Columns of the truth and of ours, in the order of the truth.
+    columns: Vec<(usize, usize)>,
+    /// Points of the truth that ours has no partner for.
+    pub missing_in_ours: Vec<String>,
+    /// Points of ours that the truth has no partner for.
+    pub missing_in_truth: Vec<String>,
+}
+
+impl PointPairs {
+    /// Pairs points of equal name; `map` (truth's name, our name) comes before that.
+    ///
+    /// # Errors
+    /// When a name of the map is unknown or stands twice, or when there is no pair at all: the sentence names some
+    /// points of both.
+    pub fn find(ours: &PointTrajectory, truth: &PointTrajectory, map: &[(String, String)]) -> Result<Self> {
+        for (theirs, mine) in map {
+            known(truth, theirs, "the truth")?;
+            known(ours, mine, "the track")?;
+            let uses = |name: &String| map.iter().filter(|(a, b)| a == name || b == name).count();
+            ensure!(
+                map.iter().filter(|(a, _)| a == theirs).count() == 1
+                    && map.iter().filter(|(_, b)| b == mine).count() == 1,
+                "the map names `{}` twice, expected every point once",
+                if uses(theirs) > 1 { theirs } else { mine }
+            );
+        }
+        let mapped: HashSet<&str> = map.iter().map(|(_, mine)| mine.as_str()).collect();
+        let partner = |name: &String| match map.iter().find(|(theirs, _)| theirs == name) {
+            Some((_, mine)) => ours.column(mine),
+            // A point of ours that the map gave to another is not free for its namesake.
+            None => ours.column(name).filter(|_| !mapped.contains(name.as_str())),
+        };
+        let columns: Vec<(usize, usize)> =
+            truth.names.iter().enumerate().filter_map(|(column, name)| Some((column, partner(name)?))).collect();
+        if columns.is_empty() {
+            bail!(
+                "the truth and the track share no point name: the truth has {}, the track has {}; a map can pair them",
+                some_of(&truth.names),
+                some_of(&ours.names)
+            );
+        }
+        let paired_truth: HashSet<usize> = columns.iter().map(|pair| pair.0).collect();
+        let paired_ours: HashSet<usize> = columns.iter().map(|pair| pair.1).collect();
+        Ok(Self {
+            missing_in_ours: others(&truth.names, &paired_truth),
+            missing_in_truth: others(&ours.names, &paired_ours),
+            columns,
+        })
+    }
+
+    /// Keeps the pairs that `names` lists, by the truth's or our name.
+    ///
+    /// # Errors
+    /// When a name belongs to no pair.
+    pub fn keep(&mut self, ours: &PointTrajectory, truth: &PointTrajectory, names: &[String]) -> Result<()> {
+        let is =
+            |&(theirs, mine): &(usize, usize), name: &String| truth.names[theirs] == *name || ours.names[mine] == *name;
+        for name in names {
+            if !self.columns.iter().any(|pair| is(pair, name)) {
+                bail!("there is no point `{name}` to compare, expected some of {}", self.some(truth));
+            }
+        }
+        self.columns.retain(|pair| names.iter().any(|name| is(pair, name)));
+        Ok(())
+    }
+
+    /// Drops the pairs that a word of `words` belongs to: every point whose name, the truth's or ours, holds the word
+    /// in any case; a plural stands for its singular, so `hips` drops `LHip` and `right_hip`.
+    ///
+    /// # Errors
+    /// When a word belongs to no pair, or when no pair is left.
+    pub fn exclude(&mut self, ours: &PointTrajectory, truth: &PointTrajectory, words: &[String]) -> Result<()> {
+        let named = |&(theirs, mine): &(usize, usize), word: &String| {
+            let word = word.to_lowercase();
+            let singular = word.strip_suffix('s').filter(|rest| !rest.is_empty()).unwrap_or(&word);
+            [&truth.names[theirs], &ours.names[mine]].iter().any(|name| name.to_lowercase().contains(singular))
+        };
+        for word in words {
+            ensure!(!word.is_empty(), "a name to exclude is empty, expected a point's name");
+            if !self.columns.iter().any(|pair| named(pair, word)) {
+                bail!("there is no point `{word}` to exclude, expected some of {}", self.some(truth));
+            }
+        }
+        self.columns.retain(|pair| !words.iter().any(|word| named(pair, word)));
+        ensure!(!self.columns.is_empty(), "every point is excluded, expected one to compare");
+        Ok(())
+    }
+
+    /// Columns of the truth and of ours, in the order of the truth.
+    pub(super) fn columns(&self) -> &[(usize, usize)] {
+        &self.columns
+    }
+
+    fn some(&self, truth: &PointTrajectory) -> String {
+        some_of(&self.columns.iter().map(|pair| truth.names[pair.0].clone()).collect::<Vec<_>>())
+    }
+}
+
+fn known(points: &PointTrajectory, name: &str, whose: &str) -> Result<()> {
+    if points.column(name).is_none() {
+        let nearest = points.names.iter().min_by_key(|known| strsim::damerau_levenshtein(name, known));
+        bail!("{whose} has no point `{name}`, the nearest name is `{}`", nearest.map_or("", String::as_str));
+    }
+    Ok(())
+}
+
+fn others(names: &[String], paired: &HashSet<usize>) -> Vec<String> {
+    names.iter().enumerate().filter(|(column, _)| !paired.contains(column)).map(|(_, name)| name.clone()).collect()
+}
+
+/// The first few names for a message.
+fn some_of(names: &[String]) -> String {
+    const SHOWN: usize = 5;
+    let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
+    let more = names.len().saturating_sub(SHOWN);
+    if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::test_points::trajectory;
+
+    #[test]
+    fn names_are_paired_mapped_kept_and_excluded() {
+        let mut truth = trajectory(60.0, 0, 3);
+        truth.names = vec!["LHip".into(), "Nose".into()];
+        let mut ours = truth.clone();
+        ours.names = vec!["left_hip".into(), "nose_tip".into()];
+        let message = |result: Result<PointPairs>| result.unwrap_err().to_string();
+        let none = message(PointPairs::find(&ours, &truth, &[]));
+        assert!(none.contains("`LHip`, `Nose`") && none.contains("`left_hip`"), "{none}");
+        let pair = |a: &str, b: &str| (a.to_string(), b.to_string());
+        let map = [pair("LHip", "left_hip")];
+        let one = PointPairs::find(&ours, &truth, &map).unwrap();
+        assert_eq!(
+            (one.missing_in_ours.as_slice(), one.missing_in_truth.as_slice()),
+            (&["Nose".to_string()][..], &["nose_tip".to_string()][..])
+        );
+        let wrong = message(PointPairs::find(&ours, &truth, &[pair("LHipp", "left_hip")]));
+        assert!(wrong.contains("no point `LHipp`, the nearest name is `LHip`"), "{wrong}");
+        let wrong = message(PointPairs::find(&ours, &truth, &[pair("LHip", "left_hip"), pair("Nose", "left_hip")]));
+        assert!(wrong.contains("`left_hip` twice"), "{wrong}");
+
+        let map = [pair("LHip", "left_hip"), pair("Nose", "nose_tip")];
+        let both = PointPairs::find(&ours, &truth, &map).unwrap();
+        let names = |words: &[&str]| words.iter().map(|w| (*w).to_string()).collect::<Vec<_>>();
+        let mut kept = both.clone();
+        kept.keep(&ours, &truth, &names(&["nose_tip"])).unwrap();
+        assert_eq!(kept.columns, [(1, 1)]);
+        assert!(kept.keep(&ours, &truth, &names(&["knee"])).unwrap_err().to_string().contains("no point `knee`"));
+        let mut left = both.clone();
+        left.exclude(&ours, &truth, &names(&["hips"])).unwrap();
+        assert_eq!(left.columns, [(1, 1)]);
+        let mut nothing = both.clone();
+        let wrong = nothing.exclude(&ours, &truth, &names(&["nose", "HIP"])).unwrap_err().to_string();
+        assert!(wrong.contains("every point is excluded"), "{wrong}");
+        let wrong = both.clone().exclude(&ours, &truth, &names(&["knees"])).unwrap_err().to_string();
+        assert!(wrong.contains("no point `knees`"), "{wrong}");
+    }
+
+    #[test]
+    fn a_mapped_point_is_not_used_twice() {
+        let truth = trajectory(60.0, 0, 3);
+        let pairs = PointPairs::find(&truth, &truth, &[("a".into(), "b".into())]).unwrap();
+        assert_eq!(pairs.columns, [(0, 1)], "b of ours stands for a, so the truth's b has no partner");
+    }
+}
