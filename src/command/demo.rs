@@ -8,7 +8,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use image::RgbImage;
 
-use super::progress::Progress;
+use super::progress::ProgressBar;
 use super::track::{TrackProgress, print_summary};
 use crate::files::{OutputFolder, Overwrite};
 use crate::report::side_by_side;
@@ -77,7 +77,7 @@ pub fn run(args: &DemoArgs) -> Result<()> {
 
     let folder = OutputFolder::open(&args.output.join("sequence"))?;
     let begin = Instant::now();
-    let bar = Mutex::new(Progress::new("making the sequence", scene.frames));
+    let bar = Mutex::new(ProgressBar::new("making the sequence", scene.frames));
     synthetic.write(&folder, false, None, &|_| bar.lock().unwrap_or_else(PoisonError::into_inner).advance())?;
     drop(bar);
     let views = synthetic.cameras().len();

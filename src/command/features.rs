@@ -6,7 +6,7 @@ use anyhow::Result;
 use image::codecs::png::PngEncoder;
 use rayon::prelude::*;
 
-use super::progress::Progress;
+use super::progress::ProgressBar;
 use crate::evaluate::device::open_device;
 use crate::files::{OutputFolder, Overwrite, choices};
 use crate::observe::{Observer, feature_settings};
@@ -62,7 +62,7 @@ pub fn run(args: &FeaturesArgs) -> Result<()> {
     }
     let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;
 
-    let mut progress = Progress::new("features", frames.len());
+    let mut progress = ProgressBar::new("features", frames.len());
     while let Some(set) = observer.read()? {
         let Some(features) = observer.features(&set, true)? else { continue };
         let views = sequence.views.par_iter().zip(&set.pictures).zip(&*features);

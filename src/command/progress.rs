@@ -2,21 +2,60 @@
 
 use std::io::{IsTerminal, stderr};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressStyle;
 
 /// Plain lines are written each time this many hundredths of the work are done.
-const PLAIN_STEP: u64 = 10;
+const PLAIN_STEP: usize = 10;
 
-/// Progress through `total` units of work.
-pub struct Progress {
-    name: &'static str,
-    unit: &'static str,
-    total: u64,
-    done: u64,
-    bar: Option<ProgressBar>,
+/// A bar on a terminal, nothing elsewhere; cleared when dropped.
+#[derive(Default)]
+pub struct TerminalBar(Option<indicatif::ProgressBar>);
+
+impl TerminalBar {
+    /// At `done` of `total`; a spinner where the end is not known. `template` is that of `indicatif`.
+    pub fn new(template: &str, done: usize, total: Option<usize>) -> Self {
+        let bar = || {
+            let bar = match total {
+                Some(total) => indicatif::ProgressBar::new(total as u64),
+                None => indicatif::ProgressBar::new_spinner(),
+            };
+            let bar = bar.with_position(done as u64);
+            bar.reset_eta();
+            if let Ok(style) = ProgressStyle::with_template(template) {
+                bar.set_style(style);
+            }
+            bar
+        };
+        Self(stderr().is_terminal().then(bar))
+    }
+
+    /// Shows how much is done; false where there is no terminal.
+    pub fn show(&self, done: usize, message: &str) -> bool {
+        let Some(bar) = &self.0 else { return false };
+        bar.set_message(message.to_string());
+        bar.set_position(done as u64);
+        true
+    }
 }
 
-impl Progress {
+impl Drop for TerminalBar {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.0 {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// Progress through `total` units of work.
+pub struct ProgressBar {
+    name: &'static str,
+    unit: &'static str,
+    total: usize,
+    done: usize,
+    bar: TerminalBar,
+}
+
+impl ProgressBar {
     /// Begins with `total` frames; `name` says what is being done.
     pub fn new(name: &'static str, total: usize) -> Self {
         Self::of(name, "frame", total)
@@ -24,40 +63,23 @@ impl Progress {
 
     /// Begins with `total` units of work, `unit` what one is called.
     pub fn of(name: &'static str, unit: &'static str, total: usize) -> Self {
-        let total = total as u64;
-        let bar = stderr().is_terminal().then(|| {
-            let bar = ProgressBar::new(total);
-            if let Ok(style) = ProgressStyle::with_template("{prefix} {wide_bar} {msg} {pos} of {len}, {eta} left") {
-                bar.set_style(style);
-            }
-            bar.set_prefix(name);
-            bar.set_message(unit);
-            bar
-        });
+        let template = format!("{name} {{wide_bar}} {{msg}} {{pos}} of {{len}}, {{eta}} left");
+        let bar = TerminalBar::new(&template, 0, Some(total));
+        bar.show(0, unit);
         Self { name, unit, total, done: 0, bar }
     }
 
     /// One more is done.
     pub fn advance(&mut self) {
         self.done += 1;
-        match &self.bar {
-            Some(bar) => bar.set_position(self.done),
-            None if self.is_worth_a_line() => eprintln!("{}: {} {} of {}", self.name, self.unit, self.done, self.total),
-            None => {}
+        if !self.bar.show(self.done, self.unit) && self.is_worth_a_line() {
+            eprintln!("{}: {} {} of {}", self.name, self.unit, self.done, self.total);
         }
     }
 
     fn is_worth_a_line(&self) -> bool {
-        let step = |done: u64| done * 100 / (self.total.max(1) * PLAIN_STEP);
+        let step = |done: usize| done * 100 / (self.total.max(1) * PLAIN_STEP);
         step(self.done) > step(self.done - 1)
-    }
-}
-
-impl Drop for Progress {
-    fn drop(&mut self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
-        }
     }
 }
 
@@ -68,7 +90,7 @@ mod tests {
     #[test]
     fn ten_lines_however_long_the_work() {
         for total in [10, 100, 999] {
-            let mut progress = Progress { name: "test", unit: "frame", total, done: 0, bar: None };
+            let mut progress = ProgressBar { name: "test", unit: "frame", total, done: 0, bar: TerminalBar::default() };
             let lines = (0..total)
                 .filter(|_| {
                     progress.done += 1;

@@ -7,7 +7,7 @@ use std::time::Instant;
 use anyhow::{Result, bail};
 
 use super::interrupt::Interrupt;
-use super::progress;
+use super::progress::ProgressBar;
 use crate::files::{OutputFolder, Overwrite};
 use crate::study::{self, Outcome, Run, Study};
 
@@ -75,7 +75,7 @@ struct Runs {
 
 struct Watch {
     interrupt: Interrupt,
-    bar: Mutex<Option<progress::Progress>>,
+    bar: Mutex<Option<ProgressBar>>,
     runs: Mutex<Runs>,
 }
 
@@ -84,7 +84,7 @@ impl study::Progress for Watch {
         let mut bar = self.bar.lock().unwrap_or_else(PoisonError::into_inner);
         let shown = bar.get_or_insert_with(|| {
             eprintln!("sequence {name}");
-            progress::Progress::new("making the sequence", frames)
+            ProgressBar::new("making the sequence", frames)
         });
         shown.advance();
         if done == frames {

@@ -7,7 +7,7 @@ use std::time::Instant;
 use anyhow::Result;
 
 use super::draws::Draws;
-use super::progress::Progress;
+use super::progress::ProgressBar;
 use crate::files::{OutputFolder, Overwrite};
 use crate::synth::{Scene, ScenePreset, SyntheticSequence};
 
@@ -68,7 +68,7 @@ pub fn run(args: &SynthArgs) -> Result<()> {
     let overwrite = if args.force || args.resume { Overwrite::Replace } else { Overwrite::Refuse };
     let folder = OutputFolder::create(&args.output, overwrite)?;
     let begin = Instant::now();
-    let bar = Mutex::new(Progress::new("making the sequence", scene.frames));
+    let bar = Mutex::new(ProgressBar::new("making the sequence", scene.frames));
     synthetic.write(&folder, args.resume, device.as_ref(), &|_| {
         bar.lock().unwrap_or_else(PoisonError::into_inner).advance()
     })?;

@@ -7,7 +7,7 @@ use image::codecs::png::PngEncoder;
 use image::{DynamicImage, RgbImage};
 
 use super::draws::Draws;
-use super::progress::Progress;
+use super::progress::ProgressBar;
 use crate::files::{Choice as _, Overwrite, choices, write_atomically};
 use crate::synth::portrait;
 use crate::texture::example::{Settings, patch_count, synthesise};
@@ -208,7 +208,7 @@ fn from_example(args: &TextureArgs, example: &Path, output: &Path) -> Result<()>
     let mask =
         args.mask.as_deref().map(|path| read(path).map(|mask| DynamicImage::from(mask).into_luma8())).transpose()?;
     let device = args.backend.device()?;
-    let mut progress = Progress::of("texture", "patch", patch_count(&settings));
+    let mut progress = ProgressBar::of("texture", "patch", patch_count(&settings));
     let synthesis = synthesise(&picture, mask.as_ref(), &settings, device.as_ref(), || progress.advance())
         .with_context(|| format!("cannot synthesise from {}", example.display()))?;
     drop(progress);

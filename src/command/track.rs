@@ -1,15 +1,14 @@
 //! `pantin track`.
 
-use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 use clap::ArgAction;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::interrupt::Interrupt;
 use super::objective_flags::ObjectiveFlags;
+use super::progress::TerminalBar;
 use super::realtime_flags::{RealtimeFlags, duration};
 use crate::body::Model;
 use crate::files::{OutputFolder, Overwrite};
@@ -227,7 +226,7 @@ fn print_realtime(realtime: &RealtimeSummary, evaluator: &str) {
 /// A bar on a terminal, a line now and then elsewhere; and Ctrl-C.
 pub(super) struct TrackProgress {
     stop: Interrupt,
-    bar: Option<ProgressBar>,
+    bar: TerminalBar,
     begin: Instant,
     last_line: Instant,
     first: usize,
@@ -242,13 +241,11 @@ impl TrackProgress {
     pub(super) fn new() -> Result<Self> {
         let stop = Interrupt::listen()?;
         let now = Instant::now();
-        Ok(Self { stop, bar: None, begin: now, last_line: now, first: 0, total: None })
+        Ok(Self { stop, bar: TerminalBar::default(), begin: now, last_line: now, first: 0, total: None })
     }
 
     pub(super) fn clear(&mut self) {
-        if let Some(bar) = self.bar.take() {
-            bar.finish_and_clear();
-        }
+        self.bar = TerminalBar::default();
     }
 }
 
@@ -261,29 +258,17 @@ impl Progress for TrackProgress {
         }
         (self.first, self.total) = (run.done, run.frames);
         (self.begin, self.last_line) = (Instant::now(), Instant::now());
-        if std::io::stderr().is_terminal() {
-            let (bar, template) = match run.frames {
-                Some(frames) => {
-                    (ProgressBar::new(frames as u64), "{bar:30} {pos}/{len} frames, {per_sec}, {eta} left  {msg}")
-                }
-                None => (ProgressBar::new_spinner(), "{spinner} {pos} frames, {per_sec}  {msg} (Ctrl-C ends it)"),
-            };
-            let bar = bar.with_position(run.done as u64);
-            bar.reset_eta();
-            if let Ok(style) = ProgressStyle::with_template(template) {
-                bar.set_style(style);
-            }
-            self.bar = Some(bar);
-        }
+        let template = match run.frames {
+            Some(_) => "{bar:30} {pos}/{len} frames, {per_sec}, {eta} left  {msg}",
+            None => "{spinner} {pos} frames, {per_sec}  {msg} (Ctrl-C ends it)",
+        };
+        self.bar = TerminalBar::new(template, run.done, run.frames);
     }
 
     fn frame(&mut self, frame: &FrameDone) {
         let error = frame.mean_error.map(|error| format!(", mean error {error:.1} mm")).unwrap_or_default();
         let message = format!("fitness {:.3}, confidence {:.2}{error}", frame.fitness, frame.confidence);
-        if let Some(bar) = &self.bar {
-            bar.set_message(message);
-            bar.set_position(frame.done as u64);
-        } else if self.last_line.elapsed() >= LINE_INTERVAL {
+        if !self.bar.show(frame.done, &message) && self.last_line.elapsed() >= LINE_INTERVAL {
             self.last_line = Instant::now();
             let each = self.begin.elapsed().as_secs_f64() / (frame.done - self.first).max(1) as f64;
             let (at, done) = (frame.frame, frame.done);
