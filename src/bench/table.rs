@@ -50,7 +50,7 @@ fn head(f: &mut Formatter<'_>, row: &Row) -> fmt::Result {
             write!(f, " {name:>9}")?;
         }
     } else if thesis::ladder(&row.model, row.particles).is_some() {
-        write!(f, "  | thesis")?;
+        write!(f, "  | {:>12} {:>9}", "thesis/frame", "its tenth")?;
     }
     writeln!(f)
 }
@@ -76,7 +76,7 @@ fn line(f: &mut Formatter<'_>, row: &Row) -> fmt::Result {
             write!(f, " {ms:>9}")?;
         }
     } else if let Some(ms) = thesis::ladder(&row.model, row.particles) {
-        write!(f, "  | {ms:>6}")?;
+        write!(f, "  | {ms:>12} {:>9.1}", ms / 10.0)?;
     }
     writeln!(f)?;
     if !row.stages.is_empty() {
