@@ -183,9 +183,7 @@ pub(super) fn print_summary(summary: &TrackSummary, folder: &std::path::Path, ha
         println!("error {:.2} ± {:.2} mm over {count} {}", error.error.mean, error.error.std, error.compared);
     }
     if summary.new_frames > 0 {
-        let shares = summary.stages.iter().map(|stage| {
-            format!("{} {:.1} ms", stage.name, if stage.count > 0 { stage.total / stage.count as f64 } else { 0.0 })
-        });
+        let shares = summary.timings.iter().map(|timing| format!("{} {:.1} ms", timing.name, timing.mean()));
         println!("a frame: {}", shares.collect::<Vec<_>>().join(", "));
     }
     let first = if summary.realtime.is_some() { "timeline.svg" } else { "report.html" };

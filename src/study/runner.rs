@@ -178,8 +178,7 @@ fn settings(run: &Run, folder: &Path) -> Result<TrackSettings> {
 
 fn outcome(prepared: &Prepared, folder: &OutputFolder, summary: &TrackSummary) -> Result<Outcome> {
     let errors = prepared.errors(folder, summary.error.as_ref())?;
-    let per_frame = |total: f64, count: u64| if count > 0 { total / count as f64 } else { 0.0 };
-    let stages = summary.stages.iter();
+    let timings = summary.timings.iter();
     Ok(Outcome {
         frames: summary.frames.len(),
         points: errors.points,
@@ -189,7 +188,7 @@ fn outcome(prepared: &Prepared, folder: &OutputFolder, summary: &TrackSummary) -
         frames_per_second: summary.frames_per_second,
         fitness: summary.mean_fitness,
         confidence: summary.mean_confidence,
-        stages: stages.map(|it| StageShare { name: it.name.clone(), ms: per_frame(it.total, it.count) }).collect(),
+        stages: timings.map(|it| StageShare { name: it.name.clone(), ms: it.mean() }).collect(),
         evaluator: summary.backend.join(" "),
     })
 }

@@ -17,8 +17,8 @@ use super::recovery::{LostFrame, Recovery};
 use super::results::Held;
 use super::run_record::RunRecord;
 use super::searcher::{Searched, Start};
-use super::stages::{Span, Stages, Thread};
 use super::summary::{TrackSummary, lost_sentence, mean};
+use super::timings::{Span, Thread, Timings};
 use super::truth::Truth;
 use super::{Backend, TrackSettings, folder, results, run_record};
 use crate::evaluate::Components;
@@ -81,7 +81,7 @@ pub fn track(
         (Journal::create(&journal_path)?, Vec::new())
     };
     warnings.extend(plan.search.note(plan.backend.evaluator.as_mut()));
-    let stages = Stages::new(&output.file("trace.json")?)?;
+    let timings = Timings::new(&output.file("trace.json")?)?;
     let pace: Box<dyn Pace> = match &settings.realtime {
         Some(realtime) => {
             Box::new(Realtime::new(sequence, settings, realtime, output, &plan.body, &mut plan.range, &done)?)
@@ -108,7 +108,7 @@ pub fn track(
         journal,
         frames: Vec::new(),
         done: 0,
-        stages,
+        timings,
         confidence,
         recovery,
         pace,
@@ -138,7 +138,7 @@ struct Run<'a> {
     frames: Vec<FrameResult>,
     /// How many are done.
     done: usize,
-    stages: Stages,
+    timings: Timings,
     confidence: Confidence,
     /// The search for a lost person, where one is asked for.
     recovery: Option<Recovery>,
@@ -200,9 +200,9 @@ impl Run<'_> {
             let Some(prepared) = feed.next()? else { break };
             let waited = Span::since(start);
             let frame = prepared.index;
-            self.stages.record("read", Thread::Features, frame, prepared.read)?;
-            self.stages.record("features", Thread::Features, frame, prepared.features)?;
-            self.stages.record("wait", Thread::Search, frame, waited)?;
+            self.timings.record("read", Thread::Features, frame, prepared.read)?;
+            self.timings.record("features", Thread::Features, frame, prepared.features)?;
+            self.timings.record("wait", Thread::Search, frame, waited)?;
             let result = self.search(&prepared).map_err(|error| self.how_to_go_on(frame, error))?;
             let start = Instant::now();
             if self.settings.overlay_every > 0 && frame.is_multiple_of(self.settings.overlay_every) {
@@ -211,7 +211,7 @@ impl Run<'_> {
             }
             self.journal.append(&result)?;
             self.pace.deliver(&self.plan.body, &result, prepared.captured)?;
-            self.stages.record("output", Thread::Search, frame, Span::since(start))?;
+            self.timings.record("output", Thread::Search, frame, Span::since(start))?;
             let (confidence, mean_error) = self.judge(&result);
             let fitness = result.fitness;
             self.keep(result);
@@ -287,14 +287,14 @@ impl Run<'_> {
 
         let whole = Span::since(begin);
         self.pace.searched(estimate.evaluations, whole);
-        self.stages.trace("frame", Thread::Search, frame, whole)?;
+        self.timings.trace("frame", Thread::Search, frame, whole)?;
         for evaluation in &evaluations {
-            self.stages.trace("evaluate", Thread::Search, frame, *evaluation)?;
+            self.timings.trace("evaluate", Thread::Search, frame, *evaluation)?;
         }
         let evaluating: Duration = evaluations.iter().map(|evaluation| evaluation.time).sum();
-        self.stages.count("evaluate", evaluating);
-        self.stages.record_passes(frame, &passes)?;
-        self.stages.count("search", whole.time.saturating_sub(evaluating));
+        self.timings.count("evaluate", evaluating);
+        self.timings.record_passes(frame, &passes)?;
+        self.timings.count("search", whole.time.saturating_sub(evaluating));
         Ok(found)
     }
 
@@ -314,26 +314,26 @@ impl Run<'_> {
             mean_fitness: mean(frames.iter().map(|result| f64::from(result.fitness))),
             mean_confidence: mean(confidences.iter().map(|frame| frame.confidence)),
             error: None,
-            stages: Vec::new(),
+            timings: Vec::new(),
             backend: [self.plan.backend.evaluator.name(), self.plan.backend.evaluator.variant()],
             warnings,
             stopped_before,
             realtime: None,
             frames,
         };
-        let has_passes = self.stages.has_device_passes();
-        summary.stages = self.stages.finish()?;
-        if self.settings.trace && summary.stages.iter().any(|stage| stage.name == "search") && !has_passes {
+        let has_passes = self.timings.has_device_passes();
+        summary.timings = self.timings.finish()?;
+        if self.settings.trace && summary.timings.iter().any(|timing| timing.name == "search") && !has_passes {
             let [name, variant] = summary.backend;
             summary.warnings.push(format!("the trace holds no device passes: {name} ({variant}) told of none"));
         }
         // Per frame: waiting for the features, searching, writing; the rest runs beside it.
         let busy: f64 = ["wait", "evaluate", "search", "output"]
             .iter()
-            .filter_map(|name| summary.stages.iter().find(|stage| stage.name == *name))
-            .map(|stage| stage.total)
+            .filter_map(|name| summary.timings.iter().find(|timing| timing.name == *name))
+            .map(|timing| timing.total)
             .sum();
-        let searched = summary.stages.iter().find(|stage| stage.name == "search").map_or(0, |stage| stage.count);
+        let searched = summary.timings.iter().find(|timing| timing.name == "search").map_or(0, |timing| timing.count);
         summary.new_frames = searched as usize;
         summary.frames_per_second = if busy > 0.0 { searched as f64 / busy * 1e3 } else { 0.0 };
         if stopped_before.is_some() {
@@ -350,7 +350,7 @@ impl Run<'_> {
                     "unit": "ms",
                     "frames": summary.new_frames,
                     "frames_per_second": summary.frames_per_second,
-                    "stages": summary.stages,
+                    "stages": summary.timings,
                 });
                 Ok(serde_json::to_writer_pretty(writer, &object)?)
             })?;

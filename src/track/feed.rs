@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, bail};
 use image::RgbImage;
 
-use super::stages::Span;
+use super::timings::Span;
 use crate::features::{FeatureSettings, Observation};
 use crate::observe::{Observer, take_observations};
 use crate::sequence::Sequence;

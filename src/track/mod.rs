@@ -28,8 +28,8 @@ mod run_record;
 mod scoring;
 mod searcher;
 mod settings;
-mod stages;
 mod summary;
+mod timings;
 mod tracked_points;
 mod truth;
 
@@ -45,8 +45,8 @@ pub use progress::{FrameDone, Progress, RunStart, Silent};
 pub use realtime::{Drops, LatencySummary, RealtimeSettings, RealtimeSummary, Repeat};
 pub use scoring::{ScoredFrame, Scores, score_poses, write_fitness};
 pub use settings::TrackSettings;
-pub use stages::StageSummary;
 pub use summary::{ErrorSummary, TrackSummary};
+pub use timings::TimingSummary;
 pub use tracked_points::tracked_points;
 
 #[cfg(test)]

@@ -78,9 +78,7 @@ pub(super) fn write_report(
             .map(|p| JointError { name: p.name.clone(), mean: p.mean, deviation: p.std, largest: p.max })
             .collect();
     }
-    let per_frame = |total: f64, count: u64| if count > 0 { total / count as f64 } else { 0.0 };
-    let stages = summary.stages.iter();
-    data.stages = stages.map(|s| StageTime { name: s.name.clone(), ms: per_frame(s.total, s.count) }).collect();
+    data.stages = summary.timings.iter().map(|it| StageTime { name: it.name.clone(), ms: it.mean() }).collect();
     write_page(&output.file("report.html")?, &data, Overwrite::Replace)?;
     if has_recording {
         let views = recorded_views(output.path(), &sequence.cameras, &drawn);

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 
-use super::stages::Span;
+use super::timings::Span;
 use crate::evaluate::{Components, Evaluator, Objective};
 use crate::features::Observation;
 use crate::gpu::{DevicePass, Timing};

@@ -36,7 +36,7 @@ pub struct TrackSettings {
     pub start: Option<PathBuf>,
     /// Every how many frames the model is drawn over the pictures; 0 for never.
     pub overlay_every: usize,
-    /// Measure every pass on the device, for the trace and the stage times; it costs time of its own.
+    /// Measure every pass on the device, for the trace and the timings; it costs time of its own.
     pub trace: bool,
     /// Write the report as a recording too; only in builds with the feature `rerun`.
     pub recording: bool,

@@ -1,6 +1,6 @@
 //! What a run yielded.
 
-use super::StageSummary;
+use super::TimingSummary;
 use super::journal::FrameResult;
 use super::realtime::RealtimeSummary;
 use crate::motion::TrajectoryError;
@@ -32,7 +32,7 @@ pub struct TrackSummary {
     /// The error, where there is a truth to compare with.
     pub error: Option<ErrorSummary>,
     /// Where the time went.
-    pub stages: Vec<StageSummary>,
+    pub timings: Vec<TimingSummary>,
     /// The evaluator's name and variant.
     pub backend: [&'static str; 2],
     /// Sentences the user should read.

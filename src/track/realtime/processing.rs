@@ -13,7 +13,7 @@ use super::timeline::{Row, Timeline};
 use crate::features::{Extractor, Observation, ViewFeatures};
 use crate::sequence::{Captured, FrameSet};
 use crate::track::feed::Prepared;
-use crate::track::stages::Span;
+use crate::track::timings::Span;
 
 /// The workers. A set goes to all of them at once, so that a set is either processed whole or passed over whole.
 pub(super) struct Processing {

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 
 use crate::report::{Bar, Mark, TimelineChart, timeline_chart};
-use crate::track::stages::Span;
+use crate::track::timings::Span;
 
 /// Entries that are kept: enough for some seconds of a few cameras.
 const KEPT: usize = 4000;

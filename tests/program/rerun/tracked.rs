@@ -214,7 +214,7 @@ fn curves_stages_and_texts_are_the_report_s() {
     let mean = confidences.iter().map(|(_, value)| value).sum::<f64>() / confidences.len() as f64;
     assert!((mean - summary.mean_confidence).abs() < 1e-12, "{mean}");
 
-    for stage in summary.stages.iter().filter(|stage| stage.count > 0) {
+    for stage in summary.timings.iter().filter(|stage| stage.count > 0) {
         let entity = format!("/plots/stages/{}", stage.name.replace(' ', "\\ "));
         let values = read.always::<TensorData>(&entity, BarChart::descriptor_values());
         let TensorBuffer::F64(values) = &values[0].0.buffer else { panic!("{entity}: {values:?}") };

@@ -1,4 +1,5 @@
-//! Where the time goes: one figure a stage, and a time-line for trace viewers. Memory does not grow with the track.
+//! Where the time goes: one figure a phase of a frame (reading, features, search and so on), and a time-line for trace
+//! viewers. Memory does not grow with the track.
 
 use std::borrow::Cow;
 use std::fs::{self, File};
@@ -32,9 +33,9 @@ impl Span {
     }
 }
 
-/// The time of one stage, ms.
+/// The times of one phase, ms.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct StageSummary {
+pub struct TimingSummary {
     /// Its name.
     pub name: String,
     /// How often it ran: once a frame.
@@ -49,16 +50,23 @@ pub struct StageSummary {
     pub max: f64,
 }
 
+impl TimingSummary {
+    /// Of one frame, ms; 0 where it never ran.
+    pub fn mean(&self) -> f64 {
+        if self.count > 0 { self.total / self.count as f64 } else { 0.0 }
+    }
+}
+
 #[derive(Debug)]
-struct Stage {
+struct Phase {
     name: Cow<'static, str>,
     times: Histogram,
 }
 
-impl Stage {
-    fn summary(&self) -> StageSummary {
+impl Phase {
+    fn summary(&self) -> TimingSummary {
         let times = &self.times;
-        StageSummary {
+        TimingSummary {
             name: self.name.to_string(),
             count: times.count(),
             total: times.total(),
@@ -69,10 +77,10 @@ impl Stage {
     }
 }
 
-/// Stage times of a run, and its trace: Chrome trace events written as they come.
+/// Times of the phases of a run, and its trace: Chrome trace events written as they come.
 #[derive(Debug)]
-pub(super) struct Stages {
-    stages: Vec<Stage>,
+pub(super) struct Timings {
+    phases: Vec<Phase>,
     zero: Instant,
     trace: BufWriter<File>,
     trace_path: PathBuf,
@@ -93,7 +101,7 @@ pub(super) enum Thread {
     Features = 2,
 }
 
-impl Stages {
+impl Timings {
     /// Starts counting; the trace is written under a temporary name beside `trace_path`.
     pub(super) fn new(trace_path: &Path) -> Result<Self> {
         let trace_path = trace_path.to_path_buf();
@@ -103,20 +111,20 @@ impl Stages {
         trace
             .write_all(b"{\"displayTimeUnit\":\"ms\",\"traceEvents\":[")
             .with_context(|| format!("cannot write {}", temporary.display()))?;
-        Ok(Self { stages: Vec::new(), zero: Instant::now(), trace, trace_path, events: 0, has_device: false })
+        Ok(Self { phases: Vec::new(), zero: Instant::now(), trace, trace_path, events: 0, has_device: false })
     }
 
-    /// Counts a time for a stage.
+    /// Counts a time for a phase.
     pub(super) fn count(&mut self, name: impl Into<Cow<'static, str>>, time: Duration) {
         let name = name.into();
-        let index = match self.stages.iter().position(|stage| stage.name == name) {
+        let index = match self.phases.iter().position(|phase| phase.name == name) {
             Some(index) => index,
             None => {
-                self.stages.push(Stage { name, times: Histogram::default() });
-                self.stages.len() - 1
+                self.phases.push(Phase { name, times: Histogram::default() });
+                self.phases.len() - 1
             }
         };
-        self.stages[index].times.add(time);
+        self.phases[index].times.add(time);
     }
 
     /// Puts an event on the time-line.
@@ -187,14 +195,14 @@ impl Stages {
         self.has_device
     }
 
-    /// What was counted so far, in the order stages first ran.
-    pub(super) fn summaries(&self) -> Vec<StageSummary> {
-        self.stages.iter().map(Stage::summary).collect()
+    /// What was counted so far, in the order phases first ran.
+    pub(super) fn summaries(&self) -> Vec<TimingSummary> {
+        self.phases.iter().map(Phase::summary).collect()
     }
 
     /// Ends the trace and gives it its name. When nothing ran, the trace of an earlier run stays.
-    pub(super) fn finish(mut self) -> Result<Vec<StageSummary>> {
-        if self.stages.is_empty() && self.trace_path.exists() {
+    pub(super) fn finish(mut self) -> Result<Vec<TimingSummary>> {
+        if self.phases.is_empty() && self.trace_path.exists() {
             let unused = temporary(&self.trace_path);
             fs::remove_file(&unused).with_context(|| format!("cannot remove {}", unused.display()))?;
             return Ok(Vec::new());
@@ -235,15 +243,15 @@ mod tests {
     fn times_are_summed_up() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("trace.json");
-        let mut stages = Stages::new(&path).unwrap();
+        let mut timings = Timings::new(&path).unwrap();
         let start = Instant::now();
         for ms in [5, 1, 3, 100, 2] {
             let span = Span { start, time: Duration::from_millis(ms) };
-            stages.record("search", Thread::Search, 7, span).unwrap();
+            timings.record("search", Thread::Search, 7, span).unwrap();
         }
-        stages.count("empty", Duration::ZERO);
+        timings.count("empty", Duration::ZERO);
         assert!(!path.exists(), "complete or absent");
-        let summaries = stages.finish().unwrap();
+        let summaries = timings.finish().unwrap();
         let search = &summaries[0];
         assert_eq!((search.count, search.min, search.max), (5, 1.0, 100.0));
         assert!((search.total - 111.0).abs() < 1e-9 && (search.median - 3.0).abs() < 0.03, "{search:?}");
@@ -257,9 +265,9 @@ mod tests {
     fn device_passes_have_rows_of_their_own_on_the_same_axis() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("trace.json");
-        let mut stages = Stages::new(&path).unwrap();
-        let start = stages.zero + Duration::from_millis(2);
-        stages.trace("evaluate", Thread::Search, 3, Span { start, time: Duration::from_millis(5) }).unwrap();
+        let mut timings = Timings::new(&path).unwrap();
+        let start = timings.zero + Duration::from_millis(2);
+        timings.trace("evaluate", Thread::Search, 3, Span { start, time: Duration::from_millis(5) }).unwrap();
         let statistics = crate::gpu::PassStatistics { vertices: 8, primitives: 4, fragments: 99, compute: 64 };
         let pass = |name: &str, ms, statistics| DevicePass {
             name: name.to_string(),
@@ -268,8 +276,8 @@ mod tests {
             statistics,
         };
         let passes = [pass("a \"pose\"", 1, None), pass("draw", 2, Some(statistics)), pass("draw", 3, None)];
-        stages.record_passes(3, &passes).unwrap();
-        let summaries = stages.finish().unwrap();
+        timings.record_passes(3, &passes).unwrap();
+        let summaries = timings.finish().unwrap();
         let found: Vec<(&str, u64, f64)> = summaries.iter().map(|s| (s.name.as_str(), s.count, s.total)).collect();
         assert_eq!(found, [("device a \"pose\"", 1, 1.0), ("device draw", 1, 2.0)]);
         let trace: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
