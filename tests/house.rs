@@ -36,19 +36,6 @@ const FLOORS: &[(&str, u32)] = &[
     ("files", 0),
 ];
 
-/// Circles that are still to be opened: a circle of modules is one of these or a part of one.
-const KNOWN_CIRCLES: &[&[&str]] = &[
-    &["search", "search::refinement"],
-    &[
-        "search::kinds",
-        "search::kinds::annealed",
-        "search::kinds::cma_es",
-        "search::kinds::hierarchical",
-        "search::kinds::particle_filter",
-        "search::kinds::pso",
-    ],
-];
-
 /// Places that may hold `unsafe`, as path prefixes under src/.
 const UNSAFE_PLACES: &[&str] = &["evaluate/cpu/", "gpu/"];
 
@@ -139,10 +126,7 @@ fn an_import_upwards_or_sideways_is_caught() {
 fn no_imports_run_in_a_circle() {
     let modules = Modules::of(&sources());
     assert!(modules.count() > 200, "only {} modules were found", modules.count());
-    let is_known = |circle: &Vec<String>| {
-        KNOWN_CIRCLES.iter().any(|known| circle.iter().all(|module| known.contains(&module.as_str())))
-    };
-    let wrong: Vec<Vec<String>> = modules.circles().into_iter().filter(|circle| !is_known(circle)).collect();
+    let wrong = modules.circles();
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 

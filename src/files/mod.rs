@@ -11,4 +11,4 @@ pub(crate) use choice::choices;
 pub use choice::{Choice, ChoiceParser, deserialize as deserialize_choice, expected, names, nearest, unknown};
 pub use output::{OutputFolder, Overwrite, write_atomically};
 pub use shortened::shortened;
-pub use toml_file::{parse_table, parse_toml, read_toml};
+pub use toml_file::{parse_table, parse_toml, read_toml, table_of};

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::shortened;
@@ -46,6 +47,15 @@ pub fn parse_toml<T: DeserializeOwned>(text: &str, name: &str) -> Result<T> {
 /// As [`read_toml`], with the name instead of the line.
 pub fn parse_table<T: DeserializeOwned>(table: &toml::Table, name: &str) -> Result<T> {
     table.clone().try_into().map_err(|error: toml::de::Error| anyhow!("{name}: {}", one_sentence(error.message())))
+}
+
+/// What a value would be as a file.
+///
+/// # Errors
+/// When that is no table.
+pub fn table_of<T: Serialize>(value: &T) -> Result<toml::Table> {
+    // JSON's text has the shortest decimal of a single-precision number, TOML's would have that of its double.
+    Ok(serde_json::from_str(&serde_json::to_string(value)?)?)
 }
 
 /// serde's "unknown field `x`, expected one of `a`, `b`" with the nearest known key put first.

@@ -22,7 +22,6 @@ pub use kinds::{
     ParticleFilter, Pso, PsoSettings, SearchKind, SearchSettings,
 };
 pub use philox::{Draw, Random, Stream, philox4x32};
-use refinement::Refined;
 pub use refinement::Refinement;
 pub use space::SearchSpace;
 

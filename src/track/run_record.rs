@@ -14,8 +14,7 @@ use super::plan::Plan;
 use super::{Backend, RealtimeSettings, TrackSettings};
 use crate::body::{MeshSource, Model};
 use crate::evaluate::Objective;
-use crate::files::{OutputFolder, read_toml};
-use crate::search::{AnnealingSettings, FilterSettings, HierarchySettings, PsoSettings, SearchKind, SearchSettings};
+use crate::files::{OutputFolder, read_toml, table_of};
 use crate::sequence::{Sequence, Source};
 
 /// Its name in a track's folder.
@@ -33,13 +32,11 @@ impl RunRecord {
     pub(super) fn new(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Result<Self> {
         let contents = Contents {
             run: Run::of(sequence, settings, plan),
-            settings: Settings::of(sequence, settings, plan),
+            settings: Settings::of(sequence, settings, plan)?,
             inputs: Inputs::of(sequence, settings, plan)?,
             machine: Machine::of(plan),
         };
-        // JSON's text has the shortest decimal of a single-precision number, TOML's would have that of its double.
-        let text = serde_json::to_string(&contents).context("cannot write run.toml")?;
-        Ok(Self { table: serde_json::from_str(&text).context("cannot write run.toml")? })
+        Ok(Self { table: table_of(&contents).context("cannot write run.toml")? })
     }
 
     /// Writes it into the folder.
@@ -169,7 +166,7 @@ struct Settings<'a> {
     predict: &'static str,
     recover: &'static str,
     #[serde(flatten)]
-    constants: Constants,
+    constants: Table,
     objective: &'static str,
     beta: f32,
     w1: f32,
@@ -182,37 +179,6 @@ struct Settings<'a> {
     features: Cow<'a, Table>,
 }
 
-/// What only the search of the run uses.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Constants {
-    Filter(FilterSettings),
-    Annealing(AnnealingSettings),
-    Evolution {
-        first_sigma: f32,
-        generation: usize,
-    },
-    Swarm(PsoSettings),
-    Hierarchy {
-        #[serde(flatten)]
-        swarm: PsoSettings,
-        #[serde(flatten)]
-        hierarchy: HierarchySettings,
-    },
-}
-
-impl Constants {
-    fn of(&SearchSettings { kind, pso, filter, annealing, hierarchy, cma, .. }: &SearchSettings) -> Self {
-        match kind {
-            SearchKind::ParticleFilter => Self::Filter(filter),
-            SearchKind::Annealed => Self::Annealing(annealing),
-            SearchKind::CmaEs => Self::Evolution { first_sigma: cma.sigma, generation: cma.generation },
-            SearchKind::Pso => Self::Swarm(pso),
-            SearchKind::Hierarchical => Self::Hierarchy { swarm: pso, hierarchy },
-        }
-    }
-}
-
 #[derive(Serialize)]
 struct Realtime {
     rate: f64,
@@ -221,7 +187,7 @@ struct Realtime {
 }
 
 impl<'a> Settings<'a> {
-    fn of(sequence: &'a Sequence, settings: &TrackSettings, plan: &Plan) -> Self {
+    fn of(sequence: &'a Sequence, settings: &TrackSettings, plan: &Plan) -> Result<Self> {
         let search = &settings.search;
         let Objective { kind, beta, w1, w2 } = plan.objective;
         let realtime = |realtime: &RealtimeSettings| Realtime {
@@ -229,7 +195,7 @@ impl<'a> Settings<'a> {
             r#loop: realtime.repeat.to_string(),
             deadline: realtime.deadline.map_or_else(|| "none".to_string(), |time| format!("{time:?}")),
         };
-        Self {
+        Ok(Self {
             frames: format!("{}..{}", plan.range.start, plan.range.end),
             search: search.kind.name(),
             particles: search.particles,
@@ -239,7 +205,7 @@ impl<'a> Settings<'a> {
             refine: search.refine,
             predict: settings.predict.name(),
             recover: yes_or_no(settings.recover),
-            constants: Constants::of(search),
+            constants: search.constants()?,
             objective: kind.name(),
             beta,
             w1,
@@ -249,7 +215,7 @@ impl<'a> Settings<'a> {
             overlay_every: settings.overlay_every,
             realtime: settings.realtime.as_ref().map(realtime),
             features: sequence.features.as_ref().map_or_else(Cow::default, Cow::Borrowed),
-        }
+        })
     }
 }
 

@@ -2,19 +2,13 @@
 
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
+use toml::Table;
 
-use super::{SearchForm, SearchKind, SearchSettings};
+use super::form::{Budget, SearchForm};
+use crate::files::table_of;
 use crate::search::arithmetic::Statistics;
 use crate::search::weights::Weights;
 use crate::search::{Draw, Estimate, Fitness, Random, Search, SearchSpace, Stream, check_start};
-
-pub(super) const FORM: SearchForm = SearchForm {
-    build: |settings, space| Box::new(AnnealedFilter::new(settings, space)),
-    check: |settings| settings.annealing.check(),
-    carries_on: false,
-    is_mean: true,
-    has_device_form: true,
-};
 
 /// Constants of the annealing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -32,17 +26,35 @@ impl Default for AnnealingSettings {
 }
 
 impl AnnealingSettings {
-    pub(super) fn check(&self) -> Result<()> {
+    /// Factor on the spread in a layer of so many.
+    pub(crate) fn noise_of(&self, layer: usize, layers: usize) -> f32 {
+        let progress = layer as f64 / layers.saturating_sub(1).max(1) as f64;
+        f64::from(self.last_noise).powf(progress) as f32
+    }
+}
+
+impl SearchForm for AnnealingSettings {
+    fn build(&self, budget: &Budget, space: &SearchSpace) -> Box<dyn Search> {
+        Box::new(AnnealedFilter::new(self, budget, space))
+    }
+
+    fn check(&self) -> Result<()> {
         for (name, value) in [("survival rate", self.survival), ("last noise", self.last_noise)] {
             ensure!((0.001..=1.0).contains(&value), "the annealing's {name} is {value}, expected 0.001 to 1");
         }
         Ok(())
     }
 
-    /// Factor on the spread in a layer of so many.
-    pub(crate) fn noise_of(&self, layer: usize, layers: usize) -> f32 {
-        let progress = layer as f64 / layers.saturating_sub(1).max(1) as f64;
-        f64::from(self.last_noise).powf(progress) as f32
+    fn constants(&self) -> Result<Table> {
+        table_of(self)
+    }
+
+    fn is_mean(&self) -> bool {
+        true
+    }
+
+    fn has_device_form(&self) -> bool {
+        true
     }
 }
 
@@ -59,6 +71,7 @@ impl AnnealingSettings {
 /// The first layer of a frame is scattered around the centre, with one particle at the centre itself, instead of around the
 /// particles of the frame before: these have settled there, and so a frame depends on its centre alone.
 pub struct AnnealedFilter {
+    name: &'static str,
     settings: AnnealingSettings,
     layers: usize,
     random: Random,
@@ -79,12 +92,13 @@ pub struct AnnealedFilter {
 
 impl AnnealedFilter {
     /// A filter from checked settings.
-    pub(super) fn new(settings: &SearchSettings, space: &SearchSpace) -> Self {
-        let (count, dofs) = (settings.particles, space.dof_count());
+    fn new(settings: &AnnealingSettings, budget: &Budget, space: &SearchSpace) -> Self {
+        let (count, dofs) = (budget.particles, space.dof_count());
         Self {
-            settings: settings.annealing,
-            layers: settings.iterations,
-            random: Random::new(settings.seed),
+            name: budget.name,
+            settings: *settings,
+            layers: budget.iterations,
+            random: Random::new(budget.seed),
             space: space.clone(),
             frame: 0,
             done: None,
@@ -107,7 +121,7 @@ impl AnnealedFilter {
 
 impl Search for AnnealedFilter {
     fn name(&self) -> &'static str {
-        SearchKind::Annealed.name()
+        self.name
     }
 
     fn iterations(&self) -> usize {

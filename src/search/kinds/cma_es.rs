@@ -4,25 +4,20 @@
 
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
+use toml::Table;
 
-use super::{SearchForm, SearchKind, SearchSettings};
+use super::form::{Budget, SearchForm};
+use crate::files::table_of;
 use crate::search::{Draw, Estimate, Fitness, Random, Search, SearchSpace, Stream, check_start};
 
 /// Least pivot of the factorisation, relative to the first distribution's variance: below it a dimension stands still.
 const LEAST_PIVOT: f64 = 1e-20;
 
-pub(super) const FORM: SearchForm = SearchForm {
-    build: |settings, space| Box::new(CmaEs::new(settings, space)),
-    check: |settings| settings.cma.check(),
-    carries_on: false,
-    is_mean: true,
-    has_device_form: false,
-};
-
 /// Constants of the strategy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CmaSettings {
     /// First step size, in units of the frame's spread.
+    #[serde(rename = "first_sigma")]
     pub sigma: f32,
     /// Samples of a generation, at least; an iteration has as many generations as its particles make. Fewer samples
     /// learn oftener, more are scored at once.
@@ -35,12 +30,24 @@ impl Default for CmaSettings {
     }
 }
 
-impl CmaSettings {
-    pub(super) fn check(&self) -> Result<()> {
+impl SearchForm for CmaSettings {
+    fn build(&self, budget: &Budget, space: &SearchSpace) -> Box<dyn Search> {
+        Box::new(CmaEs::new(self, budget, space))
+    }
+
+    fn check(&self) -> Result<()> {
         ensure!((0.001..=10.0).contains(&self.sigma), "CMA-ES's sigma is {}, expected 0.001 to 10", self.sigma);
         let generation = self.generation;
         ensure!((4..=1 << 20).contains(&generation), "CMA-ES's generation is {generation}, expected 4 to 1048576");
         Ok(())
+    }
+
+    fn constants(&self) -> Result<Table> {
+        table_of(self)
+    }
+
+    fn is_mean(&self) -> bool {
+        true
     }
 }
 
@@ -50,6 +57,7 @@ impl CmaSettings {
 /// The first sample is the centre. The estimate is the mean of the last distribution, scored as one more pose, or the best
 /// sample where that is better.
 pub struct CmaEs {
+    name: &'static str,
     settings: CmaSettings,
     particles: usize,
     iterations: usize,
@@ -205,13 +213,14 @@ impl Distribution {
 
 impl CmaEs {
     /// A search from checked settings.
-    pub(super) fn new(settings: &SearchSettings, space: &SearchSpace) -> Self {
-        let (count, dofs) = (settings.particles, space.dof_count());
+    fn new(settings: &CmaSettings, budget: &Budget, space: &SearchSpace) -> Self {
+        let (count, dofs) = (budget.particles, space.dof_count());
         Self {
-            settings: settings.cma,
+            name: budget.name,
+            settings: *settings,
             particles: count,
-            iterations: settings.iterations,
-            random: Random::new(settings.seed),
+            iterations: budget.iterations,
+            random: Random::new(budget.seed),
             space: space.clone(),
             frame: 0,
             done: None,
@@ -258,7 +267,7 @@ impl CmaEs {
 
 impl Search for CmaEs {
     fn name(&self) -> &'static str {
-        SearchKind::CmaEs.name()
+        self.name
     }
 
     fn iterations(&self) -> usize {
@@ -327,6 +336,7 @@ impl Search for CmaEs {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::search::{SearchKind, SearchSettings};
 
     /// The best of a function to be minimised, after so many generations of 20 samples from (1, 1, …) on.
     fn least(dofs: usize, iterations: usize, function: &dyn Fn(&[f64]) -> f64) -> f64 {

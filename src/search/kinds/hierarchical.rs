@@ -3,17 +3,12 @@
 
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
+use toml::Table;
 
-use super::{Pso, SearchForm, SearchKind, SearchSettings};
+use super::form::{Budget, SearchForm};
+use super::{Pso, PsoSettings};
+use crate::files::table_of;
 use crate::search::{Estimate, Fitness, Search, SearchSpace, check_start};
-
-pub(super) const FORM: SearchForm = SearchForm {
-    build: |settings, space| Box::new(HierarchicalPso::new(settings, space)),
-    check: |settings| settings.hierarchy.check(),
-    carries_on: false,
-    is_mean: false,
-    has_device_form: true,
-};
 
 /// Constants of the hierarchy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -32,13 +27,6 @@ impl Default for HierarchySettings {
 }
 
 impl HierarchySettings {
-    pub(super) fn check(&self) -> Result<()> {
-        for (name, value) in [("joint share", self.joint_share), ("joint spread", self.joint_spread)] {
-            ensure!((0.0..=1.0).contains(&value), "the hierarchy's {name} is {value}, expected 0 to 1");
-        }
-        Ok(())
-    }
-
     /// The stages of a space, whose iterations add up to `iterations`: the torso, each limb, everything. With fewer iterations
     /// than stages limbs share one; a single iteration moves everything at once.
     pub(crate) fn stages(&self, space: &SearchSpace, iterations: usize) -> Vec<SwarmStage> {
@@ -95,6 +83,38 @@ impl SwarmStage {
     }
 }
 
+/// The hierarchical swarm by its constants and those of its swarms.
+#[derive(Serialize)]
+pub(super) struct SwarmHierarchy {
+    #[serde(flatten)]
+    pub(super) swarm: PsoSettings,
+    #[serde(flatten)]
+    pub(super) hierarchy: HierarchySettings,
+}
+
+impl SearchForm for SwarmHierarchy {
+    fn build(&self, budget: &Budget, space: &SearchSpace) -> Box<dyn Search> {
+        Box::new(HierarchicalPso::new(self, budget, space))
+    }
+
+    fn check(&self) -> Result<()> {
+        for (name, value) in
+            [("joint share", self.hierarchy.joint_share), ("joint spread", self.hierarchy.joint_spread)]
+        {
+            ensure!((0.0..=1.0).contains(&value), "the hierarchy's {name} is {value}, expected 0 to 1");
+        }
+        Ok(())
+    }
+
+    fn constants(&self) -> Result<Table> {
+        table_of(self)
+    }
+
+    fn has_device_form(&self) -> bool {
+        true
+    }
+}
+
 /// The search. A stage is a swarm ([`Pso`]) around the best pose so far, at rest, in which only the stage's dimensions move;
 /// which are a limb's is [`SearchSpace::groups`]'s to say. Nothing ever gets worse: the best pose so far is a particle of
 /// the next stage.
@@ -118,12 +138,12 @@ pub struct HierarchicalPso {
 
 impl HierarchicalPso {
     /// A search from checked settings.
-    pub(super) fn new(settings: &SearchSettings, space: &SearchSpace) -> Self {
+    fn new(settings: &SwarmHierarchy, budget: &Budget, space: &SearchSpace) -> Self {
         let dofs = space.dof_count();
         Self {
-            swarm: Pso::new(settings, space),
-            stages: settings.hierarchy.stages(space, settings.iterations),
-            iterations: settings.iterations,
+            swarm: Pso::new(&settings.swarm, budget, space),
+            stages: settings.hierarchy.stages(space, budget.iterations),
+            iterations: budget.iterations,
             done: None,
             stage: 0,
             left: 0,
@@ -158,7 +178,7 @@ impl HierarchicalPso {
 
 impl Search for HierarchicalPso {
     fn name(&self) -> &'static str {
-        SearchKind::Hierarchical.name()
+        self.swarm.name()
     }
 
     fn iterations(&self) -> usize {

@@ -2,21 +2,25 @@
 
 mod annealed;
 mod cma_es;
+mod form;
 mod hierarchical;
 mod particle_filter;
 mod pso;
 
 use anyhow::{Result, ensure};
-use serde::Serialize;
+use toml::Table;
 
 pub use annealed::{AnnealedFilter, AnnealingSettings};
 pub use cma_es::{CmaEs, CmaSettings};
+use form::{Budget, SearchForm};
+use hierarchical::SwarmHierarchy;
 pub(super) use hierarchical::SwarmStage;
 pub use hierarchical::{HierarchicalPso, HierarchySettings};
 pub use particle_filter::{FilterSettings, ParticleFilter};
 pub use pso::{Pso, PsoSettings};
 
-use super::{Refined, Refinement, Search, SearchSpace};
+use super::refinement::{Refined, Refinement};
+use super::{Search, SearchSpace};
 use crate::files::choices;
 
 /// Most particles of a search. More is a slip of the keyboard, not a plan.
@@ -28,53 +32,46 @@ const LARGEST_BUFFER: usize = 1 << 28;
 choices! {
     /// Which search.
     #[derive(Default)]
-    "search" pub enum SearchKind => form: &'static SearchForm {
+    "search" pub enum SearchKind => form: fn(&SearchSettings) -> Box<dyn SearchForm> {
         /// Particle swarm, global best (the default).
-        "pso" #[default] Pso => &pso::FORM,
+        "pso" #[default] Pso => |settings| Box::new(settings.pso),
         /// Bootstrap particle filter: N K samples once, which it carries on; a resumed run begins again.
-        "pf" ParticleFilter => &particle_filter::FORM,
+        "pf" ParticleFilter => |settings| Box::new(settings.filter),
         /// Annealed particle filter: K layers of N samples.
-        "apf" Annealed => &annealed::FORM,
+        "apf" Annealed => |settings| Box::new(settings.annealing),
         /// Hierarchical particle swarm: swarms over the torso, limb after limb, everything.
-        "hpso" Hierarchical => &hierarchical::FORM,
+        "hpso" Hierarchical => |settings| {
+            Box::new(SwarmHierarchy { swarm: settings.pso, hierarchy: settings.hierarchy })
+        },
         /// CMA-ES: evolution of a normal distribution, generations of 50 or more samples.
-        "cmaes" CmaEs => &cma_es::FORM,
+        "cmaes" CmaEs => |settings| Box::new(settings.cma),
     }
 }
 
-/// What a kind of search is.
-struct SearchForm {
-    /// Makes it from checked settings.
-    build: fn(&SearchSettings, &SearchSpace) -> Box<dyn Search>,
-    /// Holds what it alone uses of the settings to its ranges.
-    check: fn(&SearchSettings) -> Result<()>,
-    /// It depends on the frames before by more than its centre: by all samples of the last one, which it holds.
-    carries_on: bool,
-    /// It estimates a mean, which is scored as one pose more.
-    is_mean: bool,
-    /// It has a form that runs whole on a device.
-    has_device_form: bool,
-}
-
 impl SearchKind {
+    /// Its form, whose constants do not matter.
+    fn form_by_default(self) -> Box<dyn SearchForm> {
+        self.form()(&SearchSettings::default())
+    }
+
     /// Whether a frame depends on the frames before by more than its centre.
     pub fn carries_on(self) -> bool {
-        self.form().carries_on
+        self.form_by_default().carries_on()
     }
 
     /// Whether its estimate is a mean, which is scored as one pose more.
     pub fn estimates_a_mean(self) -> bool {
-        self.form().is_mean
+        self.form_by_default().is_mean()
     }
 
     /// Whether it has a form that runs whole on a device; the others are driven from the host.
     pub fn has_device_form(self) -> bool {
-        self.form().has_device_form
+        self.form_by_default().has_device_form()
     }
 }
 
 /// Everything a search is made from.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchSettings {
     /// Which search.
     pub kind: SearchKind,
@@ -128,7 +125,7 @@ impl SearchSettings {
             ensure!((1..=most).contains(&value), "{name} is {value}, expected 1 to {most}");
         }
         ensure!(self.refine <= MOST_PARTICLES, "refine is {}, expected 0 to {MOST_PARTICLES}", self.refine);
-        SearchKind::ALL.iter().try_for_each(|kind| (kind.form().check)(self))
+        SearchKind::ALL.iter().try_for_each(|kind| kind.form()(self).check())
     }
 
     /// Whether the search's buffers are of a sensible size.
@@ -146,6 +143,14 @@ impl SearchSettings {
         Ok(())
     }
 
+    /// What only the kind of search uses, as the record of a run has it.
+    ///
+    /// # Errors
+    /// When it cannot be a table.
+    pub fn constants(&self) -> Result<Table> {
+        self.kind.form()(self).constants()
+    }
+
     /// Makes the search.
     ///
     /// # Errors
@@ -153,7 +158,8 @@ impl SearchSettings {
     pub fn build(&self, space: &SearchSpace) -> Result<Box<dyn Search>> {
         self.check()?;
         self.check_room(space)?;
-        let search = (self.kind.form().build)(self, space);
+        let Self { kind, particles, iterations, seed, .. } = *self;
+        let search = kind.form()(self).build(&Budget { name: kind.name(), particles, iterations, seed }, space);
         if self.refine == 0 {
             return Ok(search);
         }

@@ -2,19 +2,13 @@
 
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
+use toml::Table;
 
-use super::{SearchForm, SearchKind, SearchSettings};
+use super::form::{Budget, SearchForm};
+use crate::files::table_of;
 use crate::search::arithmetic::Statistics;
 use crate::search::weights::Weights;
 use crate::search::{Draw, Estimate, Fitness, Random, Search, SearchSpace, Stream, check_start};
-
-pub(super) const FORM: SearchForm = SearchForm {
-    build: |settings, space| Box::new(ParticleFilter::new(settings, space)),
-    check: |settings| settings.filter.check(),
-    carries_on: true,
-    is_mean: true,
-    has_device_form: true,
-};
 
 /// Constants of the filter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -31,14 +25,36 @@ impl Default for FilterSettings {
 }
 
 impl FilterSettings {
-    pub(super) fn check(&self) -> Result<()> {
+    /// 1 / (2 sigma^2).
+    pub(crate) fn sharpness(&self) -> f32 {
+        (0.5 / f64::from(self.sigma).powi(2)) as f32
+    }
+}
+
+impl SearchForm for FilterSettings {
+    fn build(&self, budget: &Budget, space: &SearchSpace) -> Box<dyn Search> {
+        Box::new(ParticleFilter::new(self, budget, space))
+    }
+
+    fn check(&self) -> Result<()> {
         ensure!((1e-4..=10.0).contains(&self.sigma), "the filter's sigma is {}, expected 0.0001 to 10", self.sigma);
         Ok(())
     }
 
-    /// 1 / (2 sigma^2).
-    pub(crate) fn sharpness(&self) -> f32 {
-        (0.5 / f64::from(self.sigma).powi(2)) as f32
+    fn constants(&self) -> Result<Table> {
+        table_of(self)
+    }
+
+    fn carries_on(&self) -> bool {
+        true
+    }
+
+    fn is_mean(&self) -> bool {
+        true
+    }
+
+    fn has_device_form(&self) -> bool {
+        true
     }
 }
 
@@ -54,6 +70,7 @@ impl FilterSettings {
 /// estimate it gave before; any other centre (the first frame, a recovery) puts all of them there. Particles are scored
 /// in as many batches as there are iterations.
 pub struct ParticleFilter {
+    name: &'static str,
     /// 1 / (2 sigma^2).
     sharpness: f32,
     /// Particles scored in one iteration.
@@ -76,13 +93,14 @@ pub struct ParticleFilter {
 
 impl ParticleFilter {
     /// A filter from checked settings.
-    pub(super) fn new(settings: &SearchSettings, space: &SearchSpace) -> Self {
-        let (count, dofs) = (settings.particles * settings.iterations, space.dof_count());
+    fn new(settings: &FilterSettings, budget: &Budget, space: &SearchSpace) -> Self {
+        let (count, dofs) = (budget.particles * budget.iterations, space.dof_count());
         Self {
-            sharpness: settings.filter.sharpness(),
-            batch: settings.particles,
-            iterations: settings.iterations,
-            random: Random::new(settings.seed),
+            name: budget.name,
+            sharpness: settings.sharpness(),
+            batch: budget.particles,
+            iterations: budget.iterations,
+            random: Random::new(budget.seed),
             space: space.clone(),
             frame: 0,
             done: None,
@@ -98,7 +116,7 @@ impl ParticleFilter {
 
 impl Search for ParticleFilter {
     fn name(&self) -> &'static str {
-        SearchKind::ParticleFilter.name()
+        self.name
     }
 
     fn iterations(&self) -> usize {

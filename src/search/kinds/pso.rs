@@ -2,19 +2,13 @@
 
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
+use toml::Table;
 
-use super::{SearchForm, SearchKind, SearchSettings};
+use super::form::{Budget, SearchForm};
+use crate::files::table_of;
 use crate::search::arithmetic::Statistics;
 use crate::search::philox::GROUP;
 use crate::search::{Draw, Estimate, Fitness, Random, Search, SearchSpace, Stream, check_start};
-
-pub(super) const FORM: SearchForm = SearchForm {
-    build: |settings, space| Box::new(Pso::new(settings, space)),
-    check: |settings| settings.pso.check(),
-    carries_on: false,
-    is_mean: false,
-    has_device_form: true,
-};
 
 /// Constants of the swarm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -44,8 +38,14 @@ impl PsoSettings {
         let moves = iterations.saturating_sub(2).max(1) as f32;
         first + (last - first) * ((iteration - 1) as f32 / moves)
     }
+}
 
-    pub(super) fn check(&self) -> Result<()> {
+impl SearchForm for PsoSettings {
+    fn build(&self, budget: &Budget, space: &SearchSpace) -> Box<dyn Search> {
+        Box::new(Pso::new(self, budget, space))
+    }
+
+    fn check(&self) -> Result<()> {
         for inertia in self.inertia {
             ensure!((0.0..=1.0).contains(&inertia), "the swarm's inertia is {inertia}, expected 0 to 1");
         }
@@ -54,6 +54,14 @@ impl PsoSettings {
         }
         Ok(())
     }
+
+    fn constants(&self) -> Result<Table> {
+        table_of(self)
+    }
+
+    fn has_device_form(&self) -> bool {
+        true
+    }
 }
 
 /// The swarm. A frame starts from x ~ N(centre, spread) at rest, but for particle 0, which starts at the centre itself:
@@ -61,6 +69,7 @@ impl PsoSettings {
 /// fitness is known. One that would leave a limit is put on it and its velocity there set to zero, so that it does not
 /// press on; a particle's own best is replaced only by something better, and of equals the lowest index leads.
 pub struct Pso {
+    name: &'static str,
     settings: PsoSettings,
     iterations: usize,
     random: Random,
@@ -85,16 +94,17 @@ pub struct Pso {
 
 impl Pso {
     /// A swarm from checked settings.
-    pub(super) fn new(settings: &SearchSettings, space: &SearchSpace) -> Self {
-        let (count, dofs) = (settings.particles, space.dof_count());
+    pub(super) fn new(settings: &PsoSettings, budget: &Budget, space: &SearchSpace) -> Self {
+        let (count, dofs) = (budget.particles, space.dof_count());
         Self {
-            settings: settings.pso,
-            iterations: settings.iterations,
-            random: Random::new(settings.seed),
+            name: budget.name,
+            settings: *settings,
+            iterations: budget.iterations,
+            random: Random::new(budget.seed),
             space: space.clone(),
             frame: 0,
             before: 0,
-            span: settings.iterations,
+            span: budget.iterations,
             done: None,
             positions: vec![0.0; count * dofs],
             velocities: vec![0.0; count * dofs],
@@ -217,7 +227,7 @@ fn move_rows(step: &Move<'_>, best: &[f32], positions: &mut [f32], velocities: &
 
 impl Search for Pso {
     fn name(&self) -> &'static str {
-        SearchKind::Pso.name()
+        self.name
     }
 
     fn iterations(&self) -> usize {

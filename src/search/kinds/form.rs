@@ -1,0 +1,44 @@
+//! What the settings know of a kind of search.
+
+use anyhow::Result;
+use toml::Table;
+
+use crate::search::{Search, SearchSpace};
+
+/// What a search of any kind is given.
+#[derive(Clone, Copy)]
+pub(super) struct Budget {
+    /// The kind's name.
+    pub(super) name: &'static str,
+    /// Poses scored at once.
+    pub(super) particles: usize,
+    pub(super) iterations: usize,
+    pub(super) seed: u64,
+}
+
+/// A kind of search by the constants that it alone uses.
+pub(super) trait SearchForm {
+    /// Makes it from checked constants.
+    fn build(&self, budget: &Budget, space: &SearchSpace) -> Box<dyn Search>;
+
+    /// Holds the constants to their ranges.
+    fn check(&self) -> Result<()>;
+
+    /// The constants as the record of a run has them.
+    fn constants(&self) -> Result<Table>;
+
+    /// It depends on the frames before by more than its centre: by all samples of the last one, which it holds.
+    fn carries_on(&self) -> bool {
+        false
+    }
+
+    /// It estimates a mean, which is scored as one pose more.
+    fn is_mean(&self) -> bool {
+        false
+    }
+
+    /// It has a form that runs whole on a device.
+    fn has_device_form(&self) -> bool {
+        false
+    }
+}
