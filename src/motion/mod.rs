@@ -5,7 +5,6 @@ mod c3d;
 mod error;
 mod number;
 mod pairing;
-mod point_file;
 mod points;
 mod points_csv;
 mod skeletal;
@@ -14,13 +13,16 @@ mod test_points;
 mod trc;
 mod whole_file;
 
+use std::path::Path;
+
+use anyhow::{Context, Result, anyhow};
+
 pub(crate) use number::{finite, whole};
 
 pub use bvh::{BvhChannel, BvhJoint, BvhMotion, parse_bvh, write_bvh};
 pub use c3d::{parse_c3d, write_c3d};
 pub use error::{FrameError, Matching, PointError, TrajectoryError, write_frame_errors};
 pub use pairing::PointPairs;
-pub use point_file::{PointFormat, read_bvh, read_points, write_points};
 pub use points::{LARGEST_COORDINATE, PointTrajectory};
 pub use points_csv::{parse_points_csv, write_points_csv};
 pub use skeletal::{
@@ -28,3 +30,119 @@ pub use skeletal::{
     parse_asf, parse_deepmimic, parse_deepmimic_skeleton, read_skeletal_motion,
 };
 pub use trc::{parse_trc, write_trc};
+
+use crate::files::{Overwrite, choices, write_atomically};
+use points::PointFile;
+use whole_file::{extension, read_bytes, text};
+
+choices! {
+    /// The formats that hold points, by their extensions.
+    "point format" pub enum PointFormat => file: &'static PointFile {
+        /// C3D of any processor, with units and a frame rate.
+        "c3d" C3d => &c3d::POINTS,
+        /// OpenSim's TRC.
+        "trc" Trc => &trc::POINTS,
+        /// A table with columns of x, y and z a point.
+        "csv" Csv => &points_csv::POINTS,
+        /// BVH, whose joints and free ends are read as points.
+        "bvh" Bvh => &bvh::POINTS,
+    }
+}
+
+impl PointFormat {
+    /// From a file's extension, in any case.
+    ///
+    /// # Errors
+    /// When it is that of no format.
+    pub fn of(path: &Path) -> Result<Self> {
+        Self::from_name(&extension(path)).with_context(|| path.display().to_string())
+    }
+}
+
+/// Reads points (mm) from a file, whose format its extension tells. BVH has no unit: its numbers are taken
+/// as millimetres, and its joints and free ends become points ([`BvhMotion::to_points`]). Axes stay as they are in the
+/// file.
+///
+/// # Errors
+/// One sentence with the file, the line or byte, what was found and what was expected.
+pub fn read_points(path: &Path) -> Result<PointTrajectory> {
+    let format = PointFormat::of(path)?;
+    (format.file().read)(&read_bytes(path)?, &path.display().to_string())
+}
+
+/// Reads a BVH file with its skeleton.
+///
+/// # Errors
+/// As [`parse_bvh`], and when the file cannot be read.
+pub fn read_bvh(path: &Path) -> Result<BvhMotion> {
+    let bytes = read_bytes(path)?;
+    let name = path.display().to_string();
+    parse_bvh(text(&bytes, &name)?, &name)
+}
+
+/// Writes points as the extension says, through a temporary name.
+///
+/// # Errors
+/// When the trajectory breaks [`PointTrajectory::check`], the format needs a frame rate that is unknown, the file is
+/// there and may not be replaced, writing fails, or the extension is `.bvh`, which needs a skeleton.
+pub fn write_points(path: &Path, points: &PointTrajectory, overwrite: Overwrite) -> Result<()> {
+    let format = PointFormat::of(path)?;
+    let file_name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let write = format.file().write.map_err(|why| {
+        let others = PointFormat::ALL.into_iter().filter(|format| format.file().write.is_ok());
+        let others: Vec<String> = others.map(|format| format!(".{format}")).collect();
+        anyhow!("cannot write {}: {why}; expected one of {}", path.display(), others.join(", "))
+    })?;
+    write_atomically(path, overwrite, |out| write(out, points, &file_name))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::test_points::{close, trajectories};
+    use super::*;
+    use proptest::strategy::{Strategy, ValueTree};
+
+    #[test]
+    fn by_extension_and_never_over_a_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut runner = proptest::test_runner::TestRunner::deterministic();
+        let mut points = trajectories().new_tree(&mut runner).unwrap().current();
+        points.rate = 50.0;
+        points.first_frame = 2;
+        for file in ["a.c3d", "a.TRC", "a.csv"] {
+            let path = folder.path().join(file);
+            write_points(&path, &points, Overwrite::Refuse).unwrap();
+            assert!(close(&points, &read_points(&path).unwrap(), 1e-3), "{file}");
+            let message = format!("{:#}", write_points(&path, &points, Overwrite::Refuse).unwrap_err());
+            assert!(message.contains("--force"), "{message}");
+        }
+    }
+
+    #[test]
+    fn each_fault_is_one_sentence() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let message = |path: &Path| format!("{:#}", read_points(path).unwrap_err());
+        assert!(
+            message(&at("walk.fbx"))
+                .contains("walk.fbx: unknown point format `fbx`, the nearest is `c3d` (known: c3d, trc, csv, bvh)")
+        );
+        assert!(message(&at("none.trc")).contains("cannot read"));
+        fs::write(at("binary.trc"), b"Path\n\xff\xfe").unwrap();
+        assert!(message(&at("binary.trc")).contains("line 2: byte 5 is not UTF-8"));
+        fs::create_dir(at("folder.csv")).unwrap();
+        assert!(message(&at("folder.csv")).contains("cannot read"));
+        let mut runner = proptest::test_runner::TestRunner::deterministic();
+        let mut points = trajectories().new_tree(&mut runner).unwrap().current();
+        let refused = format!("{:#}", write_points(&at("a.bvh"), &points, Overwrite::Refuse).unwrap_err());
+        assert!(refused.contains("a skeleton, which points alone do not give"), "{refused}");
+        points.rate = 0.0;
+        for file in ["a.c3d", "a.trc"] {
+            let refused = format!("{:#}", write_points(&at(file), &points, Overwrite::Refuse).unwrap_err());
+            assert!(refused.contains("frame rate is unknown"), "{refused}");
+            assert!(!at(file).exists());
+        }
+    }
+}

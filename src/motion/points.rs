@@ -24,15 +24,15 @@ pub struct PointTrajectory {
 }
 
 /// How files of a format of points are read and written.
-pub(super) struct PointFile {
+pub(crate) struct PointFile {
     /// Points of a file's bytes; the name stands for the file in messages.
-    pub(super) read: fn(&[u8], &str) -> Result<PointTrajectory>,
+    pub(crate) read: fn(&[u8], &str) -> Result<PointTrajectory>,
     /// Writes points into the file of a name, or why that cannot be.
-    pub(super) write: Result<WritePoints, &'static str>,
+    pub(crate) write: Result<WritePoints, &'static str>,
 }
 
 /// Writes points; the name of their file is the last argument.
-pub(super) type WritePoints = fn(&mut dyn Write, &PointTrajectory, &str) -> Result<()>;
+pub(crate) type WritePoints = fn(&mut dyn Write, &PointTrajectory, &str) -> Result<()>;
 
 impl PointTrajectory {
     /// The column of a point, by its exact name.

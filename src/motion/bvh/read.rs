@@ -10,7 +10,7 @@ use super::{BvhChannel, BvhJoint, BvhMotion};
 use crate::files::shortened;
 
 /// Files of points.
-pub(in crate::motion) const POINTS: PointFile = PointFile {
+pub(crate) const POINTS: PointFile = PointFile {
     read: |bytes, name| parse_bvh(text(bytes, name)?, name)?.to_points().with_context(|| name.to_string()),
     write: Err("BVH holds joint angles of a skeleton, which points alone do not give"),
 };
