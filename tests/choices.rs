@@ -5,10 +5,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use pantin::bench::Preset;
+use pantin::bench::{Preset, YardstickKind};
 use pantin::body::{Model, Skinning};
 use pantin::calibrate::{Held, Layout, LensModel};
 use pantin::evaluate::ObjectiveKind;
+use pantin::evaluate::cpu::InstructionSet;
+use pantin::evaluate::device::{Coverage, Gathering, HostComparison, Packing, Projection, Tiling};
 use pantin::features::{Adaptation, Cue, Magnitude, Metric, Normalisation, Operator, Shape};
 use pantin::files::Choice;
 use pantin::geometry::LengthUnit;
@@ -64,6 +66,14 @@ fn lists() -> Vec<List> {
         list::<Axis>(),
         list::<Value>(),
         list::<Preset>(),
+        list::<InstructionSet>(),
+        list::<Packing>(),
+        list::<Coverage>(),
+        list::<Gathering>(),
+        list::<HostComparison>(),
+        list::<Tiling>(),
+        list::<Projection>(),
+        list::<YardstickKind>(),
     ]
 }
 

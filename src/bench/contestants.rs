@@ -8,8 +8,7 @@ use super::yardstick::{Yardstick, YardstickKind};
 use crate::body::Mesh;
 use crate::evaluate::cpu::{Cpu, InstructionSet};
 use crate::evaluate::device::{
-    Comparison, Compute, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Tiling, device_settings,
-    open_instance,
+    Comparison, Compute, Graphics, GraphicsSettings, Packing, Tiling, device_settings, open_instance,
 };
 use crate::evaluate::{Evaluator, Reference};
 use crate::gpu::{Capabilities, Device, DeviceSettings};
@@ -49,20 +48,15 @@ impl Contestant {
     /// Everybody who draws the flat model, the reference first: of the graphics backend packings by comparisons, as the thesis
     /// measured them, and with whole pictures for tiles what one writes first.
     pub fn of_flat() -> Vec<Self> {
-        let comparisons = [
-            Comparison::Device(Gathering::Texels),
-            Comparison::Device(Gathering::Subgroup),
-            Comparison::Device(Gathering::Shared),
-            Comparison::Host(HostComparison::Scalar),
-            Comparison::Host(HostComparison::Simd),
-        ];
         let usual = GraphicsSettings::default();
         let mut all = vec![Self::Reference];
         all.extend(YardstickKind::ALL.map(Self::Yardstick));
         all.extend(InstructionSet::ALL.map(Self::Cpu));
         all.extend([true, false].map(|subgroup| Self::Compute { subgroup }));
-        for packing in [Packing::Max, Packing::Depth] {
-            all.extend(comparisons.map(|comparison| Self::Graphics(GraphicsSettings { packing, comparison, ..usual })));
+        for packing in Packing::ALL {
+            all.extend(
+                Comparison::all().map(|comparison| Self::Graphics(GraphicsSettings { packing, comparison, ..usual })),
+            );
         }
         all.push(Self::Graphics(GraphicsSettings { packing: Packing::Depth, tiling: Tiling::Pictures, ..usual }));
         all

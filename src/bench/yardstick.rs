@@ -7,29 +7,21 @@ use anyhow::{Result, ensure};
 use crate::body::Body;
 use crate::evaluate::{Components, Evaluator, Footprint, PartQuad, Projector};
 use crate::features::Observation;
+use crate::files::choices;
 use crate::geometry::Camera;
 
-/// Which of the two.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum YardstickKind {
-    /// Byte depth buffer over the whole picture.
-    ZBuffer,
-    /// Byte row spans inside the bounding box.
-    RowSpan,
-}
-
-impl YardstickKind {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::ZBuffer, Self::RowSpan];
-
-    /// The name as the benchmark's `variant` column has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ZBuffer => "zbuffer",
-            Self::RowSpan => "rowspan",
-        }
+choices! {
+    /// Which of the two.
+    "yardstick" pub enum YardstickKind => draw: Draw {
+        /// Byte depth buffer over the whole picture.
+        "zbuffer" ZBuffer => zbuffer,
+        /// Byte row spans inside the bounding box.
+        "rowspan" RowSpan => row_span,
     }
 }
+
+/// Draws a candidate's parts in a view of a size, over the picture, and compares it.
+type Draw = fn(&[PartQuad], [usize; 2], &Observation, &mut [u8]) -> Components;
 
 /// One of the two, on threads that it starts anew each time.
 #[derive(Debug)]
@@ -107,11 +99,7 @@ impl Yardstick {
         for (pose, out) in poses.chunks_exact(self.dof_count()).zip(out.chunks_exact_mut(self.sizes.len())) {
             for (view, sums) in out.iter_mut().enumerate() {
                 let quads = self.projector.quads(pose, view);
-                let draw = match self.kind {
-                    YardstickKind::ZBuffer => zbuffer,
-                    YardstickKind::RowSpan => row_span,
-                };
-                *sums = draw(&quads, self.sizes[view], &self.observations[view], &mut picture);
+                *sums = self.kind.draw()(&quads, self.sizes[view], &self.observations[view], &mut picture);
             }
         }
     }

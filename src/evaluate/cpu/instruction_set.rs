@@ -4,6 +4,7 @@
 use std::arch::is_x86_feature_detected;
 
 use crate::evaluate::projection::Projector;
+use crate::files::choices;
 
 use super::group::{Scratch, evaluate_group};
 use super::planes::Planes;
@@ -61,30 +62,19 @@ token!(
     "sse4.2" "popcnt"
 );
 
-/// An instruction set the evaluator is built for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InstructionSet {
-    /// AVX-512 with bit counts in registers (Ice Lake, Zen 4 and later).
-    Avx512,
-    /// AVX2 with FMA and BMI (Haswell, Zen and later).
-    Avx2,
-    /// Any processor.
-    Portable,
+choices! {
+    /// An instruction set the evaluator is built for; the fastest is listed first.
+    "instruction set" pub enum InstructionSet {
+        /// AVX-512 with bit counts in registers (Ice Lake, Zen 4 and later).
+        "avx512" Avx512,
+        /// AVX2 with FMA and BMI (Haswell, Zen and later).
+        "avx2" Avx2,
+        /// Any processor.
+        "portable" Portable,
+    }
 }
 
 impl InstructionSet {
-    /// All of them, fastest first.
-    pub const ALL: [Self; 3] = [Self::Avx512, Self::Avx2, Self::Portable];
-
-    /// The name as the benchmark's `variant` column has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Avx512 => "avx512",
-            Self::Avx2 => "avx2",
-            Self::Portable => "portable",
-        }
-    }
-
     /// Whether this processor has it.
     pub fn is_available(self) -> bool {
         Code::of(self).is_some()

@@ -1,27 +1,33 @@
 //! The choices of the graphics backend: each is a row of the benchmark.
 
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
 use crate::evaluate::shaders::{PACK_DEPTH, PACK_MAX};
+use crate::files::choices;
 use crate::gpu::Capabilities;
 
-/// How four candidates share a framebuffer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Packing {
-    /// A pixel is 2 rank + edge of its part, the largest value stays: no depth buffer, any order.
-    #[default]
-    Max,
-    /// A pixel is a label with bit 7 on edges; a depth buffer split in four ranges, a channel drawn after the other. What parts
-    /// with a depth of their own at every pixel need.
-    Depth,
+choices! {
+    /// How four candidates share a framebuffer.
+    #[derive(Default)]
+    "packing" pub enum Packing => pub(crate) constant: u32 {
+        /// A pixel is 2 rank + edge of its part, the largest value stays: no depth buffer, any order (the default).
+        "max" #[default] Max => PACK_MAX,
+        /// A pixel is a label with bit 7 on edges; a depth buffer split in four ranges, a channel drawn after the other. What
+        /// parts with a depth of their own at every pixel need.
+        "depth" Depth => PACK_DEPTH,
+    }
 }
 
-/// Who decides which pixels a part covers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Coverage {
-    /// The fragment stage, by the exact rule of docs/RASTER.md: the same integers on every device.
-    #[default]
-    Exact,
-    /// The device's own triangles and lines.
-    Hardware,
+choices! {
+    /// Who decides which pixels a part covers.
+    #[derive(Default)]
+    "coverage" pub enum Coverage {
+        /// The fragment stage, by the exact rule of docs/RASTER.md: the same integers on every device (the default).
+        "exact" #[default] Exact,
+        /// The device's own triangles and lines.
+        "hardware" Hardware,
+    }
 }
 
 impl Packing {
@@ -32,25 +38,18 @@ impl Packing {
             Self::Depth => 7,
         }
     }
-
-    /// The number that the stages know it by.
-    pub(crate) fn constant(self) -> u32 {
-        match self {
-            Self::Max => PACK_MAX,
-            Self::Depth => PACK_DEPTH,
-        }
-    }
 }
 
-/// How the four bytes of a texel become four pixels of a candidate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Gathering {
-    /// Every invocation reads four texels and takes all four candidates.
-    Texels,
-    /// Four invocations exchange theirs by subgroup shuffles.
-    Subgroup,
-    /// Four invocations exchange theirs through shared memory.
-    Shared,
+choices! {
+    /// How the four bytes of a texel become four pixels of a candidate.
+    "gathering" pub enum Gathering {
+        /// Every invocation reads four texels and takes all four candidates.
+        "texels" Texels,
+        /// Four invocations exchange theirs by subgroup shuffles.
+        "subgroup" Subgroup,
+        /// Four invocations exchange theirs through shared memory.
+        "shared" Shared,
+    }
 }
 
 impl Gathering {
@@ -60,13 +59,14 @@ impl Gathering {
     }
 }
 
-/// How the host compares.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum HostComparison {
-    /// A pixel after the other.
-    Scalar,
-    /// Rows in the widest vectors of the processor.
-    Simd,
+choices! {
+    /// How the host compares.
+    "comparison on the host" pub enum HostComparison {
+        /// A pixel after the other.
+        "readback" Scalar,
+        /// Rows in the widest vectors of the processor.
+        "readback-simd" Simd,
+    }
 }
 
 /// Where the framebuffer is compared with the observations.
@@ -78,24 +78,41 @@ pub enum Comparison {
     Host(HostComparison),
 }
 
-/// What a tile shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Tiling {
-    /// The region that the candidates of a view touch, as recent ones told.
-    #[default]
-    Regions,
-    /// The whole picture: what one writes first, kept to measure against.
-    Pictures,
+impl Comparison {
+    /// On the device, then on the host, each in the order of its list.
+    pub fn all() -> impl Iterator<Item = Self> {
+        Gathering::ALL.into_iter().map(Self::Device).chain(HostComparison::ALL.into_iter().map(Self::Host))
+    }
+
+    /// The name of its choice.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Device(gathering) => gathering.name(),
+            Self::Host(comparison) => comparison.name(),
+        }
+    }
 }
 
-/// What projects the candidates' parts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Projection {
-    /// A compute stage.
-    #[default]
-    Compute,
-    /// Vertices captured by transform feedback.
-    Feedback,
+choices! {
+    /// What a tile shows.
+    #[derive(Default)]
+    "tiling" pub enum Tiling {
+        /// The region that the candidates of a view touch, as recent ones told (the default).
+        "regions" #[default] Regions,
+        /// The whole picture: what one writes first, kept to measure against.
+        "pictures" Pictures,
+    }
+}
+
+choices! {
+    /// What projects the candidates' parts.
+    #[derive(Default)]
+    "projection" pub enum Projection {
+        /// A compute stage (the default).
+        "compute" #[default] Compute,
+        /// Vertices captured by transform feedback.
+        "feedback" Feedback,
+    }
 }
 
 /// How the backend works.
@@ -128,38 +145,26 @@ impl Default for GraphicsSettings {
 impl GraphicsSettings {
     /// The name of its rows in tables: packing, who covers, how it is compared; or packing and that tiles are pictures.
     pub fn name(&self) -> &'static str {
-        const NAMES: [[[&str; 5]; 2]; 2] = [
-            [
-                ["max-texels", "max-subgroup", "max-shared", "max-readback", "max-readback-simd"],
-                [
-                    "max-hardware-texels",
-                    "max-hardware-subgroup",
-                    "max-hardware-shared",
-                    "max-hardware-readback",
-                    "max-hardware-readback-simd",
-                ],
-            ],
-            [
-                ["depth-texels", "depth-subgroup", "depth-shared", "depth-readback", "depth-readback-simd"],
-                [
-                    "depth-hardware-texels",
-                    "depth-hardware-subgroup",
-                    "depth-hardware-shared",
-                    "depth-hardware-readback",
-                    "depth-hardware-readback-simd",
-                ],
-            ],
-        ];
-        if self.tiling == Tiling::Pictures {
-            return if self.packing == Packing::Depth { "depth-pictures" } else { "max-pictures" };
-        }
-        let comparison = match self.comparison {
-            Comparison::Device(Gathering::Texels) => 0,
-            Comparison::Device(Gathering::Subgroup) => 1,
-            Comparison::Device(Gathering::Shared) => 2,
-            Comparison::Host(HostComparison::Scalar) => 3,
-            Comparison::Host(HostComparison::Simd) => 4,
-        };
-        NAMES[usize::from(self.packing == Packing::Depth)][usize::from(self.coverage == Coverage::Hardware)][comparison]
+        type Key = (Packing, Coverage, Comparison, Tiling);
+        // Put together once: a name lasts as long as the program.
+        static NAMES: LazyLock<HashMap<Key, String>> = LazyLock::new(|| {
+            let mut names = HashMap::new();
+            for packing in Packing::ALL {
+                for coverage in Coverage::ALL {
+                    for comparison in Comparison::all() {
+                        let how = comparison.name();
+                        let name = match coverage {
+                            Coverage::Exact => format!("{packing}-{how}"),
+                            Coverage::Hardware => format!("{packing}-{coverage}-{how}"),
+                        };
+                        names.insert((packing, coverage, comparison, Tiling::Regions), name);
+                        let pictures = Tiling::Pictures;
+                        names.insert((packing, coverage, comparison, pictures), format!("{packing}-{pictures}"));
+                    }
+                }
+            }
+            names
+        });
+        &NAMES[&(self.packing, self.coverage, self.comparison, self.tiling)]
     }
 }
