@@ -240,12 +240,8 @@ impl Device {
     ///
     /// # Errors
     /// When the driver refuses it.
-    pub fn graphics_pipeline<S>(&self, name: &str, stages: &[S], drawing: &Drawing) -> Result<Pipeline>
-    where
-        S: Clone + Into<ShaderStage>,
-    {
-        let stages = stages.iter().cloned().map(Into::into).collect();
-        let source = Source { stages, drawing: Some(*drawing) };
+    pub fn graphics_pipeline(&self, name: &str, stages: &[ShaderStage], drawing: &Drawing) -> Result<Pipeline> {
+        let source = Source { stages: stages.to_vec(), drawing: Some(*drawing) };
         self.owner.compiled.of(source, |source| Pipeline::graphics(&self.shared, name, &source.stages, drawing))
     }
 

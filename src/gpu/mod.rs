@@ -7,7 +7,6 @@
 mod buffer;
 mod capability;
 mod compiled;
-mod compute_stage;
 mod copies;
 mod descriptors;
 mod device;
@@ -33,7 +32,6 @@ mod validation;
 
 pub use buffer::Buffer;
 pub use capability::{Capabilities, DeviceFacts, DeviceKind, devices};
-pub use compute_stage::{ComputeStage, Stage};
 pub use device::Device;
 pub use device_shared::DeviceSettings;
 pub use image::{Format, Image, ImageUse};

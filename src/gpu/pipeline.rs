@@ -82,8 +82,6 @@ pub struct Drawing {
     pub depth_test: bool,
     /// Whether the depth is written where the test passes.
     pub depth_write: bool,
-    /// Depth bias for draws that lie on others' surfaces: constant and slope factors.
-    pub depth_bias: Option<[f32; 2]>,
     /// Whether triangles whose corners run clockwise in the picture are left out.
     pub cull_clockwise: bool,
     /// How colours meet.
@@ -100,7 +98,6 @@ impl Default for Drawing {
             colour: None,
             depth_test: false,
             depth_write: false,
-            depth_bias: None,
             cull_clockwise: false,
             blend: Blend::Replace,
             channels: 15,
@@ -138,15 +135,11 @@ impl Pipeline {
                 Topology::Triangles => vk::PrimitiveTopology::TRIANGLE_LIST,
             });
             let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
-            let [bias, slope] = drawing.depth_bias.unwrap_or_default();
             let raster = vk::PipelineRasterizationStateCreateInfo::default()
                 .rasterizer_discard_enable(drawing.colour.is_none())
                 .polygon_mode(vk::PolygonMode::FILL)
                 .cull_mode(if drawing.cull_clockwise { vk::CullModeFlags::BACK } else { vk::CullModeFlags::NONE })
                 .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
-                .depth_bias_enable(drawing.depth_bias.is_some())
-                .depth_bias_constant_factor(bias)
-                .depth_bias_slope_factor(slope)
                 .line_width(1.0);
             let samples =
                 vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(vk::SampleCountFlags::TYPE_1);
