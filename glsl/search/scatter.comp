@@ -13,13 +13,13 @@ layout(local_size_x = SEARCH_GROUP) in;
 layout(std430, set = 0, binding = 2) writeonly buffer Positions { float positions[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Velocities { float velocities[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer Best { float best[]; };
-// Of the frame's spread, a row a stage.
+// Of the frame's spread, a row a level.
 layout(std430, set = 0, binding = 5) readonly buffer Factors { float factors[]; };
 
 layout(push_constant) uniform Push {
     uint particles;
     uint dofs;
-    uint stage;
+    uint level;
     uint iteration;
 } push;
 
@@ -31,8 +31,8 @@ void main() {
     for (uint word = 0u; word < 4u; word++) {
         uint d = dimension_of(block, word);
         if (d >= push.dofs) break;
-        float from = push.stage == 0u ? frame.values[d] : outcome.values[d];
-        float factor = factors[push.stage * push.dofs + d];
+        float from = push.level == 0u ? frame.values[d] : outcome.values[d];
+        float factor = factors[push.level * push.dofs + d];
         float x = scattered(from, particle == 0u ? 0.0 : normals[word], factor, d, push.dofs);
         uint place = particle * push.dofs + d;
         positions[place] = x;

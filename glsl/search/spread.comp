@@ -11,13 +11,13 @@ layout(local_size_x = SUM_LANES) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Rows { float rows[]; };
 layout(std430, set = 0, binding = 3) readonly buffer Weights { float weights[]; };
-// A row a stage. What stands still in a stage, with a factor of 0, keeps its deviation.
+// A row a level. What stands still in a level, with a factor of 0, keeps its deviation.
 layout(std430, set = 0, binding = 4) readonly buffer Factors { float factors[]; };
 
 layout(push_constant) uniform Push {
     uint count;
     uint dofs;
-    uint stage;
+    uint level;
 } push;
 
 shared float sums[SUM_LANES];
@@ -61,7 +61,7 @@ void main() {
     precise float variance = sum_of_all(square) * inverse;
     if (lane == 0u) {
         precise float mean = reference + shift;
-        if (factors[push.stage * push.dofs + d] > 0.0) outcome.values[push.dofs + d] = root(variance);
+        if (factors[push.level * push.dofs + d] > 0.0) outcome.values[push.dofs + d] = root(variance);
         outcome.values[2u * push.dofs + d] = hold(mean, frame.values[2u * push.dofs + d], frame.values[3u * push.dofs + d]);
     }
 }

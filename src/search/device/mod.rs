@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 
-use super::kinds::SwarmStage;
+use super::kinds::SwarmLevel;
 use super::shaders::{SEARCH_GROUP, layout, spread_comp};
 use super::{Estimate, SearchKind, SearchSettings, SearchSpace, check_start};
 use crate::evaluate::DeviceEvaluator;
@@ -74,9 +74,9 @@ impl DeviceSearch {
         evaluator.record_upload(&mut recorder)?;
         let mut recording = FrameRecording { recorder: &mut recorder, evaluator, objective, extent, memory: &memory };
         match settings.kind {
-            SearchKind::Pso => recording.swarm(settings, &[SwarmStage::whole(space, settings.iterations)]),
+            SearchKind::Pso => recording.swarm(settings, &[SwarmLevel::whole(space, settings.iterations)]),
             SearchKind::Hierarchical => {
-                recording.swarm(settings, &settings.hierarchy.stages(space, settings.iterations))
+                recording.swarm(settings, &settings.hierarchy.levels(space, settings.iterations))
             }
             SearchKind::ParticleFilter => recording.filter(settings),
             SearchKind::Annealed => recording.annealed(settings),
@@ -291,7 +291,7 @@ impl FrameRecording<'_> {
             weights,
             factors: &factors,
         };
-        let push = spread_comp::Push { count, dofs: extent.dofs, stage: 0 };
+        let push = spread_comp::Push { count, dofs: extent.dofs, level: 0 };
         self.recorder.run(bindings.dispatch(push, Groups::Count([extent.dofs, 1, 1])))?;
         let row = 4 * u64::from(extent.dofs);
         let mean = 4 * memory.places.values as u64 + 2 * row;

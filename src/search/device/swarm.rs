@@ -5,12 +5,12 @@ use anyhow::Result;
 use super::{Extent, FrameRecording};
 use crate::gpu::{Groups, Memory};
 use crate::search::SearchSettings;
-use crate::search::kinds::SwarmStage;
+use crate::search::kinds::SwarmLevel;
 use crate::search::shaders::{best_comp, move_comp, scatter_comp, spread_comp};
 
 impl FrameRecording<'_> {
     /// Records a swarm after the other, each around the best pose of those before.
-    pub(super) fn swarm(&mut self, settings: &SearchSettings, stages: &[SwarmStage]) -> Result<()> {
+    pub(super) fn swarm(&mut self, settings: &SearchSettings, levels: &[SwarmLevel]) -> Result<()> {
         let (extent, memory) = (self.extent, self.memory);
         let Extent { candidates: particles, dofs } = extent;
         let device = self.evaluator.device().clone();
@@ -18,8 +18,8 @@ impl FrameRecording<'_> {
         let best = self.values("best positions", extent.candidates, extent.dofs)?;
         let own = self.values("particles' best", extent.candidates, 2)?;
         let weights = self.ones("equal weights", extent.candidates)?;
-        let rows: Vec<f32> = stages.iter().flat_map(|stage| stage.factors.iter().copied()).collect();
-        let factors = device.buffer::<f32>("stages' factors on the spread", rows.len(), Memory::Upload)?;
+        let rows: Vec<f32> = levels.iter().flat_map(|level| level.factors.iter().copied()).collect();
+        let factors = device.buffer::<f32>("levels' factors on the spread", rows.len(), Memory::Upload)?;
         factors.write(0, &rows)?;
         // Positions live where the evaluator takes them from.
         let (positions, fitness) = (self.evaluator.poses().clone(), self.evaluator.fitness().clone());
@@ -28,7 +28,7 @@ impl FrameRecording<'_> {
         let blocks = extent.block_groups(&device);
 
         let mut iteration = 0;
-        for (index, stage) in stages.iter().enumerate() {
+        for (index, level) in levels.iter().enumerate() {
             let bindings = scatter_comp::Bindings {
                 frame: &memory.frame.buffer,
                 outcome: &memory.outcome,
@@ -37,9 +37,9 @@ impl FrameRecording<'_> {
                 best: &best,
                 factors: &factors,
             };
-            let push = scatter_comp::Push { particles, dofs, stage: index as u32, iteration };
+            let push = scatter_comp::Push { particles, dofs, level: index as u32, iteration };
             self.recorder.run(bindings.dispatch(push, blocks))?;
-            for done in 0..stage.iterations {
+            for done in 0..level.iterations {
                 self.evaluate(extent.candidates)?;
                 let bindings = best_comp::Bindings {
                     fitness: &fitness,
@@ -57,8 +57,8 @@ impl FrameRecording<'_> {
                 // After the last iteration particles only take note.
                 let mut push =
                     move_comp::Push { particles, dofs, iteration: 0, inertia: 0.0, cognitive: 0.0, social: 0.0 };
-                if done + 1 < stage.iterations {
-                    let inertia = settings.pso.inertia_of(done + 1, stage.iterations);
+                if done + 1 < level.iterations {
+                    let inertia = settings.pso.inertia_of(done + 1, level.iterations);
                     let (cognitive, social) = (settings.pso.cognitive, settings.pso.social);
                     push = move_comp::Push { iteration, inertia, cognitive, social, ..push };
                 }
@@ -79,7 +79,7 @@ impl FrameRecording<'_> {
                 weights: &weights,
                 factors: &factors,
             };
-            let push = spread_comp::Push { count: particles, dofs, stage: index as u32 };
+            let push = spread_comp::Push { count: particles, dofs, level: index as u32 };
             self.recorder.run(bindings.dispatch(push, Groups::Count([dofs, 1, 1])))?;
         }
         self.recorder.fill("no estimate", &memory.fitness, 0)

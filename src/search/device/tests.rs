@@ -333,7 +333,7 @@ fn one_changed_number_is_noticed() {
         return;
     };
     for kind in on_devices() {
-        // Of a stage of several only the best pose lives on, so there the last stage's second batch is changed.
+        // Of a level of several only the best pose lives on, so there the last level's second batch is changed.
         let batch = if kind == SearchKind::Hierarchical { 11 } else { 2 };
         for place in [31, 17 * 31 + 5, 299 * 31 + 30] {
             let odd = difference(&device, &settings(kind, 300, 15), 31, NOTHING_BAD, Some((batch, place)));

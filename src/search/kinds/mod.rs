@@ -14,7 +14,7 @@ pub use annealed::{AnnealedFilter, AnnealingSettings};
 pub use cma_es::{CmaEs, CmaSettings};
 use form::{Budget, SearchForm};
 use hierarchical::SwarmHierarchy;
-pub(super) use hierarchical::SwarmStage;
+pub(super) use hierarchical::SwarmLevel;
 pub use hierarchical::{HierarchicalPso, HierarchySettings};
 pub use particle_filter::{FilterSettings, ParticleFilter};
 pub use pso::{Pso, PsoSettings};

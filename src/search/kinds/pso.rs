@@ -75,7 +75,7 @@ pub struct Pso {
     random: Random,
     space: SearchSpace,
     frame: u32,
-    /// Iterations of this frame that came before this swarm, and its own: one swarm may be a stage of several.
+    /// Iterations of this frame that came before this swarm, and its own: one swarm may be a level of several.
     before: usize,
     span: usize,
     /// Iterations done in this frame; `None` before the first frame.
