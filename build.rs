@@ -1,5 +1,7 @@
 //! Compiles every shader under `glsl/` and writes the Rust that the rooms include: `OUT_DIR/<room>_stages.rs`.
 
+#![allow(unreachable_pub, reason = "the files below are modules of the library too, which shows them")]
+
 #[path = "src/gpu/shaders/compile.rs"]
 mod compile;
 #[path = "src/gpu/shaders/constants.rs"]

@@ -27,7 +27,7 @@ fn cameras() -> Vec<Camera> {
         .collect()
 }
 
-/// The corners of a truncated cone as SPEC A4 gives them.
+/// The corners of a truncated cone as METHOD A4 gives them.
 fn corners(a: DVec3, b: DVec3, radius_a: f64, radius_b: f64, centre: DVec3) -> [DVec3; 4] {
     let r = (a - b).cross(centre - b).normalize();
     [a + r * radius_a, b + r * radius_b, b - r * radius_b, a - r * radius_a]

@@ -1,4 +1,5 @@
 //! The build's shader compiler, reflector and generator, on small shaders written for each question.
+#![allow(unreachable_pub, reason = "the modules below are the library's too")]
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 #[path = "../src/gpu/shaders/compile.rs"]

@@ -20,18 +20,18 @@ const SHARE: Duration = Duration::from_secs(2);
 const ROUND_MS: f64 = 10.0;
 
 /// Whether this is `cargo bench`.
-pub fn is_measuring() -> bool {
+pub(crate) fn is_measuring() -> bool {
     std::env::args().any(|argument| argument == "--bench")
 }
 
 /// Whether the rows of that name were asked for.
-pub fn is_wanted(name: &str) -> bool {
+pub(crate) fn is_wanted(name: &str) -> bool {
     let mut words = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).peekable();
     words.peek().is_none() || words.any(|word| name.contains(&word))
 }
 
 /// Times by name, in a line.
-pub fn in_a_line(times: &[(String, f64)]) -> String {
+pub(crate) fn in_a_line(times: &[(String, f64)]) -> String {
     times.iter().map(|(name, ms)| format!("{name} {ms:.3}")).collect::<Vec<_>>().join(", ")
 }
 
@@ -42,7 +42,7 @@ struct Row<'a> {
 }
 
 /// Rows to measure beside each other.
-pub struct Table<'a> {
+pub(crate) struct Table<'a> {
     title: String,
     unit: &'static str,
     beside: &'static [&'static str],
@@ -51,17 +51,17 @@ pub struct Table<'a> {
 
 impl<'a> Table<'a> {
     /// An empty table; the work of its rows is counted in units of that name.
-    pub fn new(title: impl Into<String>, unit: &'static str) -> Self {
+    pub(crate) fn new(title: impl Into<String>, unit: &'static str) -> Self {
         Self { title: title.into(), unit, beside: &[], rows: Vec::new() }
     }
 
     /// The same with a column for each of these rows: how many times as fast as that one every row is.
-    pub fn beside(self, names: &'static [&'static str]) -> Self {
+    pub(crate) fn beside(self, names: &'static [&'static str]) -> Self {
         Self { beside: names, ..self }
     }
 
     /// Adds a row of so much work a call, if it was asked for.
-    pub fn row<T>(&mut self, name: impl Into<String>, work: usize, mut run: impl FnMut() -> T + 'a) {
+    pub(crate) fn row<T>(&mut self, name: impl Into<String>, work: usize, mut run: impl FnMut() -> T + 'a) {
         let name = name.into();
         if is_wanted(&name) {
             let run = Box::new(move || drop(black_box(run())));
@@ -70,7 +70,7 @@ impl<'a> Table<'a> {
     }
 
     /// Measures all rows and prints the table, or runs each once.
-    pub fn run(mut self) {
+    pub(crate) fn run(mut self) {
         if !is_measuring() {
             self.rows.iter_mut().for_each(|row| (row.run)());
             return println!("{}: {} rows ran once", self.title, self.rows.len());

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Bone matrices times inverse bind matrices (SPEC A4), one invocation a bone of a candidate; and an empty start for what the next
+// Bone matrices times inverse bind matrices (METHOD A4), one invocation a bone of a candidate; and an empty start for what the next
 // stages gather: bounds of images, counts of silhouette edges.
 
 #include "evaluate/constants.glsl"

@@ -1,4 +1,4 @@
-// A point of the world to pixels (SPEC A2), rounded as the reference rounds.
+// A point of the world to pixels (METHOD A2), rounded as the reference rounds.
 
 #ifndef EVALUATE_CAMERA
 #define EVALUATE_CAMERA

@@ -1,5 +1,5 @@
 // Framebuffer against observation, shared by all ways of gathering a candidate's pixels: resources, and the sums of a word of
-// four pixels (SPEC A6, A9).
+// four pixels (METHOD A6, A9).
 
 #ifndef EVALUATE_COMPARE
 #define EVALUATE_COMPARE

@@ -1,4 +1,4 @@
-// What the stages of the mesh model share (SPEC A4).
+// What the stages of the mesh model share (METHOD A4).
 
 #ifndef EVALUATE_MESH
 #define EVALUATE_MESH

@@ -1,4 +1,4 @@
-// What a frame's candidates share: the body, the cameras, and how many of everything there are (SPEC A2-A4).
+// What a frame's candidates share: the body, the cameras, and how many of everything there are (METHOD A2-A4).
 
 #ifndef EVALUATE_MODEL
 #define EVALUATE_MODEL
@@ -60,7 +60,7 @@ struct Bounds {
     ivec2 high;
 };
 
-// SPEC A6, without area_obs, which is the camera's.
+// METHOD A6, without area_obs, which is the camera's.
 struct Sums {
     uint area_model;
     uint overlap;

@@ -1,4 +1,4 @@
-// The components of all views of a candidate to its fitness (SPEC A7): one invocation a candidate.
+// The components of all views of a candidate to its fitness (METHOD A7): one invocation a candidate.
 
 #include "evaluate/constants.glsl"
 #include "evaluate/model.glsl"

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Poses to global bone matrices (SPEC A3): one invocation a candidate, parents before children.
+// Poses to global bone matrices (METHOD A3): one invocation a candidate, parents before children.
 
 #include "evaluate/model.glsl"
 #include "evaluate/batch.glsl"

@@ -1,4 +1,4 @@
-// One part of one image, as all ways of projecting compute it: trapezoid (SPEC A4), projection (A2), snapping.
+// One part of one image, as all ways of projecting compute it: trapezoid (METHOD A4), projection (A2), snapping.
 
 #ifndef EVALUATE_PROJECT_PART
 #define EVALUATE_PROJECT_PART

@@ -1,4 +1,4 @@
-// Drawing and comparison without any framebuffer (docs/RASTER.md, SPEC A6): the whole of both compute variants but for how a
+// Drawing and comparison without any framebuffer (docs/RASTER.md, METHOD A6): the whole of both compute variants but for how a
 // workgroup sums. A workgroup takes an image, an invocation a row. A chunk of the row is two sets of bits kept in registers, what
 // fills cover and where borders show; the observation is bit planes, so everything counted is a bit count.
 //

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Every vertex of every candidate, posed once and projected into every camera once (SPEC A4, A2): snapped, with its depths; and
+// Every vertex of every candidate, posed once and projected into every camera once (METHOD A4, A2): snapped, with its depths; and
 // the pixels that each image may touch. Workgroups in x take vertices, in y candidates.
 
 #include "evaluate/constants.glsl"

@@ -1,4 +1,4 @@
-// Where candidate images lie in the framebuffer: four candidates of a view share a tile, one a channel (SPEC A9).
+// Where candidate images lie in the framebuffer: four candidates of a view share a tile, one a channel (METHOD A9).
 
 #ifndef EVALUATE_TILES
 #define EVALUATE_TILES

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// What differs from the plate (SPEC A5.1): src/features/plate.rs, operation by operation.
+// What differs from the plate (METHOD A5.1): src/features/plate.rs, operation by operation.
 
 #include "features/constants.glsl"
 #include "features/shadow.glsl"

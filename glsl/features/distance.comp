@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The distance to the nearest edge (SPEC A5.3) from the vertical distances of the row. For a given |dx| every metric grows with
+// The distance to the nearest edge (METHOD A5.3) from the vertical distances of the row. For a given |dx| every metric grows with
 // |dy|, so that the nearest edge of each column is all there is to ask for.
 
 #include "features/constants.glsl"

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Edges among the pixels near the silhouette (SPEC A5.2): gradients of at least the threshold, or zero crossings.
+// Edges among the pixels near the silhouette (METHOD A5.2): gradients of at least the threshold, or zero crossings.
 
 #include "features/gradient.glsl"
 

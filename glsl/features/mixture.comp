@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// One picture's step of the mixtures of a band of rows (SPEC A5.1): src/features/mixture.rs, operation by operation.
+// One picture's step of the mixtures of a band of rows (METHOD A5.1): src/features/mixture.rs, operation by operation.
 
 #include "features/constants.glsl"
 #include "features/shadow.glsl"

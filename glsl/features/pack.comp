@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Distances to proximities (SPEC A5.4), packed with the silhouette (SPEC A5.5): four pixels an invocation.
+// Distances to proximities (METHOD A5.4), packed with the silhouette (METHOD A5.5): four pixels an invocation.
 
 #include "features/constants.glsl"
 #include "features/picture.glsl"

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// From colour to grey, smoothed by a 3x3 Gauss (SPEC A5.2). What lies outside the picture repeats its border.
+// From colour to grey, smoothed by a 3x3 Gauss (METHOD A5.2). What lies outside the picture repeats its border.
 
 #include "features/constants.glsl"
 #include "features/picture.glsl"

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The sum of squared errors over the known pixels of a region, for every placement of it within the example (SPEC B3): an
+// The sum of squared errors over the known pixels of a region, for every placement of it within the example (METHOD B3): an
 // invocation a placement, operations in the order of texture/example/matching.rs, `precise`, so that the sums are its bits.
 
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// Materials (SPEC B2) as texture/materials has them on the CPU, without tiles: the same lattice words and the same formulas in
+// Materials (METHOD B2) as texture/materials has them on the CPU, without tiles: the same lattice words and the same formulas in
 // single precision. What a material needs is a row of numbers in the order in which the library writes them.
 
 #ifndef TEXTURE_MATERIALS

@@ -1,4 +1,4 @@
-// Noise with the values of texture/noise on the CPU (SPEC B1): the same words on lattice points, the same operations in the
+// Noise with the values of texture/noise on the CPU (METHOD B1): the same words on lattice points, the same operations in the
 // same order, `precise` so that none are fused or regrouped. For any stage. Where tables shall be used, the stage defines
 // NOISE_TABLE(i): 256 entries of the permutation, then 256 words.
 

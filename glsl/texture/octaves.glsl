@@ -1,4 +1,4 @@
-// A sum of octaves of noise (SPEC B1) as a request describes it. Octaves come from the library: frequencies of tiles are
+// A sum of octaves of noise (METHOD B1) as a request describes it. Octaves come from the library: frequencies of tiles are
 // rounded there, once.
 
 #ifndef TEXTURE_OCTAVES

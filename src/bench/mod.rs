@@ -1,4 +1,4 @@
-//! How fast every evaluator is, side by side in one run, beside the figures of SPEC A10.
+//! How fast every evaluator is, side by side in one run, beside the figures of METHOD A10.
 //!
 //! One round of every evaluator follows the other, so that a noisy moment of the machine touches all alike; what is told is
 //! the median of the rounds. Before anything is measured, every evaluator's fitness is compared with the first one's.

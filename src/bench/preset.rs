@@ -27,7 +27,7 @@ choices! {
     "preset" pub enum Preset {
         /// 512 particles on both picture sizes, a few seconds.
         "quick" #[default] Quick,
-        /// 96, 304 and 512 particles on both picture sizes and the model ladder, beside published figures (SPEC A10).
+        /// 96, 304 and 512 particles on both picture sizes and the model ladder, beside published figures (METHOD A10).
         "thesis" Thesis,
     }
 }

@@ -1,4 +1,4 @@
-//! What a benchmark yields: the object of `pantin bench --json` (INTERFACES).
+//! What a benchmark yields: the object of `pantin bench --json` (FORMATS).
 
 use serde::{Serialize, Serializer};
 

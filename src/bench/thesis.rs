@@ -1,4 +1,4 @@
-//! The figures of SPEC A10 that a row may stand beside: four cameras, GTX 780 Ti, Xeon X5690.
+//! The figures of METHOD A10 that a row may stand beside: four cameras, GTX 780 Ti, Xeon X5690.
 
 /// Names of the columns of [`times`].
 pub(super) const COLUMNS: [&str; 6] = ["CPU", "CUDA", "GL+CPU", "GL+SSE", "GL+CUDA", "GL+OpenCL"];

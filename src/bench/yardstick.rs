@@ -25,7 +25,7 @@ type Draw = fn(&[PartQuad], [usize; 2], &Observation, &mut [u8]) -> Components;
 
 /// One of the two, on threads that it starts anew each time.
 #[derive(Debug)]
-pub struct Yardstick {
+pub(super) struct Yardstick {
     projector: Projector,
     sizes: Vec<[usize; 2]>,
     kind: YardstickKind,
@@ -35,7 +35,7 @@ pub struct Yardstick {
 
 impl Yardstick {
     /// For a body and its cameras at working size.
-    pub fn new(body: &Body, cameras: &[Camera], kind: YardstickKind, threads: usize) -> Self {
+    pub(super) fn new(body: &Body, cameras: &[Camera], kind: YardstickKind, threads: usize) -> Self {
         let sizes = cameras.iter().map(|camera| camera.size.map(|side| side as usize)).collect();
         let projector = Projector::new(body, cameras);
         Self { projector, sizes, kind, threads: threads.max(1), observations: Vec::new() }

@@ -8,7 +8,7 @@ use super::{Body, parse_body};
 pub const ADULT_HEIGHT: f64 = 1750.0;
 
 impl Body {
-    /// The default body of SPEC A3 and A4, scaled to a height in mm: 15 bones with 31 degrees of freedom, 16 truncated
+    /// The default body of METHOD A3 and A4, scaled to a height in mm: 15 bones with 31 degrees of freedom, 16 truncated
     /// cones, the 39 markers of the Plug-in Gait set. Its file, `adult.toml`, states the sources of its measures.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! Forward kinematics in double precision (SPEC A3): from a pose to the place of every bone, joint and marker. A whole
+//! Forward kinematics in double precision (METHOD A3): from a pose to the place of every bone, joint and marker. A whole
 //! swarm is posed in single precision by the evaluators; this is the form everything else uses, and their yardstick.
 
 use anyhow::{Result, ensure};
@@ -196,7 +196,7 @@ pub(super) mod tests {
 
     /// Any tree, any degrees of freedom, any order of the bones in the file; written and read so that the loader's work
     /// is part of it. The pose comes with it.
-    pub(in crate::body) fn any_body() -> impl Strategy<Value = (Body, Vec<f64>)> {
+    pub(crate) fn any_body() -> impl Strategy<Value = (Body, Vec<f64>)> {
         let bone = (any::<prop::sample::Index>(), prop::array::uniform3(-400.0..400.0), 0_u8..64, 0_usize..6);
         (prop::collection::vec(bone, 1..12), any::<u64>()).prop_flat_map(|(entries, shuffle)| {
             let count = entries.len();

@@ -1,4 +1,4 @@
-//! `body.toml` read and checked (INTERFACES): what a [`Body`] promises is made sure of here, each failure in one sentence
+//! `body.toml` read and checked (FORMATS): what a [`Body`] promises is made sure of here, each failure in one sentence
 //! with the file and the key.
 
 use std::collections::{BTreeMap, HashMap};

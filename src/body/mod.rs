@@ -1,5 +1,5 @@
 //! The articulated body: a tree of bones with degrees of freedom, truncated cones for its shape, virtual markers
-//! (SPEC A3, A4); poses, and where a pose puts bones, joints and markers in the world.
+//! (METHOD A3, A4); poses, and where a pose puts bones, joints and markers in the world.
 
 mod adult;
 mod bvh;

@@ -6,7 +6,7 @@ use super::{Body, FrustumBase, Mesh, MeshSource};
 use crate::files::choices;
 
 choices! {
-    /// The model of a body that candidates are drawn with (SPEC A4).
+    /// The model of a body that candidates are drawn with (METHOD A4).
     #[derive(Default)]
     "model" pub enum Model => pub frusta: Option<FrustumBase> {
         /// Truncated cones as flat quadrilaterals with one depth each (the default).

@@ -1,4 +1,4 @@
-//! Poses: state vectors checked against their body, and the table of them that files hold (`poses.csv`, INTERFACES).
+//! Poses: state vectors checked against their body, and the table of them that files hold (`poses.csv`, FORMATS).
 
 use std::collections::HashMap;
 use std::fs::File;

@@ -36,7 +36,7 @@ pub struct FreeEnd {
     pub at: DVec3,
 }
 
-/// Free ends and the bones they end, as INTERFACES settles them: each is the `b` end of the bone's first part.
+/// Free ends and the bones they end, as FORMATS settles them: each is the `b` end of the bone's first part.
 const FREE_ENDS: [(&str, &str); 5] = [
     ("left_ankle", "left_knee"),
     ("right_ankle", "right_knee"),

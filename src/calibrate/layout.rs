@@ -15,7 +15,7 @@ const PLANE: f64 = 2e-3;
 const LINE: f64 = 1e-3;
 
 choices! {
-    /// How the points of a camera lie (SPEC A2), and the number of them that Tsai's linear phase needs.
+    /// How the points of a camera lie (METHOD A2), and the number of them that Tsai's linear phase needs.
     "layout" pub enum Layout => pub fewest: usize {
         /// In a plane: at least 5, and s_x must be held.
         "coplanar" Coplanar => 5,

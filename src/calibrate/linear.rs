@@ -1,4 +1,4 @@
-//! Tsai's linear phase: the radial alignment constraint (SPEC A2). An image point lies on the line from the image centre
+//! Tsai's linear phase: the radial alignment constraint (METHOD A2). An image point lies on the line from the image centre
 //! through its ideal place, however strong the radial distortion: X_d y_c = Y_d x_c. That is linear in the rotation's first
 //! two rows and the translation across the view; focal length and distance follow from a second linear step.
 //!

@@ -1,4 +1,4 @@
-//! Calibration from points known in the world and in the pictures (SPEC A2): pairs in, cameras with their residuals out.
+//! Calibration from points known in the world and in the pictures (METHOD A2): pairs in, cameras with their residuals out.
 //!
 //! In the order of the work: [`pairs`](Pair) and [`tracks`](parse_tracks) read, [`layout`](Layout) looks at what the
 //! points can determine, `linear` is Tsai's radial alignment, `refine` Levenberg-Marquardt over all parameters,

@@ -1,4 +1,4 @@
-//! One camera from its pairs: linear start, Levenberg-Marquardt, outliers, and what the result is worth (SPEC A2).
+//! One camera from its pairs: linear start, Levenberg-Marquardt, outliers, and what the result is worth (METHOD A2).
 
 use anyhow::{Context, Result, bail, ensure};
 use glam::{DVec2, DVec3};

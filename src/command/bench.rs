@@ -8,7 +8,7 @@ use crate::bench::{self, Preset};
 /// fitness out. Rounds are interleaved and the median is told. Every evaluator's fitness is compared with the reference's
 /// first. A backend that cannot run here is listed with the reason.
 #[derive(clap::Args, Debug)]
-pub struct BenchArgs {
+pub(super) struct BenchArgs {
     /// What is measured.
     #[arg(long, value_name = "NAME", default_value_t)]
     preset: Preset,
@@ -21,7 +21,7 @@ pub struct BenchArgs {
 ///
 /// # Errors
 /// When the scene cannot be made.
-pub fn run(args: &BenchArgs) -> Result<()> {
+pub(super) fn run(args: &BenchArgs) -> Result<()> {
     let report = bench::run(args.preset, &mut |task| eprintln!("measuring {task}"))?;
     if args.json {
         println!("{}", serde_json::to_string_pretty(&report)?);

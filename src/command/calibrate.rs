@@ -25,7 +25,7 @@ const MOST_NAMED: usize = 20;
 /// Pixels count from the centre of the top-left one, u to the right, v down; the world is right-handed with z up.
 /// At least 5 points in a plane or 7 in space a camera; a hundred all over the volume are good.
 #[derive(clap::Args, Debug)]
-pub struct CalibrateArgs {
+pub(super) struct CalibrateArgs {
     /// The table of points.
     #[arg(value_name = "POINTS.csv", required_unless_present = "c3d", conflicts_with = "c3d")]
     points: Option<PathBuf>,
@@ -95,7 +95,7 @@ impl FromStr for PictureSize {
 /// # Errors
 /// When a file cannot be read or makes no sense, a camera cannot be calibrated from its points, or the result cannot be
 /// written.
-pub fn run(args: &CalibrateArgs) -> Result<()> {
+pub(super) fn run(args: &CalibrateArgs) -> Result<()> {
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     // Said before the work, not after it.
     if !args.force && args.output.exists() {

@@ -11,7 +11,7 @@ use crate::track::FrameRange;
 /// a few frames agree with each other, in direction and in time, and show a person on the floor. Each check tells its
 /// number, its limit and what to do. Exit status 0 when none failed, else 1.
 #[derive(clap::Args, Debug)]
-pub struct CheckArgs {
+pub(super) struct CheckArgs {
     /// The sequence: its sequence.toml, or the folder that holds it. Its body and start need not exist yet.
     #[arg(value_name = "SEQUENCE")]
     sequence: PathBuf,
@@ -30,7 +30,7 @@ pub struct CheckArgs {
 ///
 /// # Errors
 /// As [`check`]; and when a check failed.
-pub fn run(args: &CheckArgs) -> Result<()> {
+pub(super) fn run(args: &CheckArgs) -> Result<()> {
     let settings = CheckSettings { start: args.frames.start, end: args.frames.end, samples: args.samples };
     let report = check(&args.sequence, &settings)?;
     if args.json {

@@ -15,7 +15,7 @@ use crate::motion::{PointFormat, read_bvh, read_points, write_bvh, write_points}
 /// points do not become a BVH, which needs the joint angles of a skeleton. A skinned person (.glb, .gltf) becomes a
 /// body.toml: the default body's bones with the person's lengths, parts as thick as the skin, and the file as its mesh.
 #[derive(clap::Args, Debug)]
-pub struct ConvertArgs {
+pub(super) struct ConvertArgs {
     /// The file to read: .c3d, .trc, .csv (frame,time,<name>.x,…) or .bvh; .glb or .gltf for a body.
     #[arg(value_name = "IN")]
     input: PathBuf,
@@ -46,7 +46,7 @@ pub struct ConvertArgs {
 ///
 /// # Errors
 /// When a file cannot be read or written, or when the conversion is not possible; one sentence.
-pub fn run(args: &ConvertArgs) -> Result<()> {
+pub(super) fn run(args: &ConvertArgs) -> Result<()> {
     let positive = |value: f64| value.is_finite() && value > 0.0;
     ensure!(positive(args.scale), "--scale is {}, expected a positive number", args.scale);
     if let Some(rate) = args.rate {

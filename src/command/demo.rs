@@ -20,7 +20,7 @@ use crate::track::{TrackSettings, track};
 /// Shows the whole thing at work: makes a synthetic four-camera sequence of a person walking in a circle, tracks it,
 /// prints the error against its exact truth, and writes pictures and a report. Needs no data and no network.
 #[derive(clap::Args, Debug)]
-pub struct DemoArgs {
+pub(super) struct DemoArgs {
     /// The folder for the sequence and the results.
     #[arg(short, long, value_name = "DIR", default_value = "pantin-demo")]
     output: PathBuf,
@@ -56,7 +56,7 @@ const OVERLAY_EVERY: usize = 10;
 ///
 /// # Errors
 /// When a number makes no sense, the folder is not empty (without `--force`) or a file cannot be written.
-pub fn run(args: &DemoArgs) -> Result<()> {
+pub(super) fn run(args: &DemoArgs) -> Result<()> {
     let scene = Scene { frames: args.frames, seed: args.seed, ..Scene::preset("demo")? };
     let search = SearchSettings {
         particles: args.particles,

@@ -10,7 +10,7 @@ use crate::track::Backend;
 /// Lists the Vulkan devices of this machine in Vulkan's order: what each can do, whether pantin can use it, what it lacks;
 /// and which backend --backend auto would take on a built-in scene, and why. Without Vulkan the list is empty.
 #[derive(clap::Args, Debug)]
-pub struct DevicesArgs {
+pub(super) struct DevicesArgs {
     /// Print JSON instead of a table.
     #[arg(long)]
     json: bool,
@@ -20,7 +20,7 @@ pub struct DevicesArgs {
 ///
 /// # Errors
 /// When not even the processor can evaluate.
-pub fn run(args: &DevicesArgs) -> Result<()> {
+pub(super) fn run(args: &DevicesArgs) -> Result<()> {
     let found = Instance::open(Validation::Off).and_then(|instance| devices(&instance));
     let scene = Scene::new([640, 480], 280.0)?;
     let auto = Backend::Auto.build(None, &scene.body, &scene.cameras, &scene.pose)?;

@@ -9,7 +9,7 @@ use crate::gpu::{Device, DeviceKind};
 choices! {
     /// What draws.
     #[derive(Default)]
-    "place to draw" pub enum Draws {
+    "place to draw" pub(super) enum Draws {
         /// The processor (the default).
         "cpu" #[default] Cpu,
         /// The Vulkan device.
@@ -24,7 +24,7 @@ impl Draws {
     ///
     /// # Errors
     /// When a device is asked for and none can be opened.
-    pub fn device(self) -> Result<Option<Device>> {
+    pub(super) fn device(self) -> Result<Option<Device>> {
         let opened = match self {
             Self::Cpu => return Ok(None),
             Self::Device => return open_device().map(Some),

@@ -14,7 +14,7 @@ use crate::track::{Backend, ScoredFrame, score_poses, write_fitness};
 /// every candidate as it was drawn, and segments.csv where body parts are told apart. Without -o the fitness goes to the standard output. The frame is one of a sequence, or
 /// packed observations (`<camera>.png`: bit 7 the silhouette, bits 0-6 the edge proximity) with their cameras and body.
 #[derive(clap::Args, Debug)]
-pub struct EvaluateArgs {
+pub(super) struct EvaluateArgs {
     /// The sequence: its sequence.toml, or the folder that holds it.
     #[arg(long, value_name = "SEQ", requires = "frame", required_unless_present = "observations")]
     sequence: Option<PathBuf>,
@@ -57,7 +57,7 @@ pub struct EvaluateArgs {
 ///
 /// # Errors
 /// When an input cannot be read or does not fit the others, or a result not be written; one sentence.
-pub fn run(args: &EvaluateArgs) -> Result<()> {
+pub(super) fn run(args: &EvaluateArgs) -> Result<()> {
     let choice = args.objective.choice();
     let (frame, objective) = match (&args.sequence, &args.observations) {
         (Some(sequence), _) => {

@@ -19,7 +19,7 @@ use crate::track::FrameRange;
 /// proximity, observation and region (and segments, where the sequence has [[features.segment]]), and frame_NNNNNN/CAMERA.png, the packed observations of a frame in one folder
 /// as `evaluate --observations` reads them.
 #[derive(clap::Args, Debug)]
-pub struct FeaturesArgs {
+pub(super) struct FeaturesArgs {
     /// The sequence: a sequence.toml
     sequence: PathBuf,
     /// Frames A to B - 1, counted from 0; all without it
@@ -51,7 +51,7 @@ choices! {
 ///
 /// # Errors
 /// When the sequence cannot be read, its `[features]` make no sense, or a picture cannot be written.
-pub fn run(args: &FeaturesArgs) -> Result<()> {
+pub(super) fn run(args: &FeaturesArgs) -> Result<()> {
     let sequence = Sequence::open(&args.sequence)?;
     let frames = args.frames.within(sequence.frame_count, &sequence.path.display().to_string())?;
     let mut observer = Observer::new(&sequence, feature_settings(&sequence)?, frames.clone(), frames.start)?;

@@ -14,7 +14,7 @@ use crate::track::{Fit, FitSettings, FrameRange, fit};
 /// and finds the poses in them. Every view needs a background or masks. Silhouettes hardly tell front from back, nor
 /// where a straight limb has its joint: give --heading if he came out backwards, and frames with bent limbs.
 #[derive(clap::Args, Debug)]
-pub struct FitArgs {
+pub(super) struct FitArgs {
     /// The sequence: its sequence.toml, or the folder that holds it. Its body and start need not exist yet.
     #[arg(value_name = "SEQUENCE")]
     sequence: PathBuf,
@@ -59,7 +59,7 @@ pub struct FitArgs {
 ///
 /// # Errors
 /// As [`fit`]; and when a file exists and may not be replaced, or cannot be written.
-pub fn run(args: &FitArgs) -> Result<()> {
+pub(super) fn run(args: &FitArgs) -> Result<()> {
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     // Said before the work, not after it.
     for file in [&args.output, &args.start_out].into_iter().flatten() {

@@ -5,7 +5,7 @@ use crate::track::ObjectiveChoice;
 
 /// Flags over a sequence's `[objective]` table over the defaults.
 #[derive(clap::Args, Clone, Debug)]
-pub struct ObjectiveFlags {
+pub(super) struct ObjectiveFlags {
     /// The objective function [default: the sequence's, else sp].
     #[arg(long, value_name = "NAME")]
     objective: Option<ObjectiveKind>,
@@ -22,7 +22,7 @@ pub struct ObjectiveFlags {
 
 impl ObjectiveFlags {
     /// What they choose.
-    pub fn choice(&self) -> ObjectiveChoice {
+    pub(super) fn choice(&self) -> ObjectiveChoice {
         ObjectiveChoice { kind: self.objective, beta: self.beta, w1: self.w1, w2: self.w2 }
     }
 }

@@ -9,11 +9,11 @@ const PLAIN_STEP: usize = 10;
 
 /// A bar on a terminal, nothing elsewhere; cleared when dropped.
 #[derive(Default)]
-pub struct TerminalBar(Option<indicatif::ProgressBar>);
+pub(super) struct TerminalBar(Option<indicatif::ProgressBar>);
 
 impl TerminalBar {
     /// At `done` of `total`; a spinner where the end is not known. `template` is that of `indicatif`.
-    pub fn new(template: &str, done: usize, total: Option<usize>) -> Self {
+    pub(super) fn new(template: &str, done: usize, total: Option<usize>) -> Self {
         let bar = || {
             let bar = match total {
                 Some(total) => indicatif::ProgressBar::new(total as u64),
@@ -30,7 +30,7 @@ impl TerminalBar {
     }
 
     /// Shows how much is done; false where there is no terminal.
-    pub fn show(&self, done: usize, message: &str) -> bool {
+    pub(super) fn show(&self, done: usize, message: &str) -> bool {
         let Some(bar) = &self.0 else { return false };
         bar.set_message(message.to_string());
         bar.set_position(done as u64);
@@ -47,7 +47,7 @@ impl Drop for TerminalBar {
 }
 
 /// Progress through `total` units of work.
-pub struct ProgressBar {
+pub(super) struct ProgressBar {
     name: &'static str,
     unit: &'static str,
     total: usize,
@@ -57,12 +57,12 @@ pub struct ProgressBar {
 
 impl ProgressBar {
     /// Begins with `total` frames; `name` says what is being done.
-    pub fn new(name: &'static str, total: usize) -> Self {
+    pub(super) fn new(name: &'static str, total: usize) -> Self {
         Self::of(name, "frame", total)
     }
 
     /// Begins with `total` units of work, `unit` what one is called.
-    pub fn of(name: &'static str, unit: &'static str, total: usize) -> Self {
+    pub(super) fn of(name: &'static str, unit: &'static str, total: usize) -> Self {
         let template = format!("{name} {{wide_bar}} {{msg}} {{pos}} of {{len}}, {{eta}} left");
         let bar = TerminalBar::new(&template, 0, Some(total));
         bar.show(0, unit);
@@ -70,7 +70,7 @@ impl ProgressBar {
     }
 
     /// One more is done.
-    pub fn advance(&mut self) {
+    pub(super) fn advance(&mut self) {
         self.done += 1;
         if !self.bar.show(self.done, self.unit) && self.is_worth_a_line() {
             eprintln!("{}: {} {} of {}", self.name, self.unit, self.done, self.total);

@@ -14,7 +14,7 @@ use crate::track::tracked_points;
 /// frames, then the mean over points; the standard deviation is that of all errors of all points in all frames. Points
 /// are paired by name (see --map), frames by index, or by time where the frame rates differ.
 #[derive(clap::Args, Debug)]
-pub struct ScoreArgs {
+pub(super) struct ScoreArgs {
     /// A track's folder (its markers.c3d or joints.csv, the first that shares a name with the truth), or a file of
     /// points.
     #[arg(value_name = "DIR")]
@@ -54,7 +54,7 @@ pub struct ScoreArgs {
 ///
 /// # Errors
 /// When a file cannot be read or written, or when track and truth share no points or frames; one sentence.
-pub fn run(args: &ScoreArgs) -> Result<()> {
+pub(super) fn run(args: &ScoreArgs) -> Result<()> {
     let mut truth = read_points(&args.truth)?;
     if args.truth_y_up {
         truth = truth.y_up_to_z_up();

@@ -16,7 +16,7 @@ use crate::study::{self, Outcome, Run, Study};
 /// pictures. A study that was stopped or killed goes on with --resume; one that grew does only what is new. Ready study files
 /// are in docs/studies.
 #[derive(clap::Args, Debug)]
-pub struct StudyArgs {
+pub(super) struct StudyArgs {
     /// The study file.
     #[arg(value_name = "STUDY.toml")]
     study: PathBuf,
@@ -33,7 +33,7 @@ pub struct StudyArgs {
 /// # Errors
 /// When the study makes no sense, a sequence cannot be read, a file cannot be written, some runs failed, or it was
 /// interrupted: the sentence says how to go on.
-pub fn run(args: &StudyArgs) -> Result<()> {
+pub(super) fn run(args: &StudyArgs) -> Result<()> {
     let study = Study::load(&args.study)?;
     if args.resume && !args.output.is_dir() {
         bail!("there is no folder {} to resume a study in: leave out --resume", args.output.display());

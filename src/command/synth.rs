@@ -15,7 +15,7 @@ use crate::synth::{Scene, ScenePreset, SyntheticSequence};
 /// ASF/AMC, DeepMimic) in a room before any number of cameras. The folder can be tracked as it is; truth.trc holds the
 /// joints, truth.c3d the markers, truth_poses.csv the poses.
 #[derive(clap::Args, Debug)]
-pub struct SynthArgs {
+pub(super) struct SynthArgs {
     /// The scene.
     #[arg(value_name = "SCENE.toml", required_unless_present = "preset", conflicts_with = "preset")]
     scene: Option<PathBuf>,
@@ -47,7 +47,7 @@ pub struct SynthArgs {
 /// # Errors
 /// When the scene makes no sense, a file it names cannot be read, the folder is not empty (without `--force` or
 /// `--resume`) or a file cannot be written; one sentence.
-pub fn run(args: &SynthArgs) -> Result<()> {
+pub(super) fn run(args: &SynthArgs) -> Result<()> {
     let mut scene = match (&args.scene, &args.preset) {
         (Some(path), _) => Scene::load(path)?,
         (None, preset) => Scene::preset(preset.unwrap_or(ScenePreset::Demo).name())?,

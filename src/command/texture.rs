@@ -20,7 +20,7 @@ use crate::texture::picture::{Solid, View, check_size, contact_sheet, flat, heig
 /// `pantin texture --example brick.png -o wall.png`.
 #[derive(clap::Args, Debug)]
 #[command(group(clap::ArgGroup::new("what").required(true).args(["material", "list", "example"])))]
-pub struct TextureArgs {
+pub(super) struct TextureArgs {
     /// The material's name: see --list
     material: Option<String>,
     /// List the materials, one line each; with -o also draw a sheet of all of them
@@ -125,7 +125,7 @@ fn parse_offset(text: &str) -> Result<[f32; 3], String> {
 ///
 /// # Errors
 /// When the material or a parameter is unknown, a size makes no sense, or a file cannot be read or written.
-pub fn run(args: &TextureArgs) -> Result<()> {
+pub(super) fn run(args: &TextureArgs) -> Result<()> {
     match (&args.example, &args.material, &args.output) {
         (Some(example), _, Some(output)) => from_example(args, example, output),
         (None, Some(material), Some(output)) => of_material(args, material, output),

@@ -22,7 +22,7 @@ use crate::track::{
 /// trusted, the model drawn over the pictures, and a report. A run that was stopped or killed goes on with --resume and
 /// ends with the same files. The same seed, inputs and backend give the same bytes.
 #[derive(clap::Args, Debug)]
-pub struct TrackArgs {
+pub(super) struct TrackArgs {
     /// The sequence: its sequence.toml, or the folder that holds it.
     #[arg(value_name = "SEQUENCE")]
     sequence: PathBuf,
@@ -133,7 +133,7 @@ impl TrackArgs {
 ///
 /// # Errors
 /// As [`track`]; and when it was interrupted: the sentence says how to go on.
-pub fn run(args: &TrackArgs) -> Result<()> {
+pub(super) fn run(args: &TrackArgs) -> Result<()> {
     let settings = args.settings()?;
     settings.check()?;
     let sequence = if settings.realtime.is_some() {

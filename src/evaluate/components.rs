@@ -1,4 +1,4 @@
-//! What the comparison of one candidate image with one observation yields (SPEC A6).
+//! What the comparison of one candidate image with one observation yields (METHOD A6).
 
 /// Sums over the pixels of one candidate in one view. All integers, so the same drawn image gives the same numbers in
 /// any order on any device.

@@ -19,7 +19,7 @@ pub trait DeviceEvaluator: Send {
     /// The number of views.
     fn views(&self) -> usize;
 
-    /// What stands behind the fitness, `[candidate][view]`: four words of drawn area, overlap, edge pixels and proximity (SPEC
+    /// What stands behind the fitness, `[candidate][view]`: four words of drawn area, overlap, edge pixels and proximity (METHOD
     /// A6, without the observed area).
     fn sums(&self) -> &Buffer;
 

@@ -1,5 +1,5 @@
 //! Poses in, components and fitness out: every candidate drawn into every camera and compared with what was seen
-//! (SPEC A6, A7).
+//! (METHOD A6, A7).
 
 mod batch;
 mod bit_planes;

@@ -1,4 +1,4 @@
-//! The five objective functions (SPEC A7): from a candidate's components to one number in [0, 1], to be maximised.
+//! The five objective functions (METHOD A7): from a candidate's components to one number in [0, 1], to be maximised.
 
 use std::ops::Range;
 
@@ -66,7 +66,7 @@ impl Default for Objective {
 }
 
 impl Objective {
-    /// Whether the numbers make sense: weights of a sum are in [0, 1] and sum to 1, exponents of a product in (0, 1] (SPEC A7).
+    /// Whether the numbers make sense: weights of a sum are in [0, 1] and sum to 1, exponents of a product in (0, 1] (METHOD A7).
     ///
     /// # Errors
     /// With the number and what was expected.
@@ -126,7 +126,7 @@ impl Objective {
         }
     }
 
-    /// f1 and f2 (SPEC A7) of one camera by itself.
+    /// f1 and f2 (METHOD A7) of one camera by itself.
     pub fn view_terms(&self, view: &Components) -> [f32; 2] {
         let sums = Sums::default().plus(view);
         [sums.silhouette(self.beta), sums.edge()]
@@ -196,12 +196,12 @@ impl Sums {
         self.area_obs == 0 || self.area_model == 0
     }
 
-    /// f1 (SPEC A7).
+    /// f1 (METHOD A7).
     fn silhouette(&self, beta: f32) -> f32 {
         beta * ratio(self.overlap, self.area_obs) + (1.0 - beta) * ratio(self.overlap, self.area_model)
     }
 
-    /// f2 (SPEC A7).
+    /// f2 (METHOD A7).
     fn edge(&self) -> f32 {
         ratio(self.proximity, 127 * self.edges)
     }
@@ -240,7 +240,7 @@ mod tests {
         ]
     }
 
-    /// SPEC A7 written out by hand for the two views above.
+    /// METHOD A7 written out by hand for the two views above.
     #[test]
     fn the_five_formulas() {
         let beta = 0.3_f64;

@@ -12,7 +12,7 @@ use super::rig::{
 /// A part of the flat model as one camera sees it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PartQuad {
-    /// Corners v1 v2 v3 v4 (SPEC A4) in 1/256 pixel; meaningless when not drawn.
+    /// Corners v1 v2 v3 v4 (METHOD A4) in 1/256 pixel; meaningless when not drawn.
     pub corners: [[i32; 2]; 4],
     /// Squared distance of the cone's mid-point from the camera, mm^2.
     pub depth_squared: f32,

@@ -3,7 +3,7 @@
 use super::projection::PartQuad;
 
 /// A drawn candidate in one view: one byte a pixel, bits 0..=6 the label of the visible part (0 = nothing), bit 7 a
-/// visible edge (SPEC A6).
+/// visible edge (METHOD A6).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CandidateImage {
     /// Width, pixels.

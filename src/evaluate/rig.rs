@@ -117,7 +117,7 @@ pub(crate) fn sin_cos(x: f32) -> (f32, f32) {
     (s, c)
 }
 
-/// The local matrix of a bone from its translation and the sines and cosines of its angles about x, y, z (SPEC A3):
+/// The local matrix of a bone from its translation and the sines and cosines of its angles about x, y, z (METHOD A3):
 /// L = T(offset + t) R, R the Euler product in closed form. For axes (i, j, k) of odd parity the sines change sign.
 #[inline(always)]
 pub(crate) fn local_matrix(bone: &RigBone, translation: [f32; 3], sin: [f32; 3], cos: [f32; 3]) -> Affine {
@@ -276,7 +276,7 @@ pub(crate) fn affine(transform: &DAffine3) -> Affine {
     m
 }
 
-/// The four corners of a truncated cone as seen from `centre` (SPEC A4): v1 v2 v3 v4 in the world, and whether the view
+/// The four corners of a truncated cone as seen from `centre` (METHOD A4): v1 v2 v3 v4 in the world, and whether the view
 /// is not along the limb. When it is, the corners are meaningless and [`end_on_corners`] gives them.
 #[inline(always)]
 pub(crate) fn side_corners(

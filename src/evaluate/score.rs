@@ -9,7 +9,7 @@ use crate::body::Body;
 use crate::features::Observation;
 use crate::geometry::Camera;
 
-/// Scores poses against what the cameras saw, on the processor: the components (SPEC A6) of every pose in every view,
+/// Scores poses against what the cameras saw, on the processor: the components (METHOD A6) of every pose in every view,
 /// `components[pose * cameras.len() + view]`.
 ///
 /// `poses` holds rows of [`Body::dof_count`] values (mm, radians), in the order of [`Body::dof_names`]. For many batches

@@ -1,4 +1,4 @@
-//! Silhouettes compared segment by segment (SPEC A6, A7): a body in parts that look alike.
+//! Silhouettes compared segment by segment (METHOD A6, A7): a body in parts that look alike.
 
 use std::sync::Arc;
 

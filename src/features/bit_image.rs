@@ -259,7 +259,7 @@ mod tests {
     use proptest::prelude::*;
 
     /// Random pictures of widths around the word size.
-    pub fn any_bit_image() -> impl Strategy<Value = BitImage> {
+    pub(crate) fn any_bit_image() -> impl Strategy<Value = BitImage> {
         (1_u32..140, 1_u32..24).prop_flat_map(|(width, height)| {
             let density = prop_oneof![Just(0.03), Just(0.5), Just(0.97)];
             let pixels = density.prop_flat_map(move |p| {

@@ -1,4 +1,4 @@
-//! A mixture of Gaussians per pixel: a background learnt from the pictures themselves (SPEC A5.1).
+//! A mixture of Gaussians per pixel: a background learnt from the pictures themselves (METHOD A5.1).
 
 use image::RgbImage;
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! From pictures to packed observations (SPEC A5).
+//! From pictures to packed observations (METHOD A5).
 //!
 //! One file a stage, in the order of the data: [`plate`] or [`mixture`] (with [`shadow`]) → [`morphology`] and [`blobs`]
 //! → [`edges`] → [`distance`] → [`proximity`] → [`Observation`]. [`Extractor`] runs them all, one view a task, or a Vulkan device

@@ -1,4 +1,4 @@
-//! The packed observation: what one camera saw in one frame, one byte a pixel (SPEC A5.5).
+//! The packed observation: what one camera saw in one frame, one byte a pixel (METHOD A5.5).
 
 use std::path::Path;
 

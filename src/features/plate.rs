@@ -46,7 +46,7 @@ pub(super) struct DifferenceRow {
 
 impl DifferenceRow {
     /// A row without differences.
-    pub fn new(width: usize) -> Self {
+    pub(super) fn new(width: usize) -> Self {
         Self { weak: vec![0; width], strong: vec![0; width], faint: vec![0; width] }
     }
 }

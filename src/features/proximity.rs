@@ -1,4 +1,4 @@
-//! Distance to proximity: 1 on an edge, 0 far away, in 127ths (SPEC A5.4).
+//! Distance to proximity: 1 on an edge, 0 far away, in 127ths (METHOD A5.4).
 
 use serde::Deserialize;
 

@@ -1,4 +1,4 @@
-//! The region of interest: where in a picture the person is, with room for the motion of one frame (SPEC A5.6).
+//! The region of interest: where in a picture the person is, with room for the motion of one frame (METHOD A5.6).
 
 /// A half-open rectangle of pixels: columns `x0..x1`, rows `y0..y1`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Which body part a silhouette's pixel belongs to, by skin, by the clothes' colour, and by where it lies (SPEC A5.5).
+//! Which body part a silhouette's pixel belongs to, by skin, by the clothes' colour, and by where it lies (METHOD A5.5).
 //!
 //! A pixel of the silhouette belongs to the first segment listed whose cue holds there, and to none where none holds.
 

@@ -1,5 +1,5 @@
 //! Body parts told apart in what a camera saw: a segment number a pixel, in a second plane beside the packed bytes
-//! (SPEC A5.5), and which parts of the body each segment stands for (SPEC A7).
+//! (METHOD A5.5), and which parts of the body each segment stands for (METHOD A7).
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! The Brown-Conrady lens of OpenCV, Pose2Sim, anipose and Qualisys files (SPEC A2).
+//! The Brown-Conrady lens of OpenCV, Pose2Sim, anipose and Qualisys files (METHOD A2).
 
 use glam::{DMat2, DVec2};
 

@@ -1,4 +1,4 @@
-//! Cameras: where they stand and how their lens maps (SPEC A2).
+//! Cameras: where they stand and how their lens maps (METHOD A2).
 
 use glam::{DAffine3, DVec2, DVec3};
 

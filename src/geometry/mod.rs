@@ -1,4 +1,4 @@
-//! Transforms and camera models (SPEC A2, A3). Everything here is double precision; what a whole swarm is projected with
+//! Transforms and camera models (METHOD A2, A3). Everything here is double precision; what a whole swarm is projected with
 //! is the single-precision form in [`crate::evaluate`].
 
 mod brown_conrady;

@@ -1,4 +1,4 @@
-//! Rotations, right-handed: of bones by Euler angles in a stated order (SPEC A3), of cameras by Rodrigues vectors.
+//! Rotations, right-handed: of bones by Euler angles in a stated order (METHOD A3), of cameras by Rodrigues vectors.
 
 use glam::{DMat3, DQuat, DVec3};
 

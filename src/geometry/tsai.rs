@@ -1,8 +1,8 @@
-//! Tsai's camera model with one radial coefficient (SPEC A2).
+//! Tsai's camera model with one radial coefficient (METHOD A2).
 
 use glam::DVec2;
 
-/// Intrinsics of Tsai's model (SPEC A2): X_u = X_d (1 + kappa r_d^2) on the image plane in mm.
+/// Intrinsics of Tsai's model (METHOD A2): X_u = X_d (1 + kappa r_d^2) on the image plane in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tsai {
     /// Focal length, mm.

@@ -1,4 +1,4 @@
-//! Cameras in the constants that calibration programs of Tsai's kind print (SPEC A2).
+//! Cameras in the constants that calibration programs of Tsai's kind print (METHOD A2).
 
 use glam::{DAffine3, DVec2, DVec3};
 

@@ -1,4 +1,4 @@
-//! The distance between a trajectory and its truth (SPEC A10): |p(estimate) - p(truth)| for every point in every frame,
+//! The distance between a trajectory and its truth (METHOD A10): |p(estimate) - p(truth)| for every point in every frame,
 //! its mean over frames and then over points, and the standard deviation of all of them.
 
 use std::io::Write;

@@ -1,4 +1,4 @@
-//! Trajectories of points and bodies: C3D, TRC, BVH, ASF/AMC, DeepMimic and CSV files, and the error between two of them (SPEC A10).
+//! Trajectories of points and bodies: C3D, TRC, BVH, ASF/AMC, DeepMimic and CSV files, and the error between two of them (METHOD A10).
 
 mod bvh;
 mod c3d;

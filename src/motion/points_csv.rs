@@ -1,5 +1,5 @@
 //! Points as CSV: `frame,time,<name>.x,<name>.y,<name>.z,…`, mm, seconds, frames from 0, missing points empty
-//! (joints.csv of INTERFACES). Tables that name their columns `<name>_x` and `time_s`, or have no time, are read as
+//! (joints.csv of FORMATS). Tables that name their columns `<name>_x` and `time_s`, or have no time, are read as
 //! well.
 
 use std::io::Write;

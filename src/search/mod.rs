@@ -1,4 +1,4 @@
-//! Search for the best pose of a frame over counter-based random numbers (SPEC A8): particle swarm, particle filter, annealed
+//! Search for the best pose of a frame over counter-based random numbers (METHOD A8): particle swarm, particle filter, annealed
 //! particle filter, hierarchical particle swarm and CMA-ES, at equal numbers of evaluations.
 //!
 //! A search proposes batches of poses and is told their fitness; it knows neither cameras nor pictures. All of its random

@@ -4,7 +4,7 @@ use anyhow::{Result, ensure};
 
 use crate::body::Body;
 
-/// The interval the steps of a body are for, s (INTERFACES).
+/// The interval the steps of a body are for, s (FORMATS).
 const STEP_INTERVAL: f64 = 1.0 / 25.0;
 
 /// Limits and speeds of every degree of freedom in single precision, in state-vector order (mm, radians).

@@ -14,7 +14,7 @@ use super::video::{VideoInfo, probe_video};
 use crate::files::{parse_toml, read_toml};
 use crate::geometry::Camera;
 
-/// A sequence: synchronised pictures of calibrated cameras, and what belongs to them (SPEC A2, INTERFACES).
+/// A sequence: synchronised pictures of calibrated cameras, and what belongs to them (METHOD A2, FORMATS).
 #[derive(Clone, Debug)]
 pub struct Sequence {
     /// The manifest's file.
@@ -143,7 +143,7 @@ impl Sequence {
         Ok(sequence)
     }
 
-    /// As [`Self::open`], but the views may be live sources: cameras and streams (INTERFACES: `source` with an address like
+    /// As [`Self::open`], but the views may be live sources: cameras and streams (FORMATS: `source` with an address like
     /// `rtsp://…` or a device like `/dev/video0`, or any `source` with `input`, options for ffmpeg).
     ///
     /// # Errors

@@ -10,7 +10,7 @@ struct Scene {
 
 const CAMERA_SIZE: [u32; 2] = [40, 30];
 
-pub(in crate::sequence) fn camera_table(name: &str, size: [u32; 2], rotation: [f64; 3]) -> String {
+pub(crate) fn camera_table(name: &str, size: [u32; 2], rotation: [f64; 3]) -> String {
     let [width, height] = size.map(f64::from);
     format!(
         "[{name}]\nname = \"{name}\"\nsize = [{width:.1}, {height:.1}]\n\
@@ -108,7 +108,7 @@ fn a_range_past_the_end_is_a_sentence() {
     let sequence = Scene::new().open("").unwrap();
     let error = format!("{:#}", sequence.read_frames(1..9).unwrap_err());
     assert!(error.contains("frames 1..9 were asked for") && error.contains("has 3 frames"), "{error}");
-    #[allow(clippy::reversed_empty_ranges)]
+    #[allow(clippy::reversed_empty_ranges, reason = "what is refused is tried")]
     let backwards = sequence.read_frames(2..1);
     assert!(backwards.is_err());
     assert!(sequence.read_frames(0..usize::MAX).is_err());

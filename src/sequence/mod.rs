@@ -1,4 +1,4 @@
-//! Sequences: the manifest, video and picture input, calibration files (SPEC A2, INTERFACES).
+//! Sequences: the manifest, video and picture input, calibration files (METHOD A2, FORMATS).
 
 mod calibration;
 mod coverage;

@@ -1,4 +1,4 @@
-//! A recorded sequence played at its frame rate, as if its cameras delivered it now (SPEC A11).
+//! A recorded sequence played at its frame rate, as if its cameras delivered it now (METHOD A11).
 
 use std::ops::Range;
 use std::thread;

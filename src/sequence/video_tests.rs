@@ -4,7 +4,7 @@ use super::super::program::lock;
 use super::*;
 
 /// Whether the programs are there; says so where not, so that a skipped test is seen.
-pub(in crate::sequence) fn ffmpeg_is_here(test: &str) -> bool {
+pub(crate) fn ffmpeg_is_here(test: &str) -> bool {
     let here = Command::new("ffmpeg").arg("-version").output().is_ok() && Command::new("ffprobe").output().is_ok();
     if !here {
         println!("SKIPPED {test}: ffmpeg is not installed");
@@ -13,7 +13,7 @@ pub(in crate::sequence) fn ffmpeg_is_here(test: &str) -> bool {
 }
 
 /// Makes a video with ffmpeg's own test picture, which differs from frame to frame.
-pub(in crate::sequence) fn make_video(path: &Path, size: &str, frames: usize, options: &[&str]) {
+pub(crate) fn make_video(path: &Path, size: &str, frames: usize, options: &[&str]) {
     let status = Command::new("ffmpeg")
         .args(["-v", "error", "-nostdin", "-y", "-f", "lavfi", "-i", &format!("testsrc2=size={size}:rate=25")])
         .args(options)

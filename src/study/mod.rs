@@ -1,4 +1,4 @@
-//! Studies: many runs over sequences x settings x seeds, and what they say together (SPEC A10: every configuration is run
+//! Studies: many runs over sequences x settings x seeds, and what they say together (METHOD A10: every configuration is run
 //! with several seeds and told as mean and standard deviation).
 //!
 //! A [`Study`] is read from a TOML file; [`run`] makes its runs one after the other into a folder, goes on where an

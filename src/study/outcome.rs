@@ -22,7 +22,7 @@ pub struct Outcome {
     pub frames: usize,
     /// Points that were compared with the truth.
     pub points: usize,
-    /// Mean error over frames, then over points, mm (SPEC A10).
+    /// Mean error over frames, then over points, mm (METHOD A10).
     pub error: Option<f64>,
     /// Standard deviation of all point-frame errors, mm.
     pub error_std: Option<f64>,

@@ -235,7 +235,7 @@ impl Tailor<'_> {
 }
 
 impl Actor {
-    /// Dresses a body. It must have the bones of the default body (SPEC A3) and parts that show where limbs end.
+    /// Dresses a body. It must have the bones of the default body (METHOD A3) and parts that show where limbs end.
     ///
     /// # Errors
     /// When a bone or the end of a limb is missing; the message names it.

@@ -3,4 +3,4 @@
 use glam::DVec3;
 
 /// Linear light or reflectance, red green blue.
-pub type Colour = DVec3;
+pub(super) type Colour = DVec3;

@@ -1,7 +1,7 @@
 //! Numbers that depend on their counters alone: the same pattern and noise in any order on any machine.
 
 /// A well mixed 32-bit number from a 64-bit counter (two rounds of multiply and shift).
-pub fn hash(counter: u64) -> u32 {
+pub(super) fn hash(counter: u64) -> u32 {
     let mut x = counter ^ 0x6a09_e667_f3bc_c908;
     x = (x ^ (x >> 32)).wrapping_mul(0xd6e8_feb8_6659_fd93);
     x = (x ^ (x >> 32)).wrapping_mul(0xd6e8_feb8_6659_fd93);
@@ -9,13 +9,13 @@ pub fn hash(counter: u64) -> u32 {
 }
 
 /// A number in [0, 1) for a cell of an integer lattice.
-pub fn cell(x: i64, y: i64, layer: u64) -> f64 {
+pub(super) fn cell(x: i64, y: i64, layer: u64) -> f64 {
     let counter = (x as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (y as u64).wrapping_mul(0xc2b2_ae3d_27d4_eb4f);
     f64::from(hash(counter.wrapping_add(layer.wrapping_mul(0x1656_67b1_9e37_79f9)))) / 4_294_967_296.0
 }
 
 /// Smooth noise in [0, 1] over the plane, one feature a unit: lattice values mixed with a cubic fade.
-pub fn smooth_noise(x: f64, y: f64, layer: u64) -> f64 {
+pub(super) fn smooth_noise(x: f64, y: f64, layer: u64) -> f64 {
     let (cx, cy) = (x.floor(), y.floor());
     let fade = |t: f64| t * t * (3.0 - 2.0 * t);
     let (fx, fy) = (fade(x - cx), fade(y - cy));

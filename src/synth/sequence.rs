@@ -134,7 +134,7 @@ impl SyntheticSequence {
         self.body.joint_trajectory(&self.poses, self.scene.fps)
     }
 
-    /// Writes the sequence (INTERFACES, sequence.toml) with its pictures, plates/ and its truth: truth.trc (joints), truth.c3d
+    /// Writes the sequence (FORMATS, sequence.toml) with its pictures, plates/ and its truth: truth.trc (joints), truth.c3d
     /// (markers), truth_poses.csv; dropped.csv where cameras drop frames; scene.toml, which makes it again. sequence.toml
     /// comes last, so that a folder that has one is complete. With `resume` the pictures that are there are kept.
     /// `progress` is called with the number of frames done, from any thread. A `device` draws the pictures instead of the

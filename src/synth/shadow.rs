@@ -11,7 +11,7 @@ const BIN: f64 = 45.0;
 const MESH_BIN: f64 = 12.0;
 
 /// Solids and triangles sorted by where they stand in the light, to ask quickly whether a point is in their shadow.
-pub struct LightBins<'a> {
+pub(super) struct LightBins<'a> {
     primitives: &'a [Primitive],
     /// Towards the light, unit length.
     to_light: DVec3,
@@ -25,7 +25,7 @@ pub struct LightBins<'a> {
 
 impl<'a> LightBins<'a> {
     /// Sorts them for parallel light from the direction `to_light`.
-    pub fn new(primitives: &'a [Primitive], to_light: DVec3) -> Self {
+    pub(super) fn new(primitives: &'a [Primitive], to_light: DVec3) -> Self {
         let across = to_light.any_orthonormal_pair();
         let across = [across.0, across.1];
         let flat = |p: DVec3| DVec2::new(p.dot(across[0]), p.dot(across[1]));
@@ -54,7 +54,7 @@ impl<'a> LightBins<'a> {
     }
 
     /// Whether something stands between the point and the light.
-    pub fn in_shadow(&self, point: DVec3) -> bool {
+    pub(super) fn in_shadow(&self, point: DVec3) -> bool {
         let at = (DVec2::new(point.dot(self.across[0]), point.dot(self.across[1])) - self.origin) / self.width;
         if at.x < 0.0 || at.y < 0.0 || at.x >= self.size[0] as f64 || at.y >= self.size[1] as f64 {
             return false;
@@ -66,7 +66,7 @@ impl<'a> LightBins<'a> {
 }
 
 /// How much of the light reaches the floor round the actor: a grid of factors, 1 in the open.
-pub struct FloorShadow {
+pub(super) struct FloorShadow {
     origin: DVec2,
     side: usize,
     /// (key light, light from all around) as fractions of the unshaded, row-major.
@@ -80,7 +80,7 @@ const SIDE: usize = SHADOW_SIDE as usize;
 impl FloorShadow {
     /// The shadow of what is in `bins`, in a square of the floor round `middle`; `balls` are pairs whose hulls stand for it
     /// where light comes from all around.
-    pub fn new(bins: &LightBins, balls: &[[BoundingBall; 2]], middle: DVec2) -> Self {
+    pub(super) fn new(bins: &LightBins, balls: &[[BoundingBall; 2]], middle: DVec2) -> Self {
         let origin = middle - 0.5 * CELL * SIDE as f64;
         let at = |index: usize| origin + DVec2::new((index % SIDE) as f64 + 0.5, (index / SIDE) as f64 + 0.5) * CELL;
         let mut key: Vec<f32> =
@@ -105,7 +105,7 @@ impl FloorShadow {
     }
 
     /// Fractions of (key light, light from all around) at a point of the floor.
-    pub fn at(&self, x: f64, y: f64) -> [f32; 2] {
+    pub(super) fn at(&self, x: f64, y: f64) -> [f32; 2] {
         let p = (DVec2::new(x, y) - self.origin) / CELL - 0.5;
         let limit = (self.side - 1) as f64;
         if !(p.x >= 0.0 && p.y >= 0.0 && p.x < limit && p.y < limit) {

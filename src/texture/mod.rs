@@ -1,4 +1,4 @@
-//! Procedural textures (SPEC B): noise, materials cut out of space, pictures of them, synthesis from an example.
+//! Procedural textures (METHOD B): noise, materials cut out of space, pictures of them, synthesis from an example.
 
 pub mod device;
 pub mod example;

@@ -26,7 +26,7 @@ use crate::files::OutputFolder;
 use crate::gpu::DeviceLost;
 use crate::sequence::Sequence;
 
-/// Tracks a sequence and fills `output` with what INTERFACES calls a track's folder.
+/// Tracks a sequence and fills `output` with what FORMATS calls a track's folder.
 ///
 /// While it runs, the folder holds `run.toml` and a journal with every finished frame; the results appear when the last
 /// frame is done. With [`TrackSettings::resume`] it goes on from the journal and ends with the same bytes as a run that was

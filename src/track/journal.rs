@@ -21,7 +21,7 @@ pub struct FrameResult {
     pub fitness: f32,
     /// Standard deviation of the candidates behind it, one a degree of freedom: mm, radians.
     pub spread: Vec<f32>,
-    /// f1 and f2 (SPEC A7) of each view.
+    /// f1 and f2 (METHOD A7) of each view.
     pub views: Vec<[f32; 2]>,
     /// Share of the views in which a joint lies on the silhouette, one a joint.
     pub joints: Vec<f32>,

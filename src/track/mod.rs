@@ -1,5 +1,5 @@
 //! Tracking: one frame in order (features, search, pose, confidence) and the drivers that take a sequence through it
-//! (SPEC A1, A8), with everything a track's folder holds (INTERFACES).
+//! (METHOD A1, A8), with everything a track's folder holds (FORMATS).
 //!
 //! [`track`] is the driver, offline and in real time. [`score_poses`] scores given poses of one frame.
 

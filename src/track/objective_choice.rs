@@ -25,7 +25,7 @@ impl ObjectiveChoice {
     /// over the defaults.
     ///
     /// # Errors
-    /// An unknown key or kind, a value of the wrong type or one that makes no sense (SPEC A7: weights of a sum are in
+    /// An unknown key or kind, a value of the wrong type or one that makes no sense (METHOD A7: weights of a sum are in
     /// [0, 1] and sum to 1, exponents of a product in (0, 1]).
     pub fn resolve(&self, table: Option<&toml::Table>, name: &str) -> Result<Objective> {
         let mut objective = Objective::default();

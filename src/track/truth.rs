@@ -1,4 +1,4 @@
-//! The error against a sequence's truth while it is tracked, and in the end (SPEC A10).
+//! The error against a sequence's truth while it is tracked, and in the end (METHOD A10).
 
 use std::path::{Path, PathBuf};
 

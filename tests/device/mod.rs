@@ -5,12 +5,16 @@
 use pantin::gpu::{Device, DeviceSettings, Instance, Validation, ValidationLog};
 
 /// A device under full validation, and its log; none where there is no Vulkan, which is a failure where PANTIN_NEEDS_VULKAN is set.
-pub fn device(test: &str, settings: DeviceSettings) -> Option<(Device, ValidationLog)> {
+pub(crate) fn device(test: &str, settings: DeviceSettings) -> Option<(Device, ValidationLog)> {
     device_under(Validation::Synchronisation, test, settings)
 }
 
 /// The same with other validation.
-pub fn device_under(validation: Validation, test: &str, settings: DeviceSettings) -> Option<(Device, ValidationLog)> {
+pub(crate) fn device_under(
+    validation: Validation,
+    test: &str,
+    settings: DeviceSettings,
+) -> Option<(Device, ValidationLog)> {
     match Instance::open(validation) {
         Ok(instance) => Some((Device::open(&instance, settings).unwrap(), instance.validation_log())),
         Err(error) => {

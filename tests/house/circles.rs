@@ -15,11 +15,11 @@ struct Module {
 }
 
 /// The modules of a crate by path (`a::b`; the root is empty).
-pub struct Modules(BTreeMap<String, Module>);
+pub(crate) struct Modules(BTreeMap<String, Module>);
 
 impl Modules {
     /// From the sources under src/, each with its path there: those that a `mod` declaration outside tests reaches.
-    pub fn of(sources: &[(String, String)]) -> Self {
+    pub(crate) fn of(sources: &[(String, String)]) -> Self {
         let mut modules = BTreeMap::new();
         let mut open = vec![(String::new(), "lib".to_string())];
         while let Some((path, file)) = open.pop() {
@@ -37,7 +37,7 @@ impl Modules {
     }
 
     /// How many there are.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.0.len()
     }
 
@@ -86,7 +86,7 @@ impl Modules {
     }
 
     /// Every set of modules that need each other in a circle.
-    pub fn circles(&self) -> Vec<Vec<String>> {
+    pub(crate) fn circles(&self) -> Vec<Vec<String>> {
         let needs: BTreeMap<&str, BTreeSet<String>> =
             self.0.keys().map(|path| (path.as_str(), self.needs(path))).collect();
         let mut reached: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();

@@ -54,7 +54,7 @@ fn targets(text: &str) -> Vec<String> {
 }
 
 /// What is wrong with the links of the pages below `root`: a sentence a link.
-pub fn broken(root: &Path) -> Vec<String> {
+pub(crate) fn broken(root: &Path) -> Vec<String> {
     let mut broken = Vec::new();
     for page in pages(root) {
         let text = fs::read_to_string(&page).unwrap();

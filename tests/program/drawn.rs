@@ -13,21 +13,21 @@ use pantin::motion::write_points;
 use pantin::sequence::write_cameras_toml;
 
 /// Four cameras on a circle round the z axis.
-pub struct Ring {
+pub(crate) struct Ring {
     /// Radius of the circle, mm.
-    pub radius: f64,
+    pub(crate) radius: f64,
     /// Its height, mm.
-    pub height: f64,
+    pub(crate) height: f64,
     /// The height that all of them look at, mm.
-    pub target: f64,
+    pub(crate) target: f64,
     /// Pictures, pixels.
-    pub size: [u32; 2],
+    pub(crate) size: [u32; 2],
     /// Focal length, pixels.
-    pub focal: f64,
+    pub(crate) focal: f64,
 }
 
 impl Ring {
-    pub fn cameras(&self) -> Vec<Camera> {
+    pub(crate) fn cameras(&self) -> Vec<Camera> {
         (0..4)
             .map(|index| {
                 let angle = 0.4 + f64::from(index) * std::f64::consts::FRAC_PI_2;
@@ -53,7 +53,7 @@ impl Ring {
 }
 
 /// Writes a sequence of 25 frames a second into a folder: pictures and masks of the poses, calibration, body, first pose, truth.
-pub fn write(folder: &Path, name: &str, body: &Body, cameras: &[Camera], table: &PoseTable) {
+pub(crate) fn write(folder: &Path, name: &str, body: &Body, cameras: &[Camera], table: &PoseTable) {
     body.save(&folder.join("body.toml"), Overwrite::Refuse).unwrap();
     write_cameras_toml(&folder.join("cameras.toml"), cameras, Overwrite::Refuse).unwrap();
     let start = PoseTable { frames: vec![0], poses: vec![table.poses[0].clone()] };

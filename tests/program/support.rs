@@ -9,40 +9,41 @@ use tempfile::TempDir;
 use super::walk;
 
 /// Variables under which the loader finds no driver, by its old and its new name for them.
-pub const NO_DRIVER: [(&str, &str); 2] = [("VK_ICD_FILENAMES", "/nonexistent"), ("VK_DRIVER_FILES", "/nonexistent")];
+pub(crate) const NO_DRIVER: [(&str, &str); 2] =
+    [("VK_ICD_FILENAMES", "/nonexistent"), ("VK_DRIVER_FILES", "/nonexistent")];
 
 /// The program.
-pub fn program() -> Command {
+pub(crate) fn program() -> Command {
     Command::new(env!("CARGO_BIN_EXE_pantin"))
 }
 
 /// Runs it on these arguments.
-pub fn pantin(arguments: &[&str]) -> Output {
+pub(crate) fn pantin(arguments: &[&str]) -> Output {
     program().args(arguments).output().unwrap()
 }
 
 /// Runs it in a folder: exit status, standard output, standard error.
-pub fn pantin_in(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+pub(crate) fn pantin_in(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     let output = program().current_dir(folder).args(arguments).output().unwrap();
     (output.status.code().unwrap(), stdout(&output), stderr(&output))
 }
 
-pub fn stdout(output: &Output) -> String {
+pub(crate) fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
 }
 
-pub fn stderr(output: &Output) -> String {
+pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
 #[track_caller]
-pub fn succeeded(output: &Output) {
+pub(crate) fn succeeded(output: &Output) {
     assert!(output.status.success(), "{}", stderr(output));
 }
 
 /// Runs that must fail with status 1 and one sentence that holds `parts`.
 #[track_caller]
-pub fn refused(output: &Output, parts: &[&str]) {
+pub(crate) fn refused(output: &Output, parts: &[&str]) {
     let text = stderr(output);
     assert_eq!(output.status.code(), Some(1), "{text}");
     let sentence = text.lines().last().unwrap_or_default();
@@ -54,7 +55,7 @@ pub fn refused(output: &Output, parts: &[&str]) {
 
 /// Runs in a folder that must fail with status 1 and one sentence, which alone is said and holds `part`.
 #[track_caller]
-pub fn refused_in(folder: &Path, arguments: &[&str], part: &str) {
+pub(crate) fn refused_in(folder: &Path, arguments: &[&str], part: &str) {
     let (status, _, error) = pantin_in(folder, arguments);
     assert_eq!(status, 1, "{error}");
     assert!(error.contains(part), "{error}\nshould say: {part}");
@@ -62,7 +63,7 @@ pub fn refused_in(folder: &Path, arguments: &[&str], part: &str) {
 }
 
 /// A file or folder of the recordings beside the repository, or a line that says that the test is skipped.
-pub fn shared(test: &str, name: &str) -> Option<PathBuf> {
+pub(crate) fn shared(test: &str, name: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
     if !path.exists() {
         println!("SKIPPED {test}: ../shared/data is absent");
@@ -72,7 +73,7 @@ pub fn shared(test: &str, name: &str) -> Option<PathBuf> {
 }
 
 /// Whether ffmpeg is there; says so where not, so that a skipped test is seen.
-pub fn has_ffmpeg(test: &str) -> bool {
+pub(crate) fn has_ffmpeg(test: &str) -> bool {
     let here = Command::new("ffmpeg").arg("-version").output().is_ok();
     if !here {
         println!("SKIPPED {test}: ffmpeg is not installed");
@@ -81,7 +82,7 @@ pub fn has_ffmpeg(test: &str) -> bool {
 }
 
 /// Whether there is a Vulkan device for the backends that need one; none is a failure in CI.
-pub fn has_vulkan(test: &str) -> bool {
+pub(crate) fn has_vulkan(test: &str) -> bool {
     let opened = pantin::evaluate::device::open_device();
     if let Err(error) = &opened {
         assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
@@ -91,7 +92,7 @@ pub fn has_vulkan(test: &str) -> bool {
 }
 
 /// The sequence that runs track, made once: six frames of pictures and masks, four cameras, 160x120.
-pub fn sequence() -> &'static Path {
+pub(crate) fn sequence() -> &'static Path {
     static SEQUENCE: OnceLock<TempDir> = OnceLock::new();
     SEQUENCE
         .get_or_init(|| {
@@ -104,7 +105,7 @@ pub fn sequence() -> &'static Path {
 
 /// The recording of the beam as a sequence (docs/BEAM.md): the fixture's manifest, body and start pose beside the recording's
 /// files in `data`.
-pub fn lay_out_beam(data: &Path, folder: &Path) {
+pub(crate) fn lay_out_beam(data: &Path, folder: &Path) {
     std::fs::create_dir_all(folder).unwrap();
     for name in ["sequence.toml", "body.toml", "start.csv"] {
         copy(&beam_fixture(name), &folder.join(name));
@@ -120,12 +121,12 @@ pub fn lay_out_beam(data: &Path, folder: &Path) {
 }
 
 /// A file that the repository has beside the recording of the beam.
-pub fn beam_fixture(name: &str) -> PathBuf {
+pub(crate) fn beam_fixture(name: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/beam")).join(name)
 }
 
 /// Copies a file whatever its permissions are.
-pub fn copy(from: &Path, to: &Path) {
+pub(crate) fn copy(from: &Path, to: &Path) {
     let bytes = std::fs::read(from).unwrap_or_else(|error| panic!("{}: {error}", from.display()));
     std::fs::write(to, bytes).unwrap_or_else(|error| panic!("{}: {error}", to.display()));
 }

@@ -8,15 +8,15 @@ use pantin::geometry::Camera;
 use super::drawn;
 
 /// Frames of the sequence.
-pub const FRAMES: usize = 6;
+pub(crate) const FRAMES: usize = 6;
 
 /// Four cameras round the origin, four metres away.
-pub fn cameras() -> Vec<Camera> {
+pub(crate) fn cameras() -> Vec<Camera> {
     drawn::Ring { radius: 4000.0, height: 1300.0, target: 900.0, size: [160, 120], focal: 190.0 }.cameras()
 }
 
 /// The true poses: a step forward with an arm going up.
-pub fn poses(body: &Body) -> PoseTable {
+pub(crate) fn poses(body: &Body) -> PoseTable {
     let names = body.dof_names();
     let index = |name: &str| names.iter().position(|dof| dof == name).unwrap();
     let pose = |frame: usize| {
@@ -34,7 +34,7 @@ pub fn poses(body: &Body) -> PoseTable {
 }
 
 /// Writes the sequence into a folder.
-pub fn write(folder: &Path) {
+pub(crate) fn write(folder: &Path) {
     let body = Body::adult(1750.0).unwrap();
     drawn::write(folder, "step", &body, &cameras(), &poses(&body));
 }

@@ -7,20 +7,20 @@ use pantin::features::Observation;
 use pantin::geometry::{BrownConrady, Camera, Lens, Tsai};
 
 /// A small generator for test data.
-pub struct Random(pub u64);
+pub(crate) struct Random(pub u64);
 
 impl Random {
-    pub fn next(&mut self) -> u32 {
+    pub(crate) fn next(&mut self) -> u32 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) as u32
     }
 
-    pub fn uniform(&mut self, low: f32, high: f32) -> f32 {
+    pub(crate) fn uniform(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * (self.next() as f32 / (1_u32 << 31) as f32)
     }
 }
 
-pub fn camera(name: &str, size: [u32; 2], eye: DVec3, target: DVec3, lens: Lens) -> Camera {
+pub(crate) fn camera(name: &str, size: [u32; 2], eye: DVec3, target: DVec3, lens: Lens) -> Camera {
     let forward = (target - eye).normalize();
     let right = forward.cross(DVec3::Z).normalize();
     let down = forward.cross(right);
@@ -29,13 +29,13 @@ pub fn camera(name: &str, size: [u32; 2], eye: DVec3, target: DVec3, lens: Lens)
     Camera { name: name.into(), size, camera_from_world, lens }
 }
 
-pub fn brown(focal: f64, size: [u32; 2], radial: [f64; 3], tangential: [f64; 2]) -> Lens {
+pub(crate) fn brown(focal: f64, size: [u32; 2], radial: [f64; 3], tangential: [f64; 2]) -> Lens {
     let centre = DVec2::new(f64::from(size[0]), f64::from(size[1])) / 2.0;
     Lens::BrownConrady(BrownConrady { focal: DVec2::splat(focal), centre, radial, tangential })
 }
 
 /// Four cameras of different sizes and lenses, one of them in the middle of the action.
-pub fn cameras() -> Vec<Camera> {
+pub(crate) fn cameras() -> Vec<Camera> {
     let target = DVec3::new(0.0, 0.0, 900.0);
     let tsai = Tsai { f: 8.0, kappa: -4e-4, centre: DVec2::new(70.0, 52.0), sx: 1.01, pitch: DVec2::new(0.05, 0.05) };
     vec![
@@ -58,7 +58,7 @@ pub fn cameras() -> Vec<Camera> {
     ]
 }
 
-pub fn observations(cameras: &[Camera], random: &mut Random) -> Vec<Observation> {
+pub(crate) fn observations(cameras: &[Camera], random: &mut Random) -> Vec<Observation> {
     cameras
         .iter()
         .map(|camera| {
@@ -73,7 +73,7 @@ pub fn observations(cameras: &[Camera], random: &mut Random) -> Vec<Observation>
 
 /// Poses from calm to wild: within the limits near the origin, anywhere within the limits, any angle anywhere (behind
 /// cameras, inside them, off screen).
-pub fn poses(body: &Body, count: usize, random: &mut Random) -> Vec<f32> {
+pub(crate) fn poses(body: &Body, count: usize, random: &mut Random) -> Vec<f32> {
     let mut poses = Vec::new();
     for index in 0..count {
         for (_, dof) in body.dofs() {
@@ -92,14 +92,14 @@ pub fn poses(body: &Body, count: usize, random: &mut Random) -> Vec<f32> {
 }
 
 /// The first candidate and view whose components differ.
-pub fn first_difference(views: usize, expected: &[Components], found: &[Components]) -> Option<String> {
+pub(crate) fn first_difference(views: usize, expected: &[Components], found: &[Components]) -> Option<String> {
     assert_eq!(expected.len(), found.len());
     let index = expected.iter().zip(found).position(|(expected, found)| expected != found)?;
     let (pose, view) = (index / views, index % views);
     Some(format!("pose {pose}, view {view}: expected {:?}, found {:?}", expected[index], found[index]))
 }
 
-pub fn evaluate(evaluator: &mut dyn Evaluator, observations: &[Observation], poses: &[f32]) -> Vec<Components> {
+pub(crate) fn evaluate(evaluator: &mut dyn Evaluator, observations: &[Observation], poses: &[f32]) -> Vec<Components> {
     evaluator.observe(observations).unwrap();
     let count = poses.len() / evaluator.dof_count();
     let mut components = vec![Components::default(); count * evaluator.view_count()];
@@ -107,7 +107,12 @@ pub fn evaluate(evaluator: &mut dyn Evaluator, observations: &[Observation], pos
     components
 }
 
-pub fn reference_in_parallel(body: &Body, cameras: &[Camera], seen: &[Observation], poses: &[f32]) -> Vec<Components> {
+pub(crate) fn reference_in_parallel(
+    body: &Body,
+    cameras: &[Camera],
+    seen: &[Observation],
+    poses: &[f32],
+) -> Vec<Components> {
     let half = poses.len() / body.dof_count() / 2 * body.dof_count();
     std::thread::scope(|scope| {
         let run = |poses| move || evaluate(&mut Reference::new(body, cameras), seen, poses);

@@ -1,4 +1,4 @@
-//! Meshes generated from the truncated cones of a body: the ladder of the benchmark (SPEC A4).
+//! Meshes generated from the truncated cones of a body: the ladder of the benchmark (METHOD A4).
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;

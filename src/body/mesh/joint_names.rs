@@ -174,7 +174,7 @@ impl JointMap {
 
 /// A name as (side, words run together in lower case): left is `Some(true)`. `mixamorig:LeftUpLeg`, `J_Bip_L_UpperLeg` and
 /// `upper_leg.L` are all left and end as `upleg` or `upperleg`.
-pub(in crate::body) fn plain(name: &str) -> (Option<bool>, String) {
+pub(crate) fn plain(name: &str) -> (Option<bool>, String) {
     let mut words: Vec<String> = Vec::new();
     let mut before = ' ';
     let mut characters = name.rsplit([':', '|']).next().unwrap_or(name).chars().peekable();

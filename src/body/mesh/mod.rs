@@ -1,4 +1,4 @@
-//! The mesh model (SPEC A4): a closed triangle mesh bound to the bones of a body, generated from its parts or read from
+//! The mesh model (METHOD A4): a closed triangle mesh bound to the bones of a body, generated from its parts or read from
 //! a skinned glTF file.
 
 mod adjacency;

@@ -1,4 +1,4 @@
-//! Where a body's mesh comes from: the `[mesh]` table of `body.toml` (INTERFACES).
+//! Where a body's mesh comes from: the `[mesh]` table of `body.toml` (FORMATS).
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use crate::files::{choices, expected, shortened, unknown};
 
-/// Where the mesh of a body comes from (SPEC A4).
+/// Where the mesh of a body comes from (METHOD A4).
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeshSource {
     /// A skinned person in a glTF file.
@@ -76,7 +76,7 @@ impl FrustumBase {
 /// `[mesh]` as it is written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::body) struct MeshEntry {
+pub(crate) struct MeshEntry {
     file: Option<PathBuf>,
     skinning: Option<Skinning>,
     #[serde(default)]
@@ -88,7 +88,7 @@ pub(in crate::body) struct MeshEntry {
 }
 
 /// The source that `[mesh]` names, for a body with the given parts, and joints as [`crate::body::Body::joint_names`].
-pub(in crate::body) fn build_source(entry: MeshEntry, parts: &[&str], joints: &[&str]) -> Result<MeshSource> {
+pub(crate) fn build_source(entry: MeshEntry, parts: &[&str], joints: &[&str]) -> Result<MeshSource> {
     let MeshEntry { file, skinning, bones, frusta, vertices, flattening } = entry;
     match (file, frusta) {
         (Some(file), None) => {

@@ -23,13 +23,13 @@ pub(super) enum Images<'a> {
     Listed(&'a Buffer),
 }
 
-/// Records poses to bone matrices (SPEC A3): `workspace.poses` to `workspace.world`.
+/// Records poses to bone matrices (METHOD A3): `workspace.poses` to `workspace.world`.
 pub(super) fn pose(recorder: &mut Recorder, scene: &DeviceScene, workspace: &Workspace, share: Share) -> Result<()> {
     let bindings = pose_comp::Bindings { bones: &scene.bones.buffer, poses: &workspace.poses, world: &workspace.world };
     recorder.run(bindings.dispatch(scene.batch(share), Groups::Over([share.candidates, 1, 1])))
 }
 
-/// Records every part of every candidate into every camera (SPEC A4, A2): `workspace.world` to snapped corners, nearest parts
+/// Records every part of every candidate into every camera (METHOD A4, A2): `workspace.world` to snapped corners, nearest parts
 /// first, in `workspace.quads`, and `workspace.bounds`.
 pub(super) fn project(recorder: &mut Recorder, scene: &DeviceScene, workspace: &Workspace, share: Share) -> Result<()> {
     let bindings = project_comp::Bindings {
@@ -58,7 +58,7 @@ pub(super) fn raster_stage(device: &Device, listed: bool) -> ShaderStage {
     }
 }
 
-/// Records drawing and comparison without a framebuffer, in the reference's integers (docs/RASTER.md, SPEC A6): `workspace.quads`
+/// Records drawing and comparison without a framebuffer, in the reference's integers (docs/RASTER.md, METHOD A6): `workspace.quads`
 /// and `bounds` to `workspace.sums`, and to the segments' sums where there are segments.
 pub(super) fn raster(
     recorder: &mut Recorder,
@@ -99,7 +99,7 @@ pub(super) fn raster(
     recorder.run(bindings.dispatch(raster_segments_comp::Constants { listed }, scene.batch(share), groups))
 }
 
-/// Records the objective (SPEC A7) of the first `candidates` of a run, in one go however many batches they took: `workspace.sums`,
+/// Records the objective (METHOD A7) of the first `candidates` of a run, in one go however many batches they took: `workspace.sums`,
 /// and the segments' sums where there are segments, to `fitness`, single precision, one a candidate.
 pub(super) fn objective(
     recorder: &mut Recorder,

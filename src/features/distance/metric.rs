@@ -19,11 +19,11 @@ choices! {
 
 impl Metric {
     /// What stands for one straight step of the quasi-Euclidean distance.
-    pub(in crate::features) const STRAIGHT: u32 = 408;
+    pub(crate) const STRAIGHT: u32 = 408;
     /// What stands for one diagonal step. 577/408 is so near √2 that for ways of up to 255 pixels sums of these two numbers
     /// are ordered as the distances are and differ where those differ: two such distances a + b√2 are at least 1/478 apart,
     /// 0.85 in these units, and 255 diagonal steps are 0.22 off together.
-    pub(in crate::features) const DIAGONAL: u32 = 577;
+    pub(crate) const DIAGONAL: u32 = 577;
 
     /// The number that stands for a straight distance: itself, its square for [`Self::Euclidean`], or its 408-fold for
     /// [`Self::QuasiEuclidean`].

@@ -1,4 +1,4 @@
-//! The distance of every pixel from the nearest edge (SPEC A5.3).
+//! The distance of every pixel from the nearest edge (METHOD A5.3).
 
 mod euclidean;
 mod metric;

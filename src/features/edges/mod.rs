@@ -1,4 +1,4 @@
-//! Edges: grey, 3×3 Gauss, an operator, threshold; kept near the silhouette (SPEC A5.2).
+//! Edges: grey, 3×3 Gauss, an operator, threshold; kept near the silhouette (METHOD A5.2).
 
 mod canny;
 mod gradient;

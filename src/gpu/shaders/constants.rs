@@ -44,7 +44,10 @@ pub fn constants(name: &str, text: &str) -> Result<String> {
             for line in docs {
                 source += &format!("/// {line}\n");
             }
-            source += &format!("#[allow(dead_code)]\npub const {own}: {ty} = {};\n", expression(&at, value, ty)?);
+            source += &format!(
+                "#[allow(dead_code, unreachable_pub)]\npub const {own}: {ty} = {};\n",
+                expression(&at, value, ty)?
+            );
         }
         comment.clear();
     }

@@ -63,7 +63,7 @@ pub fn generate(root: &Path, room: &str) -> Result<String> {
     text += &layouts.source();
     let list: Vec<String> = statics.iter().map(|module| format!("&{module}::SHADER")).collect();
     writeln!(text, "/// Every stage of the folder, for tests that try them all.")?;
-    writeln!(text, "#[cfg(test)]\n#[allow(dead_code)]")?;
+    writeln!(text, "#[cfg(test)]\n#[allow(dead_code, unreachable_pub)]")?;
     writeln!(text, "pub static SHADERS: &[&crate::gpu::Shader] = &[{}];", list.join(", "))?;
     Ok(text)
 }
@@ -105,7 +105,10 @@ fn stage(
     }
     let kind = compiled.kind;
     writeln!(text, "/// The stage `{name}`.")?;
-    writeln!(text, "#[allow(dead_code, clippy::derivable_impls, reason = \"written by the build, of use or not\")]")?;
+    writeln!(
+        text,
+        "#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = \"written by the build, of use or not\")]"
+    )?;
     writeln!(text, "pub mod {module} {{")?;
     if let Some(why) = &reflection.unread {
         writeln!(text, "    // Accesses are as declared: naga cannot read this stage ({why}).")?;

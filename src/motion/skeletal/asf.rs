@@ -309,7 +309,7 @@ fn ordered(root: AsfBone, mut found: Vec<AsfBone>, lines: &[(usize, Vec<&str>)])
 pub(super) mod tests {
     use super::*;
 
-    pub(in crate::motion) const LEG: &str = ":version 1.10\n:name leg\n:units\n  mass 1.0\n  length 0.45\n  angle deg\n:documentation\n  a leg\n\
+    pub(crate) const LEG: &str = ":version 1.10\n:name leg\n:units\n  mass 1.0\n  length 0.45\n  angle deg\n:documentation\n  a leg\n\
         :root\n  order TX TY TZ RX RY RZ\n  axis XYZ\n  position 0 1 0\n  orientation 0 0 0\n:bonedata\n  begin\n    id 1\n    name femur\n\
         \tdirection 0 -2 0\n    length 8\n    axis 0 0 20 XYZ\n    dof rx ry rz\n    limits (-160.0 20.0)\n           (-70.0 70.0)\n\
         \x20          (-60.0 70.0)\n  end\n  begin\n    id 2\n    name tibia # shin\n    direction 0 -1 0\n    length 7\n    axis 0 0 20 XYZ\n    dof rx\n\

@@ -1,4 +1,4 @@
-//! Annealed particle filter (Deutscher and Reid: "Articulated body motion capture by stochastic search", 2005; SPEC A8).
+//! Annealed particle filter (Deutscher and Reid: "Articulated body motion capture by stochastic search", 2005; METHOD A8).
 
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;

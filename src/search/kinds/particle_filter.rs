@@ -1,4 +1,4 @@
-//! Bootstrap particle filter: sampling, importance, resampling (SPEC A8).
+//! Bootstrap particle filter: sampling, importance, resampling (METHOD A8).
 
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! Particle swarm: synchronous, global best (SPEC A8).
+//! Particle swarm: synchronous, global best (METHOD A8).
 
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! Calibration files of the formats people have, all read into [`Camera`]s in millimetres (SPEC A2, INTERFACES).
+//! Calibration files of the formats people have, all read into [`Camera`]s in millimetres (METHOD A2, FORMATS).
 
 mod checks;
 mod opencv;

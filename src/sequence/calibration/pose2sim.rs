@@ -1,4 +1,4 @@
-//! `cameras.toml`: the layout that Pose2Sim, anipose and caliscope write, and Tsai cameras in it (INTERFACES).
+//! `cameras.toml`: the layout that Pose2Sim, anipose and caliscope write, and Tsai cameras in it (FORMATS).
 
 use std::fmt;
 

@@ -3,7 +3,7 @@
 use crate::files::choices;
 
 choices! {
-    /// The built-in scenes: the demo, and five after the sequences that the method was first measured on (SPEC A10).
+    /// The built-in scenes: the demo, and five after the sequences that the method was first measured on (METHOD A10).
     "scene" pub enum ScenePreset => pub(super) text: &'static str {
         /// What `pantin demo` tracks.
         "demo" Demo => include_str!("../presets/demo.toml"),
@@ -66,7 +66,7 @@ choices! {
 choices! {
     /// How a sequence's pictures are kept, and where those of a camera are.
     #[derive(Default)]
-    "form of pictures" pub enum PictureForm => pub(in crate::synth) place: [&'static str; 3] {
+    "form of pictures" pub enum PictureForm => pub(crate) place: [&'static str; 3] {
         /// A PNG file a frame.
         "png" #[default] Png => ["frames", "_%04d", "png"],
         /// A JPEG file a frame.
@@ -78,7 +78,7 @@ choices! {
 
 choices! {
     /// The unit of a motion file.
-    "motion unit" pub enum MotionUnit => pub(in crate::synth) mm: f64 {
+    "motion unit" pub enum MotionUnit => pub(crate) mm: f64 {
         /// Millimetres.
         "mm" Millimetre => 1.0,
         /// Centimetres.

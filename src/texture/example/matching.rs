@@ -1,5 +1,5 @@
 //! Where in the example a region with some pixels known fits best: the weighted squared error of every placement at once
-//! (SPEC B3), by cross-correlation with Fourier transforms or, for few known pixels, directly.
+//! (METHOD B3), by cross-correlation with Fourier transforms or, for few known pixels, directly.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! A texture of any size from a small example: patch by patch, and where patches do not fit pixel by pixel (SPEC B3).
+//! A texture of any size from a small example: patch by patch, and where patches do not fit pixel by pixel (METHOD B3).
 
 pub mod colour;
 mod device_matching;

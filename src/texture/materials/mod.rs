@@ -1,4 +1,4 @@
-//! Materials: a colour and a height for every point of space, so that a solid object is cut out of them (SPEC B2).
+//! Materials: a colour and a height for every point of space, so that a solid object is cut out of them (METHOD B2).
 
 mod brick;
 mod clouds;

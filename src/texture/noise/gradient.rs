@@ -1,4 +1,4 @@
-//! Perlin's gradient noise in one to four dimensions (SPEC B1): a gradient on each lattice point, the quintic fade
+//! Perlin's gradient noise in one to four dimensions (METHOD B1): a gradient on each lattice point, the quintic fade
 //! between. 0 on every lattice point, about [-1, 1] between. Coordinates of any size are defined; past 2^31 all cells of a
 //! direction share their words, and from 2^23 on every coordinate is a lattice point itself.
 //!

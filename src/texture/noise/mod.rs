@@ -1,4 +1,4 @@
-//! Noise (SPEC B1): the same bits for the same argument on every processor, on any number of threads. A device has the same
+//! Noise (METHOD B1): the same bits for the same argument on every processor, on any number of threads. A device has the same
 //! words on lattice points; its values are held to 1e-5 of these (docs/TEXTURE.md).
 
 mod gradient;

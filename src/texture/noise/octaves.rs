@@ -1,4 +1,4 @@
-//! Sums of octaves (SPEC B1): fbm, turbulence, ridged; one point at a time, or many, in vectors and threads, with the same
+//! Sums of octaves (METHOD B1): fbm, turbulence, ridged; one point at a time, or many, in vectors and threads, with the same
 //! values to the bit.
 
 use anyhow::{Result, bail};
@@ -9,7 +9,7 @@ use super::{Noise, Perlin, Value};
 use crate::files::choices;
 
 /// Coordinates beyond this count as this: no octave of a finite point overflows.
-pub(in crate::texture) const FARTHEST: f32 = 1e25;
+pub(crate) const FARTHEST: f32 = 1e25;
 /// Highest frequency that octaves may reach.
 const HIGHEST_FREQUENCY: f64 = 1e12;
 /// Points that the loops over lanes work on at a time.

@@ -1,4 +1,4 @@
-//! Value noise (SPEC B1): a number on each lattice point, a cubic between. In [-1, 1], with more weight on low frequencies
+//! Value noise (METHOD B1): a number on each lattice point, a cubic between. In [-1, 1], with more weight on low frequencies
 //! than gradient noise has. Rounding and coordinates as there.
 
 use super::gradient::{joined, mix, shares, sides, split};

@@ -77,7 +77,7 @@ impl Acquisition {
 }
 
 /// The threads. Dropping it ends them.
-pub(in crate::track) struct RealtimeFeed {
+pub(crate) struct RealtimeFeed {
     processed: Arc<Slot<Prepared>>,
     threads: Vec<JoinHandle<()>>,
 }

@@ -1,4 +1,4 @@
-//! Tracking in real time (SPEC A11): acquisition, processing (a worker a view) and tracking in threads of their own. Between
+//! Tracking in real time (METHOD A11): acquisition, processing (a worker a view) and tracking in threads of their own. Between
 //! two modules there is room for one set, and the newest wins: what is older is passed over and counted, so nothing queues up.
 //! The driver is that of a run without a clock; this room gives it its frames, its budget and the account of its times.
 

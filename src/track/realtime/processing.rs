@@ -1,4 +1,4 @@
-//! The module between capture and tracking: the features of each view by a worker of its own (SPEC A11).
+//! The module between capture and tracking: the features of each view by a worker of its own (METHOD A11).
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;

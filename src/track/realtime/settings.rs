@@ -39,7 +39,7 @@ impl RealtimeSettings {
     }
 
     /// The flags that ask for it.
-    pub(in crate::track) fn flags(&self) -> String {
+    pub(crate) fn flags(&self) -> String {
         let deadline =
             self.deadline.map(|time| format!(" --deadline {}", time.as_secs_f64() * 1e3)).unwrap_or_default();
         format!(" --realtime --rate {} --loop {}{deadline}", self.rate, self.repeat)

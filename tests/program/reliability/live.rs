@@ -8,7 +8,7 @@ use super::{journalled, track};
 use crate::support::{has_ffmpeg, refused, sequence, stderr, succeeded};
 
 /// Lays the walk out as one lossless video a camera, with a plate: what a live source needs.
-pub fn as_videos(folder: &Path) {
+pub(crate) fn as_videos(folder: &Path) {
     for name in ["body.toml", "cameras.toml", "start.csv"] {
         fs::copy(sequence().join(name), folder.join(name)).unwrap();
     }

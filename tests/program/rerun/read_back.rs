@@ -10,17 +10,17 @@ use re_log_types::{BlueprintActivationCommand, LogMsg, StoreInfo};
 use re_sdk_types::{Component, ComponentDescriptor};
 
 /// What a file holds.
-pub struct Read {
-    pub stores: Vec<StoreInfo>,
+pub(crate) struct Read {
+    pub(crate) stores: Vec<StoreInfo>,
     /// Of the recording.
-    pub chunks: Vec<Chunk>,
+    pub(crate) chunks: Vec<Chunk>,
     /// Of the layout.
-    pub layout: Vec<Chunk>,
-    pub activations: Vec<BlueprintActivationCommand>,
+    pub(crate) layout: Vec<Chunk>,
+    pub(crate) activations: Vec<BlueprintActivationCommand>,
 }
 
 impl Read {
-    pub fn file(path: &Path) -> Self {
+    pub(crate) fn file(path: &Path) -> Self {
         let mut read = Self { stores: Vec::new(), chunks: Vec::new(), layout: Vec::new(), activations: Vec::new() };
         let messages = DecoderApp::decode_eager(BufReader::new(File::open(path).unwrap())).unwrap();
         for message in messages {
@@ -37,7 +37,7 @@ impl Read {
     }
 
     /// The entities of the recording, each once, sorted.
-    pub fn entities(&self) -> Vec<String> {
+    pub(crate) fn entities(&self) -> Vec<String> {
         let mut all: Vec<String> = self.chunks.iter().map(|chunk| chunk.entity_path().to_string()).collect();
         all.sort();
         all.dedup();
@@ -45,7 +45,7 @@ impl Read {
     }
 
     /// What an entity holds of a component, row by row, with the row's time on a time-line; none for what holds always.
-    pub fn rows<C: Component>(
+    pub(crate) fn rows<C: Component>(
         &self,
         entity: &str,
         component: ComponentDescriptor,
@@ -63,7 +63,7 @@ impl Read {
 
     /// The one row of what holds always.
     #[track_caller]
-    pub fn always<C: Component>(&self, entity: &str, component: ComponentDescriptor) -> Vec<C> {
+    pub(crate) fn always<C: Component>(&self, entity: &str, component: ComponentDescriptor) -> Vec<C> {
         let mut rows = self.rows(entity, component, "frame");
         assert_eq!(rows.len(), 1, "{entity}");
         let (time, row) = rows.remove(0);

@@ -1,4 +1,4 @@
-//! The framebuffer against the observations, whole and segment by segment (SPEC A6, A9, docs/RASTER.md).
+//! The framebuffer against the observations, whole and segment by segment (METHOD A6, A9, docs/RASTER.md).
 
 use anyhow::Result;
 

@@ -1,5 +1,5 @@
 //! The flat model drawn by the graphics pipeline: every part of every image from the projected buffer, four candidates a tile
-//! (SPEC A9).
+//! (METHOD A9).
 
 use anyhow::Result;
 

@@ -1,5 +1,5 @@
 //! The mesh model drawn by the graphics pipeline: triangles with a depth a pixel, then silhouette edges against that depth, four
-//! candidates a tile (SPEC A9).
+//! candidates a tile (METHOD A9).
 
 use anyhow::Result;
 

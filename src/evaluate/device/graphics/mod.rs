@@ -1,5 +1,5 @@
 //! The backend that draws with the graphics pipeline: four candidates of a view a tile of one large framebuffer, compared there
-//! with the observations (SPEC A9).
+//! with the observations (METHOD A9).
 
 mod compare;
 mod draw;

@@ -25,7 +25,7 @@ pub(super) fn feedback_room(device: &Device, counts: Counts, candidates: u32) ->
     device.buffer::<layout::Quad>("captured quads", quads, Memory::Device)
 }
 
-/// Records the projection by vertices whose outputs transform feedback captures, and what brings them into order (SPEC A9):
+/// Records the projection by vertices whose outputs transform feedback captures, and what brings them into order (METHOD A9):
 /// `workspace.world` through `captured` to the same `workspace.quads` and `workspace.bounds` as the compute stage's, for measuring
 /// one against the other.
 pub(super) fn project_by_feedback(
@@ -66,7 +66,7 @@ pub(super) fn project_by_feedback(
     recorder.run(bindings.dispatch(push, image_groups(scene, share)))
 }
 
-/// Records every image's place in the framebuffer (SPEC A9), and the list of those that do not fit their tile: `workspace.bounds`
+/// Records every image's place in the framebuffer (METHOD A9), and the list of those that do not fit their tile: `workspace.bounds`
 /// and `parts` quads an image, 0 where it is not drawn from them, to placements and list, and zeros to `workspace.sums`.
 pub(super) fn place(
     recorder: &mut Recorder,
@@ -99,7 +99,7 @@ fn skin_constants(skinning: Skinning) -> skin_comp::Constants {
     skin_comp::Constants { is_smooth: u32::from(skinning == Skinning::Smooth) }
 }
 
-/// Records every vertex of the mesh of every candidate into every camera (SPEC A4, A2): `workspace.world` to snapped places and depths
+/// Records every vertex of the mesh of every candidate into every camera (METHOD A4, A2): `workspace.world` to snapped places and depths
 /// in `own.seen`, and `workspace.bounds`; `own.counts` are emptied.
 pub(super) fn skin(
     recorder: &mut Recorder,

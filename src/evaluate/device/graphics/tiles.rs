@@ -1,4 +1,4 @@
-//! How the images of a batch share a framebuffer: tiles of four candidates of one view, one a channel (SPEC A9). Arithmetic
+//! How the images of a batch share a framebuffer: tiles of four candidates of one view, one a channel (METHOD A9). Arithmetic
 //! alone; the memory is the framebuffer's.
 
 use anyhow::{Result, bail};
