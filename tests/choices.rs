@@ -1,6 +1,6 @@
 //! The tables of choices in the documents: what stands between `<!-- choices: X -->` and `<!-- end of choices -->` is the list of X
 //! as the sources declare it. `PANTIN_WRITE_DOCS=1 cargo test --test choices` writes the tables anew.
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test or benchmark stops at the first surprise, and prints")]
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -2,7 +2,11 @@
 //! whatever limits a device has; and when the device is lost, an error says so.
 //!
 //! Runs on whatever Vulkan device there is, under the validation layer, which must stay silent.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 mod device;
 mod scene;

@@ -1,6 +1,10 @@
 //! A frame searched in one submission over a backend of the device is the frame that the host drives over the same backend, to
 //! the bit: what differs between devices, their evaluation, is the same device's here.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 mod device;
 #[allow(dead_code, reason = "poses are the search's own here")]

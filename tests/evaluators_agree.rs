@@ -1,6 +1,6 @@
 //! The fast evaluator gives the reference's integers, on every instruction set and for any number of threads, on ordinary
 //! and on wild poses; and the comparison that says so can fail.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, reason = "a test or benchmark stops at the first surprise, and prints")]
 
 mod scene;
 

@@ -2,7 +2,11 @@
 //! people, behind and inside of cameras, off screen.
 //!
 //! Runs on whatever Vulkan device there is, under the validation layer, which must stay silent.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 mod device;
 mod scene;

@@ -1,6 +1,6 @@
 //! The house as docs/ARCHITECTURE.md draws it: imports run down the floors, unsafe code stays in its places, names say
 //! something, links lead somewhere.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, reason = "a test or benchmark stops at the first surprise, and prints")]
 
 #[path = "house/circles.rs"]
 mod circles;

@@ -1,5 +1,5 @@
 //! The mesh model as a whole: frusta beside the flat model, and that a moved vertex is noticed.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, reason = "a test or benchmark stops at the first surprise, and prints")]
 
 use std::collections::BTreeMap;
 

@@ -1,6 +1,10 @@
 //! Silhouettes compared segment by segment: every evaluator gives the reference's integers and fitness; and the comparison that
 //! says so can fail.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 mod device;
 #[allow(dead_code, reason = "components are compared elsewhere")]

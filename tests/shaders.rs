@@ -1,6 +1,11 @@
 //! The build's shader compiler, reflector and generator, on small shaders written for each question.
 #![allow(unreachable_pub, reason = "the modules below are the library's too")]
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 #[path = "../src/gpu/shaders/compile.rs"]
 mod compile;
@@ -394,11 +399,11 @@ fn shared_constants_read_the_same_in_rust() {
         const float NEAR = 1e-3;\nconst float HALF = .5f;\nconst uint ROWS = TILE * 2u;\nconst bool ON = true;\nvec3 f() { return vec3(0); }\n";
     let source = constants::constants("room/constants.glsl", text).unwrap();
     for line in [
-        "/// Candidates of a tile.\n#[allow(dead_code)]\npub const TILE: u32 = 16;",
-        "/// Least level.\n#[allow(dead_code)]\npub const LEAST: i32 = -(3 + 31);",
+        "/// Candidates of a tile.\n#[allow(dead_code, unreachable_pub, reason = \"written by the build\")]\npub const TILE: u32 = 16;",
+        "/// Least level.\n#[allow(dead_code, unreachable_pub, reason = \"written by the build\")]\npub const LEAST: i32 = -(3 + 31);",
         "pub const NEAR: f32 = 0.001;",
         "pub const HALF: f32 = 0.5;",
-        "/// `ROWS` of `room/constants.glsl`.\n#[allow(dead_code)]\npub const ROWS: u32 = TILE * 2;",
+        "/// `ROWS` of `room/constants.glsl`.\n#[allow(dead_code, unreachable_pub, reason = \"written by the build\")]\npub const ROWS: u32 = TILE * 2;",
         "pub const ON: bool = true;",
     ] {
         assert!(source.contains(line), "{line} is missing in:\n{source}");

@@ -83,7 +83,7 @@ mod tests {
 
     #[derive(serde::Deserialize, Debug)]
     #[serde(deny_unknown_fields)]
-    #[allow(dead_code)]
+    #[allow(dead_code, reason = "only what reading says of it is looked at")]
     struct Settings {
         fps: f64,
         #[serde(default)]

@@ -1,6 +1,10 @@
 //! The device of the crate's own tests.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 use super::{Device, DeviceSettings, Instance, Validation, ValidationLog};
 

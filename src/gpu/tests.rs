@@ -1,7 +1,11 @@
 //! The room by itself, on whatever device this machine has, under the validation layer. Without Vulkan these tests say so and
 //! pass, unless PANTIN_NEEDS_VULKAN is set, as it is in CI.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};

@@ -1,6 +1,10 @@
 //! The device of the tests that need one.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 use pantin::gpu::{Device, DeviceSettings, Instance, Validation, ValidationLog};
 

@@ -1,6 +1,10 @@
 //! The compute drawing alone, fed quads that no body would give, against the reference's drawing and comparison of the same.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 use super::passes::{Images, raster, raster_stage};
 use super::scene::{DeviceScene, Share};

@@ -1,6 +1,10 @@
 //! Every stage alone against the reference, on whatever Vulkan device there is, under the validation layer.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 

@@ -1,6 +1,6 @@
 //! The chain on the device beside the processor's, bit by bit, on whatever Vulkan device there is, under the validation layer.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, reason = "a test or benchmark stops at the first surprise, and prints")]
 
 use image::{GrayImage, Luma, Rgb};
 

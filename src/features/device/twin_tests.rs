@@ -1,6 +1,6 @@
 //! Each stage alone beside its twin on the processor, bit by bit, on whatever Vulkan device there is, under the validation layer.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, reason = "a test or benchmark stops at the first surprise, and prints")]
 
 use anyhow::Result;
 use image::{Rgb, RgbImage};

@@ -45,7 +45,7 @@ pub fn constants(name: &str, text: &str) -> Result<String> {
                 source += &format!("/// {line}\n");
             }
             source += &format!(
-                "#[allow(dead_code, unreachable_pub)]\npub const {own}: {ty} = {};\n",
+                "#[allow(dead_code, unreachable_pub, reason = \"written by the build\")]\npub const {own}: {ty} = {};\n",
                 expression(&at, value, ty)?
             );
         }

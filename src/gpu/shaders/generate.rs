@@ -63,7 +63,7 @@ pub fn generate(root: &Path, room: &str) -> Result<String> {
     text += &layouts.source();
     let list: Vec<String> = statics.iter().map(|module| format!("&{module}::SHADER")).collect();
     writeln!(text, "/// Every stage of the folder, for tests that try them all.")?;
-    writeln!(text, "#[cfg(test)]\n#[allow(dead_code, unreachable_pub)]")?;
+    writeln!(text, "#[cfg(test)]\n#[allow(dead_code, unreachable_pub, reason = \"written by the build\")]")?;
     writeln!(text, "pub static SHADERS: &[&crate::gpu::Shader] = &[{}];", list.join(", "))?;
     Ok(text)
 }

@@ -50,8 +50,9 @@ impl Layouts {
         if self.emitted.is_empty() {
             return String::new();
         }
-        let mut text =
-            String::from("/// Memory layouts of the blocks.\n#[allow(dead_code, unreachable_pub)]\npub mod layout {\n");
+        let mut text = String::from(
+            "/// Memory layouts of the blocks.\n#[allow(dead_code, unreachable_pub, reason = \"written by the build\")]\npub mod layout {\n",
+        );
         for emitted in self.emitted.values() {
             text += &emitted.source;
         }

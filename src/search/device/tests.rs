@@ -1,6 +1,10 @@
 //! The search on whatever Vulkan device there is against the search on the processor, under the validation layer.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 use std::time::Instant;
 

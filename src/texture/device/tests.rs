@@ -1,6 +1,10 @@
 //! The device's noise beside the CPU's, under the validation layer.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 use super::*;
 use crate::gpu::test_device::{device, device_under};

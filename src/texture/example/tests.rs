@@ -1,4 +1,4 @@
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, reason = "a test or benchmark stops at the first surprise, and prints")]
 
 use super::*;
 use crate::gpu::DeviceSettings;

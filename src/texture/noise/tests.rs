@@ -1,4 +1,8 @@
-#![allow(clippy::unwrap_used, clippy::needless_range_loop)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::needless_range_loop,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 use super::*;
 

@@ -1,7 +1,11 @@
 //! The mesh model on the device against the reference: vertices alone, pictures pixel by pixel, and the whole backend. With
 //! PANTIN_TEST_PICTURES=folder the pictures are written there, the device's beside the reference's beside where they differ.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,7 +1,11 @@
 //! Segments compared in a framebuffer: the stage alone against the host, the backend against the reference; and the comparison
 //! that says so caught lying.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 use std::sync::Arc;
 

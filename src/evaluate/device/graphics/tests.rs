@@ -1,6 +1,10 @@
 //! The graphics backend and its stages against the reference, and the comparison that says so caught lying.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
 
 use super::Graphics;
 use super::compare::Comparing;
