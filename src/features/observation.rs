@@ -7,7 +7,7 @@ use image::codecs::png::PngEncoder;
 use image::{DynamicImage, ExtendedColorType, GrayImage, ImageEncoder, ImageReader};
 
 use super::distance::Codes;
-use super::{BitImage, DistanceMap, Segmentation};
+use super::{BitImage, DistanceMap, Evidence, Segmentation};
 use crate::files::{Overwrite, write_atomically};
 
 /// One camera's packed observation: bit 7 the silhouette, bits 0..=6 the edge proximity (127 on an edge, 0 far away); and
@@ -22,6 +22,8 @@ pub struct Observation {
     pub bytes: Vec<u8>,
     /// The segment of each pixel, of the same size; [`Self::with_segmentation`] checks that. `None` without segments.
     pub segmentation: Option<Segmentation>,
+    /// How likely each pixel is of each class of parts, of the same size; `None` where silhouettes alone are compared.
+    pub evidence: Option<Evidence>,
 }
 
 impl Observation {
@@ -32,7 +34,7 @@ impl Observation {
 
     /// An observation of nothing.
     pub fn empty(width: u32, height: u32) -> Self {
-        Self { width, height, bytes: vec![0; width as usize * height as usize], segmentation: None }
+        Self { width, height, bytes: vec![0; width as usize * height as usize], segmentation: None, evidence: None }
     }
 
     /// The observation with its body parts told apart.
@@ -120,9 +122,13 @@ impl Observation {
         let picture = (|| -> Result<DynamicImage> { Ok(ImageReader::open(path)?.with_guessed_format()?.decode()?) })()
             .with_context(|| format!("cannot read the packed observation {}", path.display()))?;
         match picture {
-            DynamicImage::ImageLuma8(gray) => {
-                Ok(Self { width: gray.width(), height: gray.height(), bytes: gray.into_raw(), segmentation: None })
-            }
+            DynamicImage::ImageLuma8(gray) => Ok(Self {
+                width: gray.width(),
+                height: gray.height(),
+                bytes: gray.into_raw(),
+                segmentation: None,
+                evidence: None,
+            }),
             other => bail!(
                 "{} holds pixels of the kind {:?}, expected a packed observation: one 8-bit grey value a pixel",
                 path.display(),
