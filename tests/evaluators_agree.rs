@@ -7,7 +7,7 @@ mod scene;
 use glam::{DAffine3, DMat3, DVec3};
 use pantin::body::Body;
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
-use pantin::evaluate::{Evaluator as _, Objective, ObjectiveKind, Reference};
+use pantin::evaluate::{Evaluator as _, Objective, Reference};
 use pantin::features::Observation;
 use pantin::geometry::Camera;
 use scene::{Random, brown, camera, cameras, evaluate, first_difference, observations, poses, reference_in_parallel};
@@ -134,7 +134,7 @@ fn fitness_is_the_objective_of_the_components() {
     let components = evaluate(&mut Reference::new(&body, &cameras), &seen, &poses);
     let mut cpu = Cpu::new(&body, &cameras).unwrap();
     cpu.observe(&seen).unwrap();
-    for kind in ObjectiveKind::ALL {
+    for kind in scene::of_silhouettes() {
         let objective = Objective { kind, beta: 0.4, w1: 0.7, w2: 0.3 };
         let mut fitness = vec![-1.0; 37];
         cpu.fitness(&poses, &objective, &mut fitness).unwrap();

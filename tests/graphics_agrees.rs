@@ -16,7 +16,7 @@ use pantin::body::Body;
 use pantin::evaluate::device::{
     Comparison, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
 };
-use pantin::evaluate::{Evaluator as _, Objective, ObjectiveKind};
+use pantin::evaluate::{Evaluator as _, Objective};
 use pantin::gpu::DeviceSettings;
 use scene::{Random, cameras, evaluate, first_difference, observations, poses, reference_in_parallel};
 
@@ -43,7 +43,7 @@ fn five_hundred_poses_give_identical_integers() {
             let found = evaluate(&mut graphics, &seen, &poses);
             assert_eq!(first_difference(cameras.len(), &expected, &found), None, "{settings:?}, {tiles} tiles");
         }
-        for kind in ObjectiveKind::ALL {
+        for kind in scene::of_silhouettes() {
             let objective = Objective { kind, beta: 0.4, w1: 0.7, w2: 0.3 };
             let mut fitness = vec![-1.0; count];
             graphics.fitness(&poses, &objective, &mut fitness).unwrap();

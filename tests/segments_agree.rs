@@ -18,7 +18,7 @@ use pantin::evaluate::cpu::{Cpu, InstructionSet};
 use pantin::evaluate::device::{
     Comparison, Compute, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
 };
-use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind, Reference, SegmentSums};
+use pantin::evaluate::{Components, Evaluator, Objective, Reference, SegmentSums};
 use pantin::features::{Observation, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;
 use pantin::gpu::{Capabilities, DeviceSettings};
@@ -70,12 +70,12 @@ fn found(evaluator: &mut dyn Evaluator, seen: &[Observation], poses: &[f32]) -> 
     evaluator.components(poses, &mut components).unwrap();
     let mut sums = vec![SegmentSums::default(); images * segments];
     evaluator.segment_sums(poses, &mut sums).unwrap();
-    let fitness = ObjectiveKind::ALL.map(|kind| {
+    let fitness = scene::of_silhouettes().map(|kind| {
         let mut fitness = vec![-1.0; count];
         evaluator.fitness(poses, &Objective { kind, beta: 0.4, w1: 0.7, w2: 0.3 }, &mut fitness).unwrap();
         fitness
     });
-    Found { components, sums, fitness: fitness.to_vec() }
+    Found { components, sums, fitness: fitness.collect() }
 }
 
 fn processors() -> impl Iterator<Item = InstructionSet> {
@@ -254,7 +254,7 @@ fn one_segment_of_everything_is_the_whole_silhouette() {
         let Components { area_obs, area_model, overlap, .. } = *whole;
         assert_eq!(*segment, SegmentSums { area_obs, area_model, overlap });
     }
-    for (kind, fitness) in ObjectiveKind::ALL.into_iter().zip(&found.fitness) {
+    for (kind, fitness) in scene::of_silhouettes().zip(&found.fitness) {
         let objective = Objective { kind, beta: 0.4, w1: 0.7, w2: 0.3 };
         for (value, row) in fitness.iter().zip(found.components.chunks_exact(4)) {
             assert_eq!(*value, objective.fitness(row), "{}", kind.name());

@@ -10,9 +10,10 @@ use crate::files::{OutputFolder, Overwrite};
 use crate::sequence::{Sequence, read_cameras};
 use crate::track::{Backend, ScoredFrame, score_poses, write_fitness};
 
-/// Scores given poses against one frame: components.csv (counts of pixels a pose and view) and fitness.csv, and with --images
-/// every candidate as it was drawn, and segments.csv where body parts are told apart. Without -o the fitness goes to the standard output. The frame is one of a sequence, or
-/// packed observations (`<camera>.png`: bit 7 the silhouette, bits 0-6 the edge proximity) with their cameras and body.
+/// Scores given poses against one frame: components.csv (counts of pixels a pose and view) and fitness.csv, segments.csv where body
+/// parts are told apart, evidence.csv where there is soft evidence, and with --images every candidate as it was drawn. Without -o
+/// the fitness goes to the standard output. The frame is one of a sequence, or packed observations (`<camera>.png`: bit 7 the
+/// silhouette, bits 0-6 the edge proximity) with their cameras and body.
 #[derive(clap::Args, Debug)]
 pub(super) struct EvaluateArgs {
     /// The sequence: its sequence.toml, or the folder that holds it.

@@ -12,10 +12,10 @@ pub(super) struct ObjectiveFlags {
     /// Share of "observed silhouette covered" against "drawn silhouette on the observed one" [default: 0.5].
     #[arg(long, value_name = "F")]
     beta: Option<f32>,
-    /// Weight, or exponent, of the silhouette [default: 0.5].
+    /// Weight, or exponent, of the silhouette [default: 0.5; of evidence 0.75].
     #[arg(long, value_name = "F")]
     w1: Option<f32>,
-    /// Weight, or exponent, of the edges [default: 0.5].
+    /// Weight, or exponent, of the edges [default: 0.5; beside evidence 0.25].
     #[arg(long, value_name = "F")]
     w2: Option<f32>,
 }

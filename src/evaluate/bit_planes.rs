@@ -29,9 +29,41 @@ fn transpose_bits(mut m: u64) -> u64 {
     m ^ swap ^ (swap << 28)
 }
 
+/// Up to 32 words of a row as 32: bit `i` of word `p` is bit `p` of word `i`, by the same swaps.
+pub(crate) fn word_planes(pixels: &[u32]) -> [u32; WORD_PIXELS] {
+    let mut planes = [0; WORD_PIXELS];
+    for (plane, pixel) in planes.iter_mut().zip(pixels) {
+        *plane = *pixel;
+    }
+    for (width, mask) in [(16, 0x0000_ffff_u32), (8, 0x00ff_00ff), (4, 0x0f0f_0f0f), (2, 0x3333_3333), (1, 0x5555_5555)]
+    {
+        for block in planes.chunks_exact_mut(2 * width) {
+            let (low, high) = block.split_at_mut(width);
+            for (low, high) in low.iter_mut().zip(high) {
+                let swap = (*low >> width ^ *high) & mask;
+                *high ^= swap;
+                *low ^= swap << width;
+            }
+        }
+    }
+    planes
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn words_are_transposed() {
+        for count in [0, 1, 31, 32] {
+            let pixels: Vec<u32> = (1..=count).map(|pixel: u32| pixel.wrapping_mul(2_654_435_761)).collect();
+            let planes = word_planes(&pixels);
+            for pixel in 0..WORD_PIXELS {
+                let word = (0..32).fold(0, |word, bit| word | (planes[bit] >> pixel & 1) << bit);
+                assert_eq!(word, pixels.get(pixel).copied().unwrap_or(0), "pixel {pixel} of {count}");
+            }
+        }
+    }
 
     #[test]
     fn every_bit_is_where_it_belongs() {

@@ -7,9 +7,11 @@ use anyhow::Result;
 use super::batch::check_batch;
 use super::components::Components;
 use super::device_evaluator::DeviceEvaluator;
-use super::objective::Objective;
+use super::evidence::{EvidenceSum, no_evidence};
+use super::objective::{AreaSums, Objective};
 use super::raster::CandidateImage;
 use super::segments::{SegmentSums, no_segments};
+use super::view_counts::ViewCounts;
 use crate::features::{Observation, Segments};
 use crate::gpu::DevicePass;
 
@@ -33,7 +35,8 @@ pub trait Evaluator: Send {
     /// Takes the observations of a frame, one a view, in the order of the cameras.
     ///
     /// # Errors
-    /// When there are not as many as views, or one's size is not its camera's; when some tell body parts apart and others do not.
+    /// When there are not as many as views, or one's size is not its camera's; when some tell body parts apart or
+    /// carry evidence and others do not.
     fn observe(&mut self, observations: &[Observation]) -> Result<()>;
 
     /// The components of every candidate in every view: `components[candidate * views + view]`.
@@ -55,6 +58,38 @@ pub trait Evaluator: Send {
         Err(no_segments())
     }
 
+    /// The most evidence that anything drawn could have in each view of the newest observations; none where they carry none.
+    fn best_evidence(&self) -> Option<&[u32]> {
+        None
+    }
+
+    /// The evidence of every candidate in every view (METHOD A6): `sums[candidate * views + view]`.
+    ///
+    /// # Errors
+    /// As [`Self::components`]; also when the observations carry none.
+    fn evidence_sums(&mut self, _poses: &[f32], _sums: &mut [i32]) -> Result<()> {
+        Err(no_evidence())
+    }
+
+    /// What an objective is told of one pose, one a view.
+    ///
+    /// # Errors
+    /// As [`Self::components`]; also when the objective weighs evidence and the observations carry none.
+    fn view_counts(&mut self, pose: &[f32], objective: &Objective) -> Result<Vec<ViewCounts>> {
+        let mut components = vec![Components::default(); self.view_count()];
+        self.components(pose, &mut components)?;
+        let mut evidence = vec![None; components.len()];
+        if objective.weighs_evidence() {
+            let mut sums = vec![0; components.len()];
+            self.evidence_sums(pose, &mut sums)?;
+            let best = self.best_evidence().ok_or_else(no_evidence)?;
+            let pairs = sums.into_iter().zip(best);
+            evidence = pairs.map(|(sum, &best)| Some(EvidenceSum { sum, best })).collect();
+        }
+        let pairs = components.into_iter().zip(evidence);
+        Ok(pairs.map(|(components, evidence)| ViewCounts { components, evidence }).collect())
+    }
+
     /// One pose in one view as this evaluator itself draws it; none where it keeps no picture.
     ///
     /// # Errors
@@ -66,19 +101,25 @@ pub trait Evaluator: Send {
     /// The fitness of every candidate, in [0, 1].
     ///
     /// # Errors
-    /// As [`Self::components`].
+    /// As [`Self::components`]; also when the objective weighs evidence and the observations carry none.
     fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
         let views = self.view_count();
-        let segments = self.segments().cloned();
         let mut components = vec![Components::default(); fitness.len() * views];
         self.components(poses, &mut components)?;
-        let Some(segments) = segments else {
-            objective.score(views, &components, None, fitness);
+        if objective.weighs_evidence() {
+            let mut sums = vec![0; components.len()];
+            self.evidence_sums(poses, &mut sums)?;
+            let best = self.best_evidence().ok_or_else(no_evidence)?;
+            objective.score(views, &components, AreaSums::Evidence(best, &sums), fitness);
+            return Ok(());
+        }
+        let Some(segments) = self.segments().cloned() else {
+            objective.score(views, &components, AreaSums::Whole, fitness);
             return Ok(());
         };
         let mut sums = vec![SegmentSums::default(); components.len() * segments.as_slice().len()];
         self.segment_sums(poses, &mut sums)?;
-        objective.score(views, &components, Some((&segments, &sums)), fitness);
+        objective.score(views, &components, AreaSums::Segments(&segments, &sums), fitness);
         Ok(())
     }
 
@@ -121,4 +162,15 @@ pub(crate) fn check_segment_batch(evaluator: &dyn Evaluator, poses: &[f32], resu
     let a_pose = evaluator.view_count() * segments.as_slice().len();
     check_batch(poses, evaluator.dof_count(), results, a_pose)?;
     Ok(a_pose)
+}
+
+/// Holds `poses` to `results` sums of evidence, and the best of each view.
+pub(crate) fn check_evidence_batch<'a>(
+    evaluator: &'a dyn Evaluator,
+    poses: &[f32],
+    results: usize,
+) -> Result<&'a [u32]> {
+    let best = evaluator.best_evidence().ok_or_else(no_evidence)?;
+    check_batch(poses, evaluator.dof_count(), results, evaluator.view_count())?;
+    Ok(best)
 }

@@ -1,29 +1,42 @@
-//! The five objective functions (METHOD A7): from a candidate's components to one number in [0, 1], to be maximised.
+//! The objective functions (METHOD A7): from what is counted of a candidate to one number in [0, 1], to be maximised.
 
 use std::ops::Range;
 
 use anyhow::{Result, ensure};
 
 use super::components::Components;
+use super::evidence::EvidenceSum;
 use super::segments::SegmentSums;
+use super::view_counts::ViewCounts;
 use crate::features::{Segment, Segments};
 use crate::files::choices;
 
 choices! {
     /// How the silhouette and the edge terms of the cameras are combined.
     #[derive(Default)]
-    "objective" pub enum ObjectiveKind => pub formula: (Terms, Views) {
+    "objective" pub enum ObjectiveKind => pub formula: (Area, Terms, Views) {
         /// Weighted sum of the terms over all cameras together.
-        "ws" Ws => (Terms::Sum, Views::Together),
+        "ws" Ws => (Area::Silhouette, Terms::Sum, Views::Together),
         /// Product of powers of the terms over all cameras together; the default, best on average.
-        "sp" #[default] Sp => (Terms::Product, Views::Together),
+        "sp" #[default] Sp => (Area::Silhouette, Terms::Product, Views::Together),
         /// Mean over cameras of the weighted sums.
-        "aows" Aows => (Terms::Sum, Views::Mean),
+        "aows" Aows => (Area::Silhouette, Terms::Sum, Views::Mean),
         /// Mean over cameras of the products.
-        "aosp" Aosp => (Terms::Product, Views::Mean),
+        "aosp" Aosp => (Area::Silhouette, Terms::Product, Views::Mean),
         /// Product over cameras of the products.
-        "posp" Posp => (Terms::Product, Views::Product),
+        "posp" Posp => (Area::Silhouette, Terms::Product, Views::Product),
+        /// Product of powers over all cameras together, of soft evidence in place of the silhouette.
+        "evidence" Evidence => (Area::Evidence, Terms::Product, Views::Together),
     }
+}
+
+/// What the first term judges the drawn area by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Area {
+    /// The observed silhouette, whole or in segments.
+    Silhouette,
+    /// Soft evidence, which the observations must carry.
+    Evidence,
 }
 
 /// How the silhouette and the edge term become one number; `glsl/evaluate/objective.glsl` has the same under the same numbers.
@@ -61,11 +74,39 @@ pub struct Objective {
 
 impl Default for Objective {
     fn default() -> Self {
-        Self { kind: ObjectiveKind::default(), beta: 0.5, w1: 0.5, w2: 0.5 }
+        Self::of(ObjectiveKind::default())
     }
 }
 
+/// What the first term is made of, besides the components.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum AreaSums<'a> {
+    /// Nothing: silhouettes are whole.
+    Whole,
+    /// Sums of segments, `[candidate][view][segment]`.
+    Segments(&'a Segments, &'a [SegmentSums]),
+    /// Evidence, `[candidate][view]`, and before it the best of each view.
+    Evidence(&'a [u32], &'a [i32]),
+}
+
+/// What the first term of evidence never falls below, so that edges lead to a candidate on which none speaks for a person.
+const LEAST_EVIDENCE: f32 = 1e-6;
+
 impl Objective {
+    /// A kind with its default weights: equal ones, and with evidence, beside which equal edges count too much, 3 to 1.
+    pub fn of(kind: ObjectiveKind) -> Self {
+        let (w1, w2) = match kind.formula().0 {
+            Area::Silhouette => (0.5, 0.5),
+            Area::Evidence => (0.75, 0.25),
+        };
+        Self { kind, beta: 0.5, w1, w2 }
+    }
+
+    /// Whether it weighs evidence, which the observations must then carry.
+    pub fn weighs_evidence(&self) -> bool {
+        self.kind.formula().0 == Area::Evidence
+    }
+
     /// Whether the numbers make sense: weights of a sum are in [0, 1] and sum to 1, exponents of a product in (0, 1] (METHOD A7).
     ///
     /// # Errors
@@ -73,7 +114,7 @@ impl Objective {
     pub fn check(&self) -> Result<()> {
         let Self { kind, beta, w1, w2 } = *self;
         ensure!((0.0..=1.0).contains(&beta), "the objective's beta is {beta}, expected 0 to 1");
-        let is_sum = kind.formula().0 == Terms::Sum;
+        let is_sum = kind.formula().1 == Terms::Sum;
         for (name, weight) in [("w1", w1), ("w2", w2)] {
             let (fits, expected) = if is_sum {
                 ((0.0..=1.0).contains(&weight), "a weight from 0 to 1")
@@ -89,58 +130,86 @@ impl Objective {
         Ok(())
     }
 
-    /// The fitness of one candidate from its components, one a view. Nothing drawn or nothing observed scores 0; 0/0 is 0.
+    /// The fitness of one candidate from its components, one a view. Nothing drawn or nothing observed scores 0; 0/0 is 0. So does
+    /// any candidate by an objective that weighs evidence, of which there is none here.
     pub fn fitness(&self, views: &[Components]) -> f32 {
-        self.combined(views, |_, sums| sums.silhouette(self.beta))
+        if self.weighs_evidence() {
+            return 0.0;
+        }
+        self.combined(views, |_, sums| sums.is_something().then(|| sums.silhouette(self.beta)))
     }
 
     /// The segmented form: the silhouette term is the weighted mean of the segments' own, `segment_sums[view * segments + segment]`.
     pub fn segmented_fitness(&self, views: &[Components], segments: &Segments, segment_sums: &[SegmentSums]) -> f32 {
+        if self.weighs_evidence() {
+            return 0.0;
+        }
         let segments = segments.as_slice();
-        self.combined(views, |views, _| {
+        self.combined(views, |views, sums| {
             let rows = &segment_sums[views.start * segments.len()..views.end * segments.len()];
             let term = |(at, segment): (usize, &Segment)| {
                 let of_segment = rows.iter().skip(at).step_by(segments.len());
                 segment.weight * of_segment.fold(Sums::default(), Sums::plus_segment).silhouette(self.beta)
             };
-            segments.iter().enumerate().map(term).sum()
+            sums.is_something().then(|| segments.iter().enumerate().map(term).sum())
         })
     }
 
-    /// The fitness of every candidate from `components[candidate * views + view]`; where there are segments, the segmented form
-    /// with `sums[(candidate * views + view) * segments + segment]`.
-    pub(crate) fn score(
-        &self,
-        views: usize,
-        components: &[Components],
-        segments: Option<(&Segments, &[SegmentSums])>,
-        fitness: &mut [f32],
-    ) {
+    /// With the evidence of every view in place of the silhouette term. Nothing drawn, or no evidence for anybody, scores 0.
+    pub fn evidence_fitness(&self, views: &[Components], evidence: &[EvidenceSum]) -> f32 {
+        self.weighed(views, |views| evidence[views].iter().copied())
+    }
+
+    /// The fitness of every candidate from `components[candidate * views + view]` and what the first term is made of besides.
+    pub(crate) fn score(&self, views: usize, components: &[Components], area: AreaSums<'_>, fitness: &mut [f32]) {
         let rows = fitness.iter_mut().zip(components.chunks_exact(views));
-        match segments {
-            None => rows.for_each(|(value, row)| *value = self.fitness(row)),
-            Some((segments, sums)) => {
+        match area {
+            AreaSums::Whole => rows.for_each(|(value, row)| *value = self.fitness(row)),
+            AreaSums::Segments(segments, sums) => {
                 let sums = sums.chunks_exact(views * segments.as_slice().len());
                 rows.zip(sums).for_each(|((value, row), sums)| *value = self.segmented_fitness(row, segments, sums));
             }
+            AreaSums::Evidence(best, sums) => rows.zip(sums.chunks_exact(views)).for_each(|((value, row), sums)| {
+                let of_views = |views: Range<usize>| {
+                    let pairs = sums[views.clone()].iter().zip(&best[views]);
+                    pairs.map(|(&sum, &best)| EvidenceSum { sum, best })
+                };
+                *value = self.weighed(row, of_views);
+            }),
         }
     }
 
-    /// f1 and f2 (METHOD A7) of one camera by itself.
-    pub fn view_terms(&self, view: &Components) -> [f32; 2] {
-        let sums = Sums::default().plus(view);
-        [sums.silhouette(self.beta), sums.edge()]
+    /// f1 and f2 (METHOD A7) of one camera by itself; by evidence f1 is its share of the best, and 0 where there is none.
+    pub fn view_terms(&self, view: &ViewCounts) -> [f32; 2] {
+        let sums = Sums::default().plus(&view.components);
+        let area = if self.weighs_evidence() {
+            share_of_best(view.evidence).unwrap_or(0.0)
+        } else {
+            sums.silhouette(self.beta)
+        };
+        [area, sums.edge()]
     }
 
-    /// The terms of all views together or of each by itself, put together; `silhouette` is f1 of some of the views and their sums.
-    fn combined(&self, views: &[Components], silhouette: impl Fn(Range<usize>, &Sums) -> f32) -> f32 {
-        let (terms, over) = self.kind.formula();
+    /// [`Self::evidence_fitness`] with the evidence of a range of views.
+    fn weighed<E: Iterator<Item = EvidenceSum>>(
+        &self,
+        views: &[Components],
+        evidence: impl Fn(Range<usize>) -> E,
+    ) -> f32 {
+        self.combined(views, |views, sums| {
+            let share = share_of_best(evidence(views)).filter(|_| sums.area_model > 0);
+            share.map(|share| share.max(LEAST_EVIDENCE))
+        })
+    }
+
+    /// The terms of all views together or of each by itself, put together; `area` is f1 of some of the views and their sums, and
+    /// none where they score 0.
+    fn combined(&self, views: &[Components], area: impl Fn(Range<usize>, &Sums) -> Option<f32>) -> f32 {
+        let (_, terms, over) = self.kind.formula();
         let score = |range: Range<usize>| {
             let sums = views[range.clone()].iter().fold(Sums::default(), Sums::plus);
-            if sums.is_nothing() {
-                return 0.0;
-            }
-            let (f1, f2) = (silhouette(range, &sums), sums.edge());
+            let Some(f1) = area(range, &sums) else { return 0.0 };
+            let f2 = sums.edge();
             match terms {
                 Terms::Sum => self.w1 * f1 + self.w2 * f2,
                 Terms::Product => power(f1, self.w1) * power(f2, self.w2),
@@ -156,9 +225,29 @@ impl Objective {
     }
 }
 
-/// x^w for x in [0, 1] and w > 0; the default exponent is a square root, which every device rounds alike.
+/// The evidence of some views in shares of the best, 0 where more speaks against; none where nothing speaks for anybody.
+fn share_of_best(views: impl IntoIterator<Item = EvidenceSum>) -> Option<f32> {
+    let (sum, best) = views
+        .into_iter()
+        .fold((0_i64, 0), |(sum, best), view| (sum + i64::from(view.sum), best + u64::from(view.best)));
+    (best > 0).then(|| ratio(sum.max(0).unsigned_abs(), best))
+}
+
+/// x^w for x in [0, 1] and w > 0. Exponents in eighths are products of square roots, which every device rounds alike.
 fn power(x: f32, w: f32) -> f32 {
-    if w == 0.5 { x.sqrt() } else { x.powf(w) }
+    let eighths = 8.0 * w;
+    if eighths.fract() != 0.0 || !(1.0..=8.0).contains(&eighths) {
+        return x.powf(w);
+    }
+    let (eighths, half) = (eighths as u32, x.sqrt());
+    let quarter = half.sqrt();
+    let mut product = 1.0;
+    for (bit, root) in [(8, x), (4, half), (2, quarter), (1, quarter.sqrt())] {
+        if eighths & bit != 0 {
+            product *= root;
+        }
+    }
+    product
 }
 
 /// Components summed over one or more cameras, as wide as the sum of many views needs.
@@ -191,9 +280,9 @@ impl Sums {
         }
     }
 
-    /// Whether nothing was drawn or nothing observed.
-    fn is_nothing(&self) -> bool {
-        self.area_obs == 0 || self.area_model == 0
+    /// Whether something was drawn and something observed.
+    fn is_something(&self) -> bool {
+        self.area_obs > 0 && self.area_model > 0
     }
 
     /// f1 (METHOD A7).
@@ -250,7 +339,8 @@ mod tests {
         let f2_all = 1016.0 / (127.0 * 40.0);
         for (kind, expected) in ObjectiveKind::ALL.into_iter().zip(five(f1, f2, f1_all, f2_all)) {
             let objective = Objective { kind, beta: 0.3, w1: W1 as f32, w2: W2 as f32 };
-            let [term1, term2] = objective.view_terms(&views()[1]).map(f64::from);
+            let seen = ViewCounts { components: views()[1], evidence: None };
+            let [term1, term2] = objective.view_terms(&seen).map(f64::from);
             assert!((term1 - f1[1]).abs() < 1e-6 && (term2 - f2[1]).abs() < 1e-6, "{term1} {term2}");
             let found = f64::from(objective.fitness(&views()));
             assert!((found - expected).abs() < 1e-6, "{}: {found} is not {expected}", kind.name());
@@ -278,10 +368,50 @@ mod tests {
         }
     }
 
+    /// METHOD A7 written out by hand: the two views above with evidence, of which one speaks against the candidate.
+    #[test]
+    fn the_formula_of_evidence() {
+        let objective = Objective::of(ObjectiveKind::Evidence);
+        assert_eq!((objective.w1, objective.w2), (0.75, 0.25));
+        let evidence = [EvidenceSum { sum: 900, best: 1000 }, EvidenceSum { sum: -150, best: 500 }];
+        let (share, edge) = (750.0_f64 / 1500.0, 1016.0_f64 / (127.0 * 40.0));
+        let found = f64::from(objective.evidence_fitness(&views(), &evidence));
+        assert!((found - share.powf(0.75) * edge.powf(0.25)).abs() < 1e-6, "{found}");
+        let seen = |view: usize| ViewCounts { components: views()[view], evidence: Some(evidence[view]) };
+        assert_eq!([0, 1].map(|view| objective.view_terms(&seen(view))), [[0.9, 0.5], [0.0, 0.1]]);
+        // By itself the second view speaks for nobody, and its edges still count.
+        let against = f64::from(objective.evidence_fitness(&views()[1..], &evidence[1..]));
+        assert!((against - 1e-6_f64.powf(0.75) * 0.1_f64.powf(0.25)).abs() < 1e-9, "{against}");
+        // Nothing drawn; nothing to be drawn.
+        let nothing = Components { area_model: 0, ..views()[0] };
+        assert_eq!(objective.evidence_fitness(&[nothing], &evidence[..1]), 0.0);
+        assert_eq!(objective.evidence_fitness(&views()[..1], &[EvidenceSum { sum: 0, best: 0 }]), 0.0);
+        // Batches are rows of views.
+        let mut fitness = [-1.0; 2];
+        let components = [views(), views()].concat();
+        objective.score(2, &components, AreaSums::Evidence(&[1000, 500], &[900, -150, 400, 500]), &mut fitness);
+        let other = [EvidenceSum { sum: 400, best: 1000 }, EvidenceSum { sum: 500, best: 500 }];
+        assert_eq!(fitness, [evidence, other].map(|evidence| objective.evidence_fitness(&views(), &evidence)));
+    }
+
+    #[test]
+    fn powers_in_eighths_are_roots() {
+        for x in [0.0_f32, 1e-6, 0.1, 0.37, 0.9999, 1.0] {
+            assert_eq!(power(x, 0.5), x.sqrt());
+            assert_eq!(power(x, 1.0), x);
+            assert_eq!(power(x, 0.75), x.sqrt() * x.sqrt().sqrt());
+            for eighths in 1..=16 {
+                let w = eighths as f32 / 16.0;
+                let exact = f64::from(x).powf(f64::from(w));
+                assert!((f64::from(power(x, w)) - exact).abs() < 1e-6, "{x}^{w}");
+            }
+        }
+    }
+
     #[test]
     fn nothing_scores_zero_and_never_nan() {
         for kind in ObjectiveKind::ALL {
-            let objective = Objective { kind, ..Objective::default() };
+            let objective = Objective::of(kind);
             for nothing in [
                 vec![],
                 vec![Components::default(); 3],
@@ -297,7 +427,12 @@ mod tests {
     fn a_perfect_candidate_scores_one() {
         let perfect = Components { area_obs: 70, area_model: 70, overlap: 70, edges: 9, proximity: 9 * 127 };
         for kind in ObjectiveKind::ALL {
-            let fitness = Objective { kind, ..Objective::default() }.fitness(&[perfect; 4]);
+            let objective = Objective::of(kind);
+            let fitness = if objective.weighs_evidence() {
+                objective.evidence_fitness(&[perfect; 4], &[EvidenceSum { sum: 350, best: 350 }; 4])
+            } else {
+                objective.fitness(&[perfect; 4])
+            };
             assert!((fitness - 1.0).abs() < 1e-6, "{}: {fitness}", kind.name());
         }
     }

@@ -6,12 +6,14 @@ use std::sync::Arc;
 use anyhow::{Result, ensure};
 
 use crate::body::{Body, Mesh};
-use crate::features::{Observation, Segmentation, Segments};
+use crate::features::evidence::code;
+use crate::features::{Evidence, Observation, Segmentation, Segments};
 use crate::geometry::Camera;
 
 use super::batch::{check_batch, check_observations};
 use super::components::Components;
-use super::evaluator::{Evaluator, check_segment_batch};
+use super::evaluator::{Evaluator, check_evidence_batch, check_segment_batch};
+use super::evidence::{best_sums, evidence_of};
 use super::mesh_projection::MeshProjector;
 use super::mesh_raster::draw_mesh;
 use super::projection::Projector;
@@ -23,6 +25,8 @@ use super::segments::{SegmentSums, segments_of};
 pub struct Reference {
     model: DrawnModel,
     observations: Vec<Observation>,
+    /// One a view; none without evidence.
+    best_evidence: Option<Arc<[u32]>>,
 }
 
 #[derive(Clone, Debug)]
@@ -49,7 +53,7 @@ impl Reference {
 
     fn of(model: DrawnModel, cameras: &[Camera]) -> Self {
         let observations = cameras.iter().map(|camera| Observation::empty(camera.size[0], camera.size[1])).collect();
-        Self { model, observations }
+        Self { model, observations, best_evidence: None }
     }
 
     fn projector(&self) -> &Projector {
@@ -105,6 +109,8 @@ impl Evaluator for Reference {
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
         check_observations(observations, self.projector().cameras.iter().map(|camera| camera.size))?;
         segments_of(observations)?;
+        evidence_of(observations)?;
+        self.best_evidence = best_sums(observations);
         self.observations = observations.to_vec();
         Ok(())
     }
@@ -137,6 +143,23 @@ impl Evaluator for Reference {
         Ok(())
     }
 
+    fn best_evidence(&self) -> Option<&[u32]> {
+        self.best_evidence.as_deref()
+    }
+
+    fn evidence_sums(&mut self, poses: &[f32], sums: &mut [i32]) -> Result<()> {
+        check_evidence_batch(self, poses, sums.len())?;
+        let rows = sums.chunks_exact_mut(self.view_count());
+        for (pose, row) in poses.chunks_exact(self.dof_count()).zip(rows) {
+            for (view, sum) in row.iter_mut().enumerate() {
+                if let Some(evidence) = &self.observations[view].evidence {
+                    *sum = evidence_under(&self.draw(pose, view), evidence);
+                }
+            }
+        }
+        Ok(())
+    }
+
     fn drawn(&mut self, pose: &[f32], view: usize) -> Result<Option<CandidateImage>> {
         check_batch(pose, self.dof_count(), 1, 1)?;
         ensure!(view < self.view_count(), "there are {} views, and view {view} was asked for", self.view_count());
@@ -157,11 +180,21 @@ fn compare_segments(image: &CandidateImage, seen: &Segmentation, sums: &mut [Seg
     }
 }
 
+/// Sums the evidence of the pixels of a drawn candidate: of each that of the class of the part that shows there.
+fn evidence_under(image: &CandidateImage, seen: &Evidence) -> i32 {
+    let drawn = image.bytes.iter().zip(seen.words()).filter(|(byte, _)| **byte != 0);
+    let value = |(byte, &word): (&u8, &u32)| {
+        let class = seen.classes().of_label(byte & 0x7f);
+        code(word, usize::from(class)) as i32 - Evidence::NEUTRAL as i32
+    };
+    drawn.map(value).sum()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::evaluate::PartQuad;
-    use crate::features::Segment;
+    use crate::features::{PartClasses, Segment};
 
     /// A part with the given corners in pixels, at a depth.
     fn part(corners: [[f64; 2]; 4], depth_squared: f32) -> PartQuad {
@@ -182,5 +215,24 @@ mod tests {
         compare_segments(&image, &Segmentation::new(segments, 8, 6, numbers).unwrap(), &mut sums);
         assert_eq!(sums[0], SegmentSums { area_obs: 21, area_model: 24, overlap: 21 });
         assert_eq!(sums[1], SegmentSums { area_obs: 15, area_model: 12, overlap: 12 });
+    }
+
+    #[test]
+    fn a_pixel_s_evidence_is_that_of_the_part_that_shows_there() {
+        let classes = Arc::new(PartClasses::new([(1, 0), (2, 1)]).unwrap());
+        // The bars above: the near one has 24 pixels and the far one 12 beside it. Where nothing is drawn anything may be.
+        let far = part([[0.0, 2.0], [7.0, 2.0], [7.0, 4.0], [0.0, 4.0]], 9.0);
+        let near = part([[2.0, 0.0], [5.0, 0.0], [5.0, 5.0], [2.0, 5.0]], 1.0);
+        let image = draw_quads(&[far, near], &[1, 2], 8, 6);
+        let word = |byte: &u8| match byte & 0x7f {
+            0 => 0x0e,
+            1 => 0x09,
+            _ => 0x3e,
+        };
+        let mut words: Vec<u32> = image.bytes.iter().map(word).collect();
+        let evidence = |words: &[u32]| Evidence::new(Arc::clone(&classes), 8, 6, words.to_vec()).unwrap();
+        assert_eq!(evidence_under(&image, &evidence(&words)), 12 * (9 - 7) + 24 * (3 - 7));
+        words[3] += 0x20;
+        assert_eq!(evidence_under(&image, &evidence(&words)), 12 * (9 - 7) + 24 * (3 - 7) + 2);
     }
 }

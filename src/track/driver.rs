@@ -21,7 +21,7 @@ use super::summary::{TrackSummary, lost_sentence, mean};
 use super::timings::{Span, Thread, Timings};
 use super::truth::Truth;
 use super::{Backend, TrackSettings, folder, results, run_record};
-use crate::evaluate::Components;
+use crate::evaluate::ViewCounts;
 use crate::files::OutputFolder;
 use crate::gpu::DeviceLost;
 use crate::sequence::Sequence;
@@ -266,7 +266,7 @@ impl Run<'_> {
             pose: searched.estimate.pose.clone(),
             fitness: searched.estimate.fitness,
             spread: searched.estimate.spread.clone(),
-            views: searched.components.iter().map(|view| objective.view_terms(view)).collect(),
+            views: searched.views.iter().map(|view| objective.view_terms(view)).collect(),
             joints: seen_joints(body, cameras, observations, &searched.estimate.pose),
         };
         let mut found = result(&searched);
@@ -274,8 +274,8 @@ impl Run<'_> {
             self.recovery.as_ref().filter(|recovery| recovery.is_lost() || self.confidence.is_loss_at(&found))
         {
             let begin = Instant::now();
-            let is_sure = |components: &[Components]| {
-                let views = components.iter().map(|view| objective.view_terms(view)).collect();
+            let is_sure = |views: &[ViewCounts]| {
+                let views = views.iter().map(|view| objective.view_terms(view)).collect();
                 !self.confidence.is_loss_at(&FrameResult { views, ..found.clone() })
             };
             let lost = LostFrame { evaluator, objective, observations, number: counter, spread: &spread };

@@ -1,4 +1,4 @@
-//! Which objective function: the defaults, a sequence's `[objective]` table over them, the command line over both.
+//! Which objective function: its kind's defaults, a sequence's `[objective]` table over them, the command line over both.
 
 use anyhow::Result;
 use serde::Deserialize;
@@ -22,30 +22,25 @@ pub struct ObjectiveChoice {
 
 impl ObjectiveChoice {
     /// The objective: this choice over the `[objective]` table of a sequence (`name` stands for its file in messages)
-    /// over the defaults.
+    /// over the defaults of the kind that both come to.
     ///
     /// # Errors
     /// An unknown key or kind, a value of the wrong type or one that makes no sense (METHOD A7: weights of a sum are in
     /// [0, 1] and sum to 1, exponents of a product in (0, 1]).
     pub fn resolve(&self, table: Option<&toml::Table>, name: &str) -> Result<Objective> {
-        let mut objective = Objective::default();
-        if let Some(table) = table {
-            let place = format!("{name}, table [objective]");
-            let written: Self = parse_table(table, &place)?;
-            written.put_into(&mut objective);
-        }
-        self.put_into(&mut objective);
+        let written = match table {
+            Some(table) => parse_table(table, &format!("{name}, table [objective]"))?,
+            None => Self::default(),
+        };
+        let usual = Objective::of(self.kind.or(written.kind).unwrap_or_default());
+        let objective = Objective {
+            beta: self.beta.or(written.beta).unwrap_or(usual.beta),
+            w1: self.w1.or(written.w1).unwrap_or(usual.w1),
+            w2: self.w2.or(written.w2).unwrap_or(usual.w2),
+            ..usual
+        };
         objective.check()?;
         Ok(objective)
-    }
-
-    fn put_into(&self, objective: &mut Objective) {
-        objective.kind = self.kind.unwrap_or(objective.kind);
-        for (value, target) in
-            [(self.beta, &mut objective.beta), (self.w1, &mut objective.w1), (self.w2, &mut objective.w2)]
-        {
-            *target = value.unwrap_or(*target);
-        }
     }
 }
 
@@ -63,12 +58,17 @@ mod tests {
         let objective = resolve("kind = 'aows'\nw1 = 0.4", "kind = 'ws'\nbeta = 0.25\nw1 = 0.6\nw2 = 0.6").unwrap();
         assert_eq!(objective, Objective { kind: ObjectiveKind::Aows, beta: 0.25, w1: 0.4, w2: 0.6 });
         assert_eq!(ObjectiveChoice::default().resolve(None, "s").unwrap(), Objective::default());
+        // Weights that nobody writes are the kind's, wherever that comes from.
+        let evidence = Objective::of(ObjectiveKind::Evidence);
+        assert_eq!(resolve("kind = 'evidence'", "kind = 'sp'").unwrap(), evidence);
+        assert_eq!(resolve("w2 = 0.5", "kind = 'evidence'").unwrap(), Objective { w2: 0.5, ..evidence });
+        assert_eq!(resolve("kind = 'sp'", "kind = 'evidence'").unwrap(), Objective::default());
     }
 
     #[test]
     fn what_makes_no_sense_is_named() {
         for (flags, table, sentences) in [
-            ("kind = 'best'", "", &["unknown objective `best`", "ws, sp, aows, aosp, posp"][..]),
+            ("kind = 'best'", "", &["unknown objective `best`", "ws, sp, aows, aosp, posp, evidence"][..]),
             ("", "kind = 'best'", &["sequence.toml, table [objective]", "`best`"]),
             ("", "bata = 1.0", &["`bata`", "`beta`"]),
             ("", "beta = 'half'", &["sequence.toml", "string"]),

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::hull::Hull;
 use super::searcher::Searched;
 use crate::body::{Body, DofAxis};
-use crate::evaluate::{Components, Evaluator, Objective};
+use crate::evaluate::{Evaluator, Objective, ViewCounts};
 use crate::features::Observation;
 use crate::geometry::Camera;
 use crate::search::{Estimate, SearchKind, SearchSettings, SearchSpace};
@@ -87,7 +87,7 @@ impl Recovery {
     }
 
     /// Searches wider; replaces `found` by what fits better, if anything does. `is_sure` says whether a pose with these
-    /// components would count as a find: that is always compared with what else the hull holds, since a person turned by half
+    /// counts would count as a find: that is always compared with what else the hull holds, since a person turned by half
     /// agrees nearly as well.
     ///
     /// # Errors
@@ -96,7 +96,7 @@ impl Recovery {
         &self,
         mut frame: LostFrame<'_>,
         found: &mut Searched,
-        is_sure: &dyn Fn(&[Components]) -> bool,
+        is_sure: &dyn Fn(&[ViewCounts]) -> bool,
     ) -> Result<()> {
         let mut searches = 0;
         if let Some(sure) = &self.sure {
@@ -107,7 +107,7 @@ impl Recovery {
         let is_turn = self.lost_frames == 0
             || self.lost_frames.is_power_of_two()
             || self.lost_frames.is_multiple_of(LONGEST_WAIT)
-            || is_sure(&found.components);
+            || is_sure(&found.views);
         // Without a hull there is nobody to be found.
         let Some(hull) = is_turn.then(|| Hull::carve_coarsely(&self.cameras, frame.observations).ok()).flatten() else {
             return Ok(());
@@ -160,7 +160,7 @@ impl Recovery {
         let evaluations = found.estimate.evaluations + estimate.evaluations;
         if estimate.fitness > found.estimate.fitness {
             found.estimate = estimate;
-            frame.evaluator.components(&found.estimate.pose, &mut found.components)?;
+            found.views = frame.evaluator.view_counts(&found.estimate.pose, frame.objective)?;
         }
         found.estimate.evaluations = evaluations;
         Ok(())

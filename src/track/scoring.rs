@@ -93,7 +93,7 @@ pub struct Scores {
 }
 
 /// Scores poses against a frame; one fitness a pose. With `output` it writes components.csv and fitness.csv there, segments.csv where
-/// the observations tell body parts apart, and with `images` besides every candidate as `images/pose_%06d_<camera>.png` (8-bit grey:
+/// the observations tell body parts apart, evidence.csv where they carry evidence, and with `images` besides every candidate as `images/pose_%06d_<camera>.png` (8-bit grey:
 /// bits 0-6 the label, bit 7 the edge), as the evaluator drew it, or the reference for one that keeps no picture.
 /// Poses are counted from 0 in the order of the table, whatever their frames.
 ///
@@ -128,6 +128,9 @@ pub fn score_poses(
     output.write("fitness.csv", |writer| write_fitness(writer, &scores.fitness))?;
     if evaluator.segments().is_some() {
         output.write("segments.csv", |writer| write_segments(writer, frame, evaluator, &rows))?;
+    }
+    if evaluator.best_evidence().is_some() {
+        output.write("evidence.csv", |writer| write_evidence(writer, frame, evaluator, &rows))?;
     }
     if images {
         let reference = match mesh {
@@ -223,6 +226,23 @@ fn write_segments(out: &mut dyn Write, frame: &ScoredFrame, evaluator: &mut dyn 
     Ok(writer.flush()?)
 }
 
+fn write_evidence(out: &mut dyn Write, frame: &ScoredFrame, evaluator: &mut dyn Evaluator, rows: &[f32]) -> Result<()> {
+    let (views, dofs) = (frame.cameras.len(), frame.body.dof_count());
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(["pose", "view", "evidence"])?;
+    let mut sums = Vec::new();
+    for (index, batch) in rows.chunks(BATCH * dofs).enumerate() {
+        sums.clear();
+        sums.resize(batch.len() / dofs * views, 0);
+        evaluator.evidence_sums(batch, &mut sums)?;
+        for (at, sum) in sums.iter().enumerate() {
+            let pose = (index * BATCH + at / views).to_string();
+            writer.write_record([pose.as_str(), &frame.cameras[at % views].name, &sum.to_string()])?;
+        }
+    }
+    Ok(writer.flush()?)
+}
+
 /// Poses as evaluators take them. An angle is brought to [-pi, pi] while it is double precision: a large one would lose
 /// its digits.
 fn single_precision(body: &Body, poses: &PoseTable) -> Vec<f32> {
@@ -239,8 +259,11 @@ fn reduced(angle: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::evaluate::CandidateImage;
+    use crate::features::{Evidence, PartClasses};
 
     /// An evaluator that keeps pictures of one view alone.
     struct Painter;
@@ -304,6 +327,31 @@ mod tests {
         let mut own = Reference::new(&frame.body, &frame.cameras);
         let again = OutputFolder::create(&folder.path().join("own"), crate::files::Overwrite::Refuse).unwrap();
         assert!(!write_images(&again, &frame, &mut own, &reference, &rows).unwrap());
+    }
+
+    #[test]
+    fn evidence_is_written_a_row_a_pose_and_view() {
+        let body = Body::adult(1750.0).unwrap();
+        let cameras = crate::synth::rig::four_cameras(glam::DVec2::splat(2000.0), [64, 48]);
+        let classes = Arc::new(PartClasses::one());
+        let words = |view: u32| (0..64 * 48).map(|at| 8 + (at + view) % 3).collect();
+        let seen = |view| {
+            let evidence = Evidence::new(Arc::clone(&classes), 64, 48, words(view)).unwrap();
+            Observation { evidence: Some(evidence), ..Observation::empty(64, 48) }
+        };
+        let frame = ScoredFrame { observations: (0..4).map(seen).collect(), body, cameras };
+        let mut evaluator = Reference::new(&frame.body, &frame.cameras);
+        evaluator.observe(&frame.observations).unwrap();
+        let standing: Vec<f32> = frame.body.standing_pose().iter().map(|value| *value as f32).collect();
+        let rows = [standing.clone(), standing].concat();
+        let mut sums = [0; 8];
+        evaluator.evidence_sums(&rows, &mut sums).unwrap();
+        assert!(sums.iter().all(|sum| *sum > 0), "{sums:?}");
+        let mut written = Vec::new();
+        write_evidence(&mut written, &frame, &mut evaluator, &rows).unwrap();
+        let lines: Vec<String> = String::from_utf8(written).unwrap().lines().map(str::to_owned).collect();
+        assert_eq!((lines[0].as_str(), lines.len()), ("pose,view,evidence", 9));
+        assert_eq!(lines[7], format!("1,{},{}", frame.cameras[2].name, sums[6]));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 
 use super::timings::Span;
-use crate::evaluate::{Components, Evaluator, Objective};
+use crate::evaluate::{Components, Evaluator, Objective, ViewCounts};
 use crate::features::Observation;
 use crate::gpu::{DevicePass, Timing};
 use crate::search::{DeviceSearch, Estimate, Refinement, Search, SearchSettings, SearchSpace};
@@ -68,7 +68,7 @@ pub(super) struct Start<'a> {
 pub(super) struct Searched {
     pub(super) estimate: Estimate,
     /// What the comparison of the estimate with the observations yields, one a view.
-    pub(super) components: Vec<Components>,
+    pub(super) views: Vec<ViewCounts>,
     /// When the evaluator worked. On a device that is the whole submission, the search's own stages included.
     pub(super) evaluations: Vec<Span>,
     /// The passes that ran on the device, where they are measured.
@@ -138,10 +138,9 @@ impl Searcher {
                     }
                 }
                 let estimate = search.estimate(fitness)?;
-                let mut components = vec![Components::default(); evaluator.view_count()];
-                evaluator.components(&estimate.pose, &mut components)?;
+                let views = evaluator.view_counts(&estimate.pose, objective)?;
                 passes.extend(evaluator.device_passes());
-                Ok(Searched { estimate, components, evaluations, passes })
+                Ok(Searched { estimate, views, evaluations, passes })
             }
             Self::Device(search) => search.search_frame(evaluator, objective, observations, start),
         }
@@ -176,18 +175,19 @@ impl OnDevice {
         let mut passes = search.passes_run(Instant::now())?;
         let mut estimate = found.estimate;
         if self.settings.refine == 0 {
-            let components = observations
-                .iter()
-                .zip(found.sums)
-                .map(|(observation, [area_model, overlap, edges, proximity])| Components {
-                    area_obs: observation.area(),
-                    area_model,
-                    overlap,
-                    edges,
-                    proximity,
-                })
-                .collect();
-            return Ok(Searched { estimate, components, evaluations, passes });
+            if objective.weighs_evidence() {
+                // The search brings no evidence back: its best pose is weighed once more.
+                let views = evaluator.view_counts(&estimate.pose, objective)?;
+                passes.extend(evaluator.device_passes());
+                return Ok(Searched { estimate, views, evaluations, passes });
+            }
+            let counts = |(observation, sums): (&Observation, [u32; 4])| {
+                let ([area_model, overlap, edges, proximity], area_obs) = (sums, observation.area());
+                let components = Components { area_obs, area_model, overlap, edges, proximity };
+                ViewCounts { components, evidence: None }
+            };
+            let views = observations.iter().zip(found.sums).map(counts).collect();
+            return Ok(Searched { estimate, views, evaluations, passes });
         }
         let before = estimate.pose.clone();
         self.refinement.improve(&mut estimate, spread, &mut |poses, fitness| {
@@ -198,9 +198,8 @@ impl OnDevice {
             Ok(())
         })?;
         self.estimated = [before, estimate.pose.clone()];
-        let mut components = vec![Components::default(); evaluator.view_count()];
-        evaluator.components(&estimate.pose, &mut components)?;
+        let views = evaluator.view_counts(&estimate.pose, objective)?;
         passes.extend(evaluator.device_passes());
-        Ok(Searched { estimate, components, evaluations, passes })
+        Ok(Searched { estimate, views, evaluations, passes })
     }
 }

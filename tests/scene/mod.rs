@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use pantin::body::Body;
-use pantin::evaluate::{Components, Evaluator, Reference};
+use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind, Reference};
 use pantin::features::Observation;
 use pantin::geometry::{BrownConrady, Camera, Lens, Tsai};
 
@@ -89,6 +89,11 @@ pub(crate) fn poses(body: &Body, count: usize, random: &mut Random) -> Vec<f32> 
         }
     }
     poses
+}
+
+/// The objectives that need no evidence.
+pub(crate) fn of_silhouettes() -> impl Iterator<Item = ObjectiveKind> {
+    ObjectiveKind::ALL.into_iter().filter(|kind| !Objective::of(*kind).weighs_evidence())
 }
 
 /// The first candidate and view whose components differ.

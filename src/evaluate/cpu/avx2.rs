@@ -217,4 +217,33 @@ impl Simd for Avx2 {
             (_mm_cvtsi128_si64(halves) + _mm_extract_epi64::<1>(halves)) as u32
         })
     }
+    /// Into the first sum: bits of a nibble, by table times what they count, come to 240 a byte at most.
+    #[inline(always)]
+    fn count_codes(self, sums: [__m256i; 4], bits: [Pair; 4]) -> [__m256i; 4] {
+        with_token!({
+            let nibble = _mm256_set1_epi8(0x0f);
+            let mut table = _mm256_setr_epi8(
+                0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4, 0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4,
+            );
+            let mut bytes = _mm256_setzero_si256();
+            for [w, v] in bits {
+                let first = _mm256_add_epi8(
+                    _mm256_shuffle_epi8(table, _mm256_and_si256(w, nibble)),
+                    _mm256_shuffle_epi8(table, _mm256_and_si256(_mm256_srli_epi32::<4>(w), nibble)),
+                );
+                let second = _mm256_add_epi8(
+                    _mm256_shuffle_epi8(table, _mm256_and_si256(v, nibble)),
+                    _mm256_shuffle_epi8(table, _mm256_and_si256(_mm256_srli_epi32::<4>(v), nibble)),
+                );
+                bytes = _mm256_add_epi8(bytes, _mm256_add_epi8(first, second));
+                table = _mm256_add_epi8(table, table);
+            }
+            let sum = _mm256_add_epi64(sums[0], _mm256_sad_epu8(bytes, _mm256_setzero_si256()));
+            [sum, sums[1], sums[2], sums[3]]
+        })
+    }
+    #[inline(always)]
+    fn total_codes(self, sums: [__m256i; 4]) -> u32 {
+        self.total(sums[0])
+    }
 }

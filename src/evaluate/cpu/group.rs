@@ -20,6 +20,18 @@ pub(super) struct Scratch {
     pub(super) segmented: Option<Canvas<SegmentedCell>>,
     /// `[candidate][view][segment]`.
     pub(super) segment_sums: Vec<SegmentSums>,
+    /// `[candidate][view]`.
+    pub(super) evidence: Vec<i32>,
+}
+
+/// What is summed besides the components.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Besides {
+    Nothing,
+    /// Where there are segments.
+    Segments,
+    /// Where there is evidence.
+    Evidence,
 }
 
 /// Evaluates them with the operations of `simd`; inlined into a function that is compiled for these.
@@ -29,6 +41,7 @@ pub(super) fn evaluate_group<S: Simd>(
     projector: &Projector,
     planes: &[Planes],
     poses: &[f32],
+    besides: Besides,
     scratch: &mut Scratch,
 ) {
     scratch.front.pose(&projector.rig, poses);
@@ -39,13 +52,18 @@ pub(super) fn evaluate_group<S: Simd>(
         for candidate in 0..count {
             scratch.front.project(camera, candidate, &mut scratch.quads);
             let image = candidate * views + view;
-            scratch.components[image] = match &mut scratch.segmented {
-                None => scratch.canvas.compare(simd, &scratch.quads, planes),
-                Some(canvas) => {
+            scratch.components[image] = match (besides, &mut scratch.segmented) {
+                (Besides::Evidence, _) => {
+                    let (components, evidence) = scratch.canvas.compare_evidence(simd, &scratch.quads, planes);
+                    scratch.evidence[image] = evidence;
+                    components
+                }
+                (Besides::Segments, Some(canvas)) => {
                     let segments = planes.segment_areas.len();
                     let sums = &mut scratch.segment_sums[image * segments..][..segments];
                     canvas.compare_segments(simd, &scratch.quads, planes, sums)
                 }
+                (Besides::Nothing | Besides::Segments, _) => scratch.canvas.compare(simd, &scratch.quads, planes),
             };
         }
     }

@@ -6,7 +6,7 @@ use std::arch::is_x86_feature_detected;
 use crate::evaluate::projection::Projector;
 use crate::files::choices;
 
-use super::group::{Scratch, evaluate_group};
+use super::group::{Besides, Scratch, evaluate_group};
 use super::planes::Planes;
 use super::portable::Portable;
 
@@ -25,19 +25,27 @@ macro_rules! token {
                 ($(is_x86_feature_detected!($feature))&&+).then_some(Self(()))
             }
 
-            fn evaluate_group(self, projector: &Projector, planes: &[Planes], poses: &[f32], scratch: &mut Scratch) {
+            fn evaluate_group(
+                self,
+                projector: &Projector,
+                planes: &[Planes],
+                poses: &[f32],
+                besides: Besides,
+                scratch: &mut Scratch,
+            ) {
                 $(#[target_feature(enable = $feature)])+
                 fn compiled(
                     token: $name,
                     projector: &Projector,
                     planes: &[Planes],
                     poses: &[f32],
+                    besides: Besides,
                     scratch: &mut Scratch,
                 ) {
-                    evaluate_group(($simd)(token), projector, planes, poses, scratch);
+                    evaluate_group(($simd)(token), projector, planes, poses, besides, scratch);
                 }
                 // SAFETY: the token proves that the processor has these features.
-                unsafe { compiled(self, projector, planes, poses, scratch) }
+                unsafe { compiled(self, projector, planes, poses, besides, scratch) }
             }
         }
     };
@@ -115,15 +123,22 @@ impl Code {
     }
 
     /// Up to sixteen candidates in every view.
-    pub(super) fn evaluate_group(self, projector: &Projector, planes: &[Planes], poses: &[f32], scratch: &mut Scratch) {
+    pub(super) fn evaluate_group(
+        self,
+        projector: &Projector,
+        planes: &[Planes],
+        poses: &[f32],
+        besides: Besides,
+        scratch: &mut Scratch,
+    ) {
         match self {
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512(token) => token.evaluate_group(projector, planes, poses, scratch),
+            Self::Avx512(token) => token.evaluate_group(projector, planes, poses, besides, scratch),
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2(token) => token.evaluate_group(projector, planes, poses, scratch),
+            Self::Avx2(token) => token.evaluate_group(projector, planes, poses, besides, scratch),
             #[cfg(target_arch = "x86_64")]
-            Self::Sse(token) => token.evaluate_group(projector, planes, poses, scratch),
-            Self::Portable => evaluate_group(Portable, projector, planes, poses, scratch),
+            Self::Sse(token) => token.evaluate_group(projector, planes, poses, besides, scratch),
+            Self::Portable => evaluate_group(Portable, projector, planes, poses, besides, scratch),
         }
     }
 }

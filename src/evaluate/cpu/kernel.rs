@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use crate::evaluate::{Components, SegmentSums};
-use crate::features::Segments;
+use crate::features::{Evidence, Segments};
 
 use super::front::{LANES, QuadChunk};
 use super::outline::OutlineChunk;
@@ -31,11 +31,46 @@ pub(super) struct SegmentedCell {
 pub(super) trait Pixels: Clone + Default {
     fn cell(&mut self) -> &mut Cell;
 
-    /// Adds a part's border where no fill is yet, then its fill; the part is of the segment of this number, 0 none.
-    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words, number: u8);
+    /// Adds a part's border where no fill is yet, then its fill; the part is of the segment of this number, 0 none. Where the part
+    /// shows: nothing that is nearer has been drawn there.
+    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words, number: u8) -> S::Words;
 
     /// Removes the pixels outside of `inside`.
     fn keep<S: Simd>(&mut self, simd: S, inside: S::Words);
+}
+
+/// What is summed of the pixels that parts show, part by part.
+trait Tally<S: Simd> {
+    /// Takes the pixels that a part of this number shows in `N` cells of a row from `place` on, no two in the same column.
+    fn add<const N: usize>(&mut self, simd: S, place: usize, shown: [S::Words; N], number: u8);
+}
+
+/// Nothing.
+impl<S: Simd> Tally<S> for () {
+    #[inline(always)]
+    fn add<const N: usize>(&mut self, _: S, _: usize, _: [S::Words; N], _: u8) {}
+}
+
+/// The codes of the evidence, of the class that is the part's number. Parts come from the nearest on, so what one shows is final.
+struct Codes<'a, S: Simd> {
+    planes: &'a [[Lanes; Evidence::BITS]],
+    /// Cells of a class.
+    cells: usize,
+    sums: [S::Sum; Evidence::BITS],
+}
+
+impl<S: Simd> Tally<S> for Codes<'_, S> {
+    #[inline(always)]
+    fn add<const N: usize>(&mut self, simd: S, place: usize, shown: [S::Words; N], number: u8) {
+        let cells = &self.planes[usize::from(number) * self.cells + place..][..N];
+        let mut bits = [simd.splat(0); Evidence::BITS];
+        for bit in 0..Evidence::BITS {
+            for cell in 0..N {
+                bits[bit] = simd.or(bits[bit], simd.and(shown[cell], simd.load(&cells[cell][bit])));
+            }
+        }
+        self.sums = simd.count_codes(self.sums, bits);
+    }
 }
 
 /// Working memory for one picture size; nothing in it outlives an image.
@@ -46,12 +81,12 @@ pub(super) struct Canvas<P> {
     outlines: Vec<OutlineChunk>,
     /// Lanes of all chunks in the order of the last image, from near to far. The next image's order is much the same.
     order: Vec<usize>,
-    /// Segment numbers of the lanes of all chunks; those behind the last are 0.
+    /// Numbers of the segments, or of the classes of evidence, of the lanes of all chunks; those behind the last are 0.
     numbers: Vec<u8>,
 }
 
 impl<P: Pixels> Canvas<P> {
-    /// For parts in `chunks` chunks, of segments of these numbers, and pictures of at most `cells` cells.
+    /// For parts in `chunks` chunks, of these numbers, and pictures of at most `cells` cells.
     pub(super) fn new(chunks: usize, cells: usize, numbers: Vec<u8>) -> Self {
         Self {
             cells: vec![P::default(); cells],
@@ -65,15 +100,21 @@ impl<P: Pixels> Canvas<P> {
     #[inline(always)]
     pub(super) fn compare<S: Simd>(&mut self, simd: S, quads: &[QuadChunk], planes: &Planes) -> Components {
         let mut sums = Components { area_obs: planes.area, ..Components::default() };
-        if let Some((words, blocks)) = self.draw(simd, quads, planes) {
+        if let Some((words, blocks)) = self.draw(simd, quads, planes, &mut ()) {
             self.count(simd, planes, words, blocks, &mut sums);
         }
         sums
     }
 
-    /// Draws `quads`: the columns and the rows of cells that they lie in.
+    /// Draws `quads` and tallies what they show: the columns and the rows of cells that they lie in.
     #[inline(always)]
-    fn draw<S: Simd>(&mut self, simd: S, quads: &[QuadChunk], planes: &Planes) -> Option<(Range<usize>, Range<usize>)> {
+    fn draw<S: Simd>(
+        &mut self,
+        simd: S,
+        quads: &[QuadChunk],
+        planes: &Planes,
+        tally: &mut impl Tally<S>,
+    ) -> Option<(Range<usize>, Range<usize>)> {
         self.sort(quads);
         let (width, height) = (planes.width as i32, planes.height as i32);
         let (mut left, mut right, mut top, mut bottom) = (width, 0, height, 0);
@@ -94,9 +135,9 @@ impl<P: Pixels> Canvas<P> {
             let (outline, part) = (&self.outlines[lane / LANES], lane % LANES);
             let number = self.numbers.get(lane).copied().unwrap_or(0);
             if outline.is_near {
-                draw_part::<S, P, true>(simd, outline, part, number, columns, &mut self.cells);
+                draw_part::<S, P, true>(simd, (outline, part, number), columns, &mut self.cells, tally);
             } else {
-                draw_part::<S, P, false>(simd, outline, part, number, columns, &mut self.cells);
+                draw_part::<S, P, false>(simd, (outline, part, number), columns, &mut self.cells, tally);
             }
         }
         self.trim(simd, planes, &words, &blocks);
@@ -216,11 +257,10 @@ fn key(quads: &[QuadChunk], lane: usize) -> (u32, std::cmp::Reverse<usize>) {
 #[inline(always)]
 fn draw_part<S: Simd, P: Pixels, const NEAR: bool>(
     simd: S,
-    outline: &OutlineChunk,
-    part: usize,
-    number: u8,
+    (outline, part, number): (&OutlineChunk, usize, u8),
     columns: usize,
     cells: &mut [P],
+    tally: &mut impl Tally<S>,
 ) {
     if outline.left[part] >= outline.right[part] {
         return;
@@ -239,7 +279,8 @@ fn draw_part<S: Simd, P: Pixels, const NEAR: bool>(
                 line_rows[edge] = outline.line_rows[edge].bits_from(part, block * CELL_ROWS);
             }
         }
-        let cells = &mut cells[(first_block + block) as usize * columns..];
+        let place = (first_block + block) as usize * columns + first_word as usize;
+        let cells = &mut cells[place..];
         let (from, to) = fill_span(simd, outline, part, rows.0, &fill_rows);
         let mut lines = [(from, to); 4];
         for edge in 0..4 {
@@ -258,10 +299,11 @@ fn draw_part<S: Simd, P: Pixels, const NEAR: bool>(
                 let (from, to) = lines[edge];
                 border = simd.add_where(simd.mask(line_rows[edge]), border, simd.ones_from(from), simd.ones_from(to));
             }
-            let cells = &mut cells[first_word as usize..][..2];
-            cells[0].add(simd, simd.shift_left(border, shift), simd.shift_left(fill, shift), number);
+            let cells = &mut cells[..2];
+            let left = cells[0].add(simd, simd.shift_left(border, shift), simd.shift_left(fill, shift), number);
             let back = CELL_COLUMNS - shift;
-            cells[1].add(simd, simd.shift_right(border, back), simd.shift_right(fill, back), number);
+            let right = cells[1].add(simd, simd.shift_right(border, back), simd.shift_right(fill, back), number);
+            tally.add(simd, place, [left, right], number);
         } else {
             let zero = simd.splat(0);
             let from = simd.max(from, zero);
@@ -269,7 +311,7 @@ fn draw_part<S: Simd, P: Pixels, const NEAR: bool>(
                 *to = simd.max(*to, zero);
             }
             let mut column = 0;
-            for cell in &mut cells[first_word as usize..end_word as usize] {
+            for (cell, place) in cells[..(end_word - first_word) as usize].iter_mut().zip(place..) {
                 let origin = simd.splat(column);
                 let fill = simd.and_not(ones_right_of(simd, from, origin), ones_right_of(simd, to, origin));
                 let mut border = zero;
@@ -281,7 +323,8 @@ fn draw_part<S: Simd, P: Pixels, const NEAR: bool>(
                     let (from, to) = (ones_right_of(simd, from, origin), ones_right_of(simd, to, origin));
                     border = simd.add_where(simd.mask(line_rows[edge]), border, from, to);
                 }
-                cell.add(simd, border, fill, number);
+                let shown = cell.add(simd, border, fill, number);
+                tally.add(simd, place, [shown], number);
                 column += CELL_COLUMNS;
             }
         }
@@ -363,10 +406,11 @@ impl Pixels for Cell {
     }
 
     #[inline(always)]
-    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words, _number: u8) {
-        let hidden = simd.load(&self.fill);
-        simd.store(simd.or(simd.load(&self.edge), simd.and_not(border, hidden)), &mut self.edge);
+    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words, _number: u8) -> S::Words {
+        let (hidden, edge) = (simd.load(&self.fill), simd.load(&self.edge));
+        simd.store(simd.or(edge, simd.and_not(border, hidden)), &mut self.edge);
         simd.store(simd.or(hidden, fill), &mut self.fill);
+        simd.and_not(simd.or(border, fill), simd.or(hidden, edge))
     }
 
     #[inline(always)]
@@ -383,14 +427,13 @@ impl Pixels for SegmentedCell {
     }
 
     #[inline(always)]
-    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words, number: u8) {
+    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words, number: u8) -> S::Words {
         // The nearest part whose fill or border lies on a pixel is the one that is drawn there.
-        let taken = simd.or(simd.load(&self.cell.fill), simd.load(&self.cell.edge));
+        let shown = self.cell.add(simd, border, fill, number);
         if let Some(segment) = usize::from(number).checked_sub(1).and_then(|at| self.segments.get_mut(at)) {
-            let shown = simd.and_not(simd.or(border, fill), taken);
             simd.store(simd.or(simd.load(segment), shown), segment);
         }
-        self.cell.add(simd, border, fill, number);
+        shown
     }
 
     #[inline(always)]
@@ -399,6 +442,32 @@ impl Pixels for SegmentedCell {
         for segment in &mut self.segments {
             simd.store(simd.and(simd.load(segment), inside), segment);
         }
+    }
+}
+
+impl Canvas<Cell> {
+    /// Takes the class of evidence of the lanes of all chunks.
+    pub(super) fn set_classes(&mut self, classes: Vec<u8>) {
+        self.numbers = classes;
+    }
+
+    /// [`Self::compare`], and the evidence of what is drawn.
+    #[inline(always)]
+    pub(super) fn compare_evidence<S: Simd>(
+        &mut self,
+        simd: S,
+        quads: &[QuadChunk],
+        planes: &Planes,
+    ) -> (Components, i32) {
+        let mut sums = Components { area_obs: planes.area, ..Components::default() };
+        let mut codes =
+            Codes { planes: &planes.evidence, cells: planes.canvas_cells(), sums: [simd.no_bits(); Evidence::BITS] };
+        if let Some((words, blocks)) = self.draw(simd, quads, planes, &mut codes) {
+            self.count(simd, planes, words, blocks, &mut sums);
+        }
+        // Right of the picture a part may show pixels, but codes are 0 there.
+        let codes = i64::from(simd.total_codes(codes.sums));
+        (sums, (codes - i64::from(Evidence::NEUTRAL) * i64::from(sums.area_model)) as i32)
     }
 }
 
@@ -416,7 +485,7 @@ impl Canvas<SegmentedCell> {
             *sums = SegmentSums { area_obs, ..SegmentSums::default() };
         }
         let mut sums = Components { area_obs: planes.area, ..Components::default() };
-        if let Some((words, blocks)) = self.draw(simd, quads, planes) {
+        if let Some((words, blocks)) = self.draw(simd, quads, planes, &mut ()) {
             self.count_segments(simd, planes, &words, &blocks, segment_sums);
             self.count(simd, planes, words, blocks, &mut sums);
         }

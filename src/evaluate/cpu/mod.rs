@@ -23,19 +23,20 @@ use std::sync::{Arc, Mutex, PoisonError};
 use anyhow::{Result, bail, ensure};
 
 use crate::body::Body;
-use crate::features::{Observation, Segments};
+use crate::features::{Observation, PartClasses, Segments};
 use crate::geometry::Camera;
 
 use super::batch::{check_batch, check_observations, check_pictures};
 use super::components::Components;
-use super::evaluator::{Evaluator, Footprint, check_segment_batch};
-use super::objective::Objective;
+use super::evaluator::{Evaluator, Footprint, check_evidence_batch, check_segment_batch};
+use super::evidence::{best_sums, evidence_of, no_evidence};
+use super::objective::{AreaSums, Objective};
 use super::projection::Projector;
 use super::rig::Rig;
 use super::segments::{SegmentSums, segments_of};
 
 use front::{Front, LANES, QuadChunk};
-use group::Scratch;
+use group::{Besides, Scratch};
 use instruction_set::Code;
 pub use instruction_set::InstructionSet;
 use kernel::Canvas;
@@ -56,6 +57,9 @@ pub struct Cpu {
     labels: Vec<u8>,
     /// Those of the newest observations.
     segments: Option<Arc<Segments>>,
+    classes: Option<Arc<PartClasses>>,
+    /// The best evidence, one a view.
+    best_evidence: Option<Arc<[u32]>>,
 }
 
 impl Cpu {
@@ -92,13 +96,25 @@ impl Cpu {
                     components: vec![Components::default(); LANES * cameras.len()],
                     segmented: None,
                     segment_sums: Vec::new(),
+                    evidence: vec![0; LANES * cameras.len()],
                 })
             })
             .collect();
         let pin = workers > 1 && std::thread::available_parallelism().is_ok_and(|count| count.get() >= workers);
         let labels = body.parts.iter().map(|part| part.label).collect();
         let workers = Workers::new(workers, pin)?;
-        Ok(Self { projector, planes, set, code, workers, scratch, labels, segments: None })
+        Ok(Self {
+            projector,
+            planes,
+            set,
+            code,
+            workers,
+            scratch,
+            labels,
+            segments: None,
+            classes: None,
+            best_evidence: None,
+        })
     }
 
     /// Exchanges the body for another one of as many degrees of freedom and parts; what was observed stays.
@@ -121,8 +137,9 @@ impl Cpu {
         }
         self.projector.rig = rig;
         self.labels = body.parts.iter().map(|part| part.label).collect();
-        let segments = self.segments.take();
+        let (segments, classes) = (self.segments.take(), self.classes.take());
         self.set_segments(segments);
+        self.set_classes(classes);
         Ok(())
     }
 
@@ -145,14 +162,27 @@ impl Cpu {
         self.segments = segments;
     }
 
-    /// Evaluates `poses` sixteen at a time and hands the components and the segments' sums of each group to `finish` with its
-    /// share of `results`.
+    /// Weighs evidence by these classes from now on.
+    fn set_classes(&mut self, classes: Option<Arc<PartClasses>>) {
+        if classes == self.classes {
+            return;
+        }
+        let of_part = |classes: &Arc<PartClasses>| self.labels.iter().map(|&label| classes.of_label(label)).collect();
+        let numbers: Vec<u8> = classes.as_ref().map(of_part).unwrap_or_default();
+        for scratch in &mut self.scratch {
+            let scratch = scratch.get_mut().unwrap_or_else(PoisonError::into_inner);
+            scratch.canvas.set_classes(numbers.clone());
+        }
+        self.classes = classes;
+    }
+
+    /// Evaluates `poses` sixteen at a time and hands what is summed of each group to `finish` with its share of `results`.
     fn run<T: Send>(
         &mut self,
-        poses: &[f32],
+        (poses, besides): (&[f32], Besides),
         results: &mut [T],
         per_pose: usize,
-        finish: impl Fn(&[Components], &[SegmentSums], &mut [T]) + Sync,
+        finish: impl Fn(&Group<'_>, &mut [T]) + Sync,
     ) -> Result<()> {
         let (dof_count, views) = (self.projector.dof_count(), self.planes.len());
         let segments = self.segments.as_ref().map_or(0, |segments| segments.as_slice().len());
@@ -164,14 +194,29 @@ impl Cpu {
                 let Some((poses, results)) = groups.lock().unwrap_or_else(PoisonError::into_inner).next() else {
                     break;
                 };
-                code.evaluate_group(projector, planes, poses, &mut scratch);
+                code.evaluate_group(projector, planes, poses, besides, &mut scratch);
                 let images = poses.len() / dof_count * views;
-                finish(&scratch.components[..images], &scratch.segment_sums[..images * segments], results);
+                let group = Group {
+                    components: &scratch.components[..images],
+                    segments: &scratch.segment_sums[..images * segments],
+                    evidence: &scratch.evidence[..images],
+                };
+                finish(&group, results);
             }
         });
         ensure!(completed, "a worker thread of the cpu evaluator failed; its message stands above");
         Ok(())
     }
+}
+
+/// What is summed of up to sixteen candidates.
+struct Group<'a> {
+    /// `[candidate][view]`.
+    components: &'a [Components],
+    /// `[candidate][view][segment]`, of this group where [`Besides`] asked for it.
+    segments: &'a [SegmentSums],
+    /// `[candidate][view]`, likewise.
+    evidence: &'a [i32],
 }
 
 impl Evaluator for Cpu {
@@ -193,7 +238,10 @@ impl Evaluator for Cpu {
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
         check_observations(observations, self.planes.iter().map(|planes| [planes.width, planes.height]))?;
-        self.set_segments(segments_of(observations)?);
+        let (segments, classes) = (segments_of(observations)?, evidence_of(observations)?);
+        self.set_segments(segments);
+        self.set_classes(classes);
+        self.best_evidence = best_sums(observations);
         for (planes, observation) in self.planes.iter_mut().zip(observations) {
             planes.fill(observation);
         }
@@ -203,16 +251,27 @@ impl Evaluator for Cpu {
     fn components(&mut self, poses: &[f32], components: &mut [Components]) -> Result<()> {
         let views = self.view_count();
         check_batch(poses, self.dof_count(), components.len(), views)?;
-        self.run(poses, components, views, |found, _, results| results.copy_from_slice(found))
+        let what = (poses, Besides::Nothing);
+        self.run(what, components, views, |found, results| results.copy_from_slice(found.components))
     }
 
     fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
         let views = self.view_count();
         check_batch(poses, self.dof_count(), fitness.len(), 1)?;
         ensure!(views > 0, "there are no views, expected at least one camera");
-        let segments = self.segments.clone();
-        self.run(poses, fitness, 1, |found, sums, results| {
-            objective.score(views, found, segments.as_deref().map(|segments| (segments, sums)), results);
+        if objective.weighs_evidence() {
+            let best = self.best_evidence.clone().ok_or_else(no_evidence)?;
+            return self.run((poses, Besides::Evidence), fitness, 1, |found, results| {
+                objective.score(views, found.components, AreaSums::Evidence(&best, found.evidence), results);
+            });
+        }
+        let Some(segments) = self.segments.clone() else {
+            return self.run((poses, Besides::Nothing), fitness, 1, |found, results| {
+                objective.score(views, found.components, AreaSums::Whole, results);
+            });
+        };
+        self.run((poses, Besides::Segments), fitness, 1, |found, results| {
+            objective.score(views, found.components, AreaSums::Segments(&segments, found.segments), results);
         })
     }
 
@@ -222,7 +281,18 @@ impl Evaluator for Cpu {
 
     fn segment_sums(&mut self, poses: &[f32], sums: &mut [SegmentSums]) -> Result<()> {
         let a_pose = check_segment_batch(self, poses, sums.len())?;
-        self.run(poses, sums, a_pose, |_, found, results| results.copy_from_slice(found))
+        let what = (poses, Besides::Segments);
+        self.run(what, sums, a_pose, |found, results| results.copy_from_slice(found.segments))
+    }
+
+    fn best_evidence(&self) -> Option<&[u32]> {
+        self.best_evidence.as_deref()
+    }
+
+    fn evidence_sums(&mut self, poses: &[f32], sums: &mut [i32]) -> Result<()> {
+        check_evidence_batch(self, poses, sums.len())?;
+        let (what, views) = ((poses, Besides::Evidence), self.view_count());
+        self.run(what, sums, views, |found, results| results.copy_from_slice(found.evidence))
     }
 
     fn footprint(&self) -> Option<Footprint> {

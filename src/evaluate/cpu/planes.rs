@@ -1,8 +1,8 @@
 //! An observation as bit planes: for every 16 rows x 32 columns a cell of eight sixteen-lane words, one lane a row and
 //! one bit a column. So a comparison is a bit operation and a bit count, with no look-up a pixel.
 
-use crate::evaluate::bit_planes::bit_planes;
-use crate::features::{Observation, Segmentation, Segments};
+use crate::evaluate::bit_planes::{bit_planes, word_planes};
+use crate::features::{Evidence, Observation, Segmentation, Segments};
 
 use super::simd::Lanes;
 
@@ -27,6 +27,9 @@ pub(super) struct Planes {
     pub(super) segment_cells: Vec<[Lanes; Segments::MOST]>,
     /// Pixels of every observed segment.
     pub(super) segment_areas: Vec<u32>,
+    /// `evidence[class * canvas_cells + block * (columns + 1) + word]`: the four bits of the codes, 0 right of the picture; nothing
+    /// without evidence. Where a part is drawn they are beside its cells.
+    pub(super) evidence: Vec<[Lanes; Evidence::BITS]>,
 }
 
 impl Planes {
@@ -41,6 +44,7 @@ impl Planes {
             area: 0,
             segment_cells: Vec::new(),
             segment_areas: Vec::new(),
+            evidence: Vec::new(),
         }
     }
 
@@ -53,6 +57,7 @@ impl Planes {
     pub(super) fn fill(&mut self, observation: &Observation) {
         self.area = observation.area();
         self.fill_segments(observation.segmentation.as_ref());
+        self.fill_evidence(observation.evidence.as_ref());
         let width = self.width as usize;
         for (y, row) in observation.bytes.chunks_exact(width).enumerate() {
             let (block, lane) = (y / CELL_ROWS as usize, y % CELL_ROWS as usize);
@@ -76,6 +81,24 @@ impl Planes {
             for (x, &number) in row.iter().enumerate().filter(|(_, number)| **number > 0) {
                 let (word, bit) = (x / CELL_COLUMNS as usize, x % CELL_COLUMNS as usize);
                 self.segment_cells[block * self.columns + word][usize::from(number) - 1].0[lane] |= 1 << bit;
+            }
+        }
+    }
+
+    fn fill_evidence(&mut self, evidence: Option<&Evidence>) {
+        let (cells, classes) = (self.canvas_cells(), evidence.map_or(0, |evidence| evidence.classes().count()));
+        self.evidence.resize(classes * cells, [Lanes::default(); Evidence::BITS]);
+        let Some(evidence) = evidence else { return };
+        for (y, row) in evidence.words().chunks_exact(self.width as usize).enumerate() {
+            let (block, lane) = (y / CELL_ROWS as usize, y % CELL_ROWS as usize);
+            for (word, pixels) in row.chunks(CELL_COLUMNS as usize).enumerate() {
+                let planes = word_planes(pixels);
+                let place = block * (self.columns + 1) + word;
+                for (class, bits) in planes.chunks_exact(Evidence::BITS).take(classes).enumerate() {
+                    for (plane, &bits) in self.evidence[class * cells + place].iter_mut().zip(bits) {
+                        plane.0[lane] = bits;
+                    }
+                }
             }
         }
     }

@@ -68,6 +68,21 @@ pub(super) trait Simd: Copy + Send + Sync + 'static {
     /// The sum plus the number of bits set in `words`.
     fn count(self, sum: Self::Sum, words: Self::Words) -> Self::Sum;
     fn total(self, sum: Self::Sum) -> u32;
+
+    /// The sums plus those of codes whose bits are the words', the lowest first.
+    #[inline(always)]
+    fn count_codes(self, mut sums: [Self::Sum; 4], bits: [Self::Words; 4]) -> [Self::Sum; 4] {
+        for bit in 0..4 {
+            sums[bit] = self.count(sums[bit], bits[bit]);
+        }
+        sums
+    }
+
+    /// The sum that [`Self::count_codes`] has come to.
+    #[inline(always)]
+    fn total_codes(self, sums: [Self::Sum; 4]) -> u32 {
+        (0..4).fold(0, |total, bit| total + (self.total(sums[bit]) << bit))
+    }
 }
 
 /// An intrinsic called on behalf of a token.

@@ -18,7 +18,7 @@ use crate::evaluate::batch::check_batch;
 use crate::evaluate::components::Components;
 use crate::evaluate::device_evaluator::DeviceEvaluator;
 use crate::evaluate::evaluator::{Evaluator, Footprint, check_segment_batch};
-use crate::evaluate::objective::Objective;
+use crate::evaluate::objective::{AreaSums, Objective};
 use crate::evaluate::raster::CandidateImage;
 use crate::evaluate::segments::{SegmentSums, segments_of};
 use crate::features::{Observation, Segments};
@@ -246,6 +246,7 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
             self.run(poses, Some(objective))?;
             return self.resources.host.fitness_out.read(0, fitness);
         }
+        ensure!(!objective.weighs_evidence(), "devices do not weigh evidence yet: the backends reference and cpu do");
         let counts = self.run(poses, None)?;
         let views = self.view_count();
         let mut components = vec![Components::default(); fitness.len() * views];
@@ -254,7 +255,8 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
         let count = segments.map_or(0, |segments| segments.as_slice().len());
         let mut sums = vec![SegmentSums::default(); components.len() * count];
         self.read_segments(&counts, &mut sums)?;
-        objective.score(views, &components, segments.map(|segments| (&**segments, &sums[..])), fitness);
+        let area = segments.map_or(AreaSums::Whole, |segments| AreaSums::Segments(segments, &sums));
+        objective.score(views, &components, area, fitness);
         Ok(())
     }
 

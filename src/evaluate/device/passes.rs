@@ -1,11 +1,11 @@
 //! The passes that both ways to draw are made of: poses to parts in every camera, drawing without a framebuffer, sums to fitness.
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 
 use super::scene::{DeviceScene, Share};
 use super::segments::DeviceSegments;
 use super::workspace::Workspace;
-use crate::evaluate::objective::Objective;
+use crate::evaluate::objective::{Area, Objective};
 use crate::evaluate::shaders::{
     PROJECT_GROUP, RASTER_GROUP, RASTER_WORDS, layout, objective_comp, objective_segments_comp, pose_comp,
     project_comp, raster_comp, raster_segments_comp, raster_shared_comp,
@@ -108,7 +108,8 @@ pub(super) fn objective(
     (objective, candidates): (&Objective, u32),
     fitness: &Buffer,
 ) -> Result<()> {
-    let (terms, over) = objective.kind.formula();
+    let (area, terms, over) = objective.kind.formula();
+    ensure!(area == Area::Silhouette, "devices do not weigh evidence yet: the backends reference and cpu do");
     let push = layout::Scoring {
         candidates,
         views: scene.counts.views,

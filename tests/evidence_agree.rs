@@ -1,0 +1,219 @@
+//! Soft evidence summed over what is drawn: every evaluator gives the reference's integers and fitness; and the comparison that says
+//! so can fail.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test or benchmark stops at the first surprise, and prints"
+)]
+
+#[allow(dead_code, reason = "components are compared elsewhere")]
+mod scene;
+
+use std::sync::Arc;
+
+use pantin::body::Body;
+use pantin::evaluate::cpu::{Cpu, InstructionSet};
+use pantin::evaluate::{Components, Evaluator, EvidenceSum, Objective, ObjectiveKind, Reference, SegmentSums};
+use pantin::features::{Evidence, Observation, PartClasses, Segment, Segmentation, Segments};
+use pantin::geometry::Camera;
+use scene::{Random, cameras, poses};
+
+/// The adult's sixteen parts in `count` classes.
+fn classes(count: u8) -> Arc<PartClasses> {
+    Arc::new(PartClasses::new((1..=16).map(|label| (label, label * 5 % count))).unwrap())
+}
+
+/// Noise with evidence in every pixel and class, more of which speaks for a person than against.
+fn seen(cameras: &[Camera], classes: &Arc<PartClasses>, random: &mut Random) -> Vec<Observation> {
+    let view = |mut observation: Observation| {
+        let code = |random: &mut Random| (random.next() % 15).max(random.next() % 12);
+        let word = |random: &mut Random| (0..classes.count()).fold(0, |word, class| word | code(random) << (4 * class));
+        let words = observation.bytes.iter().map(|_| word(random)).collect();
+        let (width, height) = (observation.width, observation.height);
+        observation.evidence = Some(Evidence::new(Arc::clone(classes), width, height, words).unwrap());
+        observation
+    };
+    scene::observations(cameras, &mut Random(5)).into_iter().map(view).collect()
+}
+
+#[derive(Debug, PartialEq)]
+struct Found {
+    components: Vec<Components>,
+    sums: Vec<i32>,
+    fitness: Vec<f32>,
+    unequal: Vec<f32>,
+}
+
+fn found(evaluator: &mut dyn Evaluator, seen: &[Observation], poses: &[f32]) -> Found {
+    evaluator.observe(seen).unwrap();
+    let count = poses.len() / evaluator.dof_count();
+    let mut found = Found {
+        components: vec![Components::default(); count * evaluator.view_count()],
+        sums: vec![i32::MIN; count * evaluator.view_count()],
+        fitness: vec![-1.0; count],
+        unequal: vec![-1.0; count],
+    };
+    let objective = Objective::of(ObjectiveKind::Evidence);
+    evaluator.components(poses, &mut found.components).unwrap();
+    evaluator.evidence_sums(poses, &mut found.sums).unwrap();
+    evaluator.fitness(poses, &objective, &mut found.fitness).unwrap();
+    let unequal = Objective { w1: 0.875, w2: 1.0, ..objective };
+    evaluator.fitness(poses, &unequal, &mut found.unequal).unwrap();
+    found
+}
+
+/// What differs, in a sentence.
+fn difference(expected: &Found, found: &Found) -> Option<String> {
+    let at = expected.sums.iter().zip(&found.sums).position(|(expected, found)| expected != found);
+    if let Some(at) = at {
+        return Some(format!("image {at}: the sum is {}, expected {}", found.sums[at], expected.sums[at]));
+    }
+    let same = [
+        ("components", expected.components == found.components),
+        ("fitness", expected.fitness == found.fitness),
+        ("fitness of other weights", expected.unequal == found.unequal),
+    ];
+    same.into_iter().find(|(_, same)| !same).map(|(what, _)| what.to_owned())
+}
+
+/// One code of one pixel changed, under a drawn candidate: one sum of that candidate is one more or less.
+fn sabotaged(body: &Body, cameras: &[Camera], seen: &[Observation], poses: &[f32]) -> Vec<Observation> {
+    let drawn = Reference::new(body, cameras).draw(&poses[..body.dof_count()], 2);
+    let mut changed = seen.to_vec();
+    let evidence = seen[2].evidence.as_ref().unwrap();
+    let at = drawn.bytes.iter().position(|byte| *byte != 0).unwrap();
+    let shift = 4 * u32::from(evidence.classes().of_label(drawn.bytes[at] & 0x7f));
+    let mut words = evidence.words().to_vec();
+    words[at] = if words[at] >> shift & 15 == 14 { words[at] - (1 << shift) } else { words[at] + (1 << shift) };
+    let (width, height) = evidence.dimensions();
+    changed[2].evidence = Some(Evidence::new(Arc::clone(evidence.classes()), width, height, words).unwrap());
+    changed
+}
+
+/// Body, cameras, observations in so many classes, poses from calm to wild.
+fn case(class_count: u8, pose_count: usize, seed: u64) -> (Body, Vec<Camera>, Vec<Observation>, Vec<f32>) {
+    let (body, cameras, mut random) = (Body::adult(1750.0).unwrap(), cameras(), Random(seed));
+    let seen = seen(&cameras, &classes(class_count), &mut random);
+    let poses = poses(&body, pose_count, &mut random);
+    (body, cameras, seen, poses)
+}
+
+#[test]
+fn the_fitness_is_that_of_the_sums() {
+    let (body, cameras, seen, poses) = case(5, 60, 41);
+    let found = found(&mut Reference::new(&body, &cameras), &seen, &poses);
+    let objective = Objective::of(ObjectiveKind::Evidence);
+    let best: Vec<u32> = seen.iter().map(|view| view.evidence.as_ref().unwrap().best()).collect();
+    let rows = found.components.chunks_exact(4).zip(found.sums.chunks_exact(4));
+    for ((components, sums), fitness) in rows.zip(&found.fitness) {
+        let evidence: Vec<EvidenceSum> =
+            sums.iter().zip(&best).map(|(&sum, &best)| EvidenceSum { sum, best }).collect();
+        assert_eq!(objective.evidence_fitness(components, &evidence), *fitness);
+        for (sum, view) in evidence.iter().zip(components) {
+            assert!(i64::from(sum.sum) <= i64::from(sum.best) && sum.sum.unsigned_abs() <= 7 * view.area_model);
+        }
+    }
+    assert!(found.sums.iter().any(|sum| *sum > 100) && found.fitness.iter().any(|fitness| *fitness > 1e-3));
+}
+
+#[test]
+fn every_instruction_set_gives_the_reference_s_evidence() {
+    for (class_count, pose_count) in [(1, 100), (5, 400), (8, 100)] {
+        let (body, cameras, seen, poses) = case(class_count, pose_count, 42);
+        let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
+        let changed = sabotaged(&body, &cameras, &seen, &poses);
+        for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+            for workers in [1, 2] {
+                let mut cpu = Cpu::with(&body, &cameras, set, workers).unwrap();
+                let what = format!("{class_count} classes, {}, {workers} workers", set.name());
+                assert_eq!(difference(&expected, &found(&mut cpu, &seen, &poses)), None, "{what}");
+                let other = found(&mut cpu, &changed, &poses);
+                let by_one = expected.sums.iter().zip(&other.sums).filter(|(a, b)| a.abs_diff(**b) == 1).count();
+                assert!(by_one > 0 && other.sums[2] != expected.sums[2], "{what}: a changed code passed");
+                assert!(other.components == expected.components, "{what}: silhouettes are what they were");
+            }
+        }
+    }
+}
+
+/// Evidence comes, changes its classes, stands beside segments, and goes again.
+#[test]
+fn evidence_and_segments_do_not_disturb_each_other() {
+    let (body, cameras, seen, poses) = case(5, 40, 43);
+    let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
+    let segment = |name: &str, labels: Vec<u8>| Segment { name: name.into(), labels, weight: 0.5 };
+    let list = vec![segment("one", (1..9).collect()), segment("two", (9..=16).collect())];
+    let segments = Arc::new(Segments::new(list).unwrap());
+    let with_segments = |view: &Observation| {
+        let numbers = view.bytes.iter().map(|byte| (byte >> 7) * (1 + byte % 2)).collect();
+        let segmentation = Segmentation::new(Arc::clone(&segments), view.width, view.height, numbers).unwrap();
+        view.clone().with_segmentation(segmentation).unwrap()
+    };
+    let both: Vec<Observation> = seen.iter().map(with_segments).collect();
+    let segments_alone: Vec<Observation> =
+        both.iter().map(|view| Observation { evidence: None, ..view.clone() }).collect();
+    let segment_sums = |evaluator: &mut dyn Evaluator, seen: &[Observation]| {
+        evaluator.observe(seen).unwrap();
+        let mut sums = vec![SegmentSums::default(); 40 * 4 * 2];
+        evaluator.segment_sums(&poses, &mut sums).unwrap();
+        let mut fitness = vec![-1.0; 40];
+        evaluator.fitness(&poses, &Objective::default(), &mut fitness).unwrap();
+        (sums, fitness)
+    };
+    let in_segments = segment_sums(&mut Reference::new(&body, &cameras), &segments_alone);
+    let other = self::seen(&cameras, &classes(3), &mut Random(44));
+    let of_other = found(&mut Reference::new(&body, &cameras), &other, &poses);
+    assert_ne!(of_other.sums, expected.sums);
+    let evaluators: Vec<Box<dyn Evaluator>> =
+        vec![Box::new(Reference::new(&body, &cameras)), Box::new(Cpu::new(&body, &cameras).unwrap())];
+    for mut evaluator in evaluators {
+        let evaluator = evaluator.as_mut();
+        for round in 0..2 {
+            let what = format!("{}, round {round}", evaluator.name());
+            assert_eq!(difference(&expected, &found(evaluator, &seen, &poses)), None, "{what}");
+            assert_eq!(difference(&expected, &found(evaluator, &both, &poses)), None, "{what}, in segments");
+            assert!(segment_sums(evaluator, &both) == in_segments, "{what}: sums of segments");
+            assert!(segment_sums(evaluator, &segments_alone) == in_segments, "{what}: sums of segments alone");
+            let error = evaluator.evidence_sums(&poses, &mut [0; 160]).unwrap_err().to_string();
+            assert_eq!(error, "the observations carry no evidence: there is nothing to sum over what is drawn");
+            let objective = Objective::of(ObjectiveKind::Evidence);
+            assert_eq!(evaluator.fitness(&poses, &objective, &mut [0.0; 40]).unwrap_err().to_string(), error);
+            assert!(evaluator.best_evidence().is_none());
+            assert_eq!(difference(&of_other, &found(evaluator, &other, &poses)), None, "{what}, other classes");
+        }
+    }
+}
+
+#[test]
+fn a_body_that_changes_keeps_its_classes() {
+    let (body, cameras, seen, poses) = case(5, 40, 45);
+    let taller = Body::adult(1950.0).unwrap();
+    let expected = found(&mut Reference::new(&taller, &cameras), &seen, &poses);
+    let mut cpu = Cpu::new(&body, &cameras).unwrap();
+    assert_ne!(found(&mut cpu, &seen, &poses).sums, expected.sums);
+    cpu.set_body(&taller).unwrap();
+    let mut sums = vec![0; 160];
+    cpu.evidence_sums(&poses, &mut sums).unwrap();
+    assert_eq!(sums, expected.sums);
+}
+
+#[test]
+fn wrong_evidence_says_so() {
+    let (body, cameras, seen, poses) = case(5, 3, 46);
+    let evaluators: Vec<Box<dyn Evaluator>> =
+        vec![Box::new(Reference::new(&body, &cameras)), Box::new(Cpu::new(&body, &cameras).unwrap())];
+    for mut evaluator in evaluators {
+        let mut mixed = seen.clone();
+        mixed[2].evidence = None;
+        let error = evaluator.observe(&mixed).unwrap_err().to_string();
+        assert!(error.contains("view 0 and view 2 have different evidence"), "{}: {error}", evaluator.name());
+        mixed[2].evidence = self::seen(&cameras, &classes(4), &mut Random(1)).remove(2).evidence;
+        let error = evaluator.observe(&mixed).unwrap_err().to_string();
+        assert!(error.contains("the same classes of parts"), "{}: {error}", evaluator.name());
+        mixed[2].evidence = seen[1].evidence.clone();
+        let error = evaluator.observe(&mixed).unwrap_err().to_string();
+        assert_eq!(error, "the evidence of view 2 is 64x48, its observation is 141x105", "{}", evaluator.name());
+        evaluator.observe(&seen).unwrap();
+        assert!(evaluator.evidence_sums(&poses, &mut [0; 11]).is_err(), "{}", evaluator.name());
+    }
+}
