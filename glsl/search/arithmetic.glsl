@@ -24,6 +24,18 @@ bool is_finite(float x) {
     return (floatBitsToUint(x) & 0x7F800000u) != 0x7F800000u;
 }
 
+// Integers of the same order as numbers, minus zero below zero; what is not finite is 0, less than anything.
+uint total_order_of(float value) {
+    uint bits = floatBitsToUint(value);
+    if (!is_finite(value)) return 0u;
+    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}
+
+// The same with one zero.
+uint order_of(float value) {
+    return total_order_of(floatBitsToUint(value) == 0x80000000u ? 0.0 : value);
+}
+
 // The nearest number within limits.
 float hold(float x, float low, float high) {
     float held = x >= low ? x : low;

@@ -33,13 +33,6 @@ shared uint keys[LOOK_GROUP];
 shared uint places[LOOK_GROUP];
 shared uint leads;
 
-uint order_of(float value) {
-    uint bits = floatBitsToUint(value);
-    if (!is_finite(value)) return 0u;
-    if (bits == 0x80000000u) bits = 0u;
-    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
-}
-
 void main() {
     uint lane = gl_LocalInvocationID.x;
     uint key = 0u;

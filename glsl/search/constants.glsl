@@ -15,3 +15,7 @@ const uint MOST_SHARPNESS = 0x4B800000u;
 const uint HALVINGS = 20u;
 const uint ANNEAL_LANES = 8u;
 const uint HALVINGS_AT_ONCE = 5u;
+
+// Bit patterns of the least and the greatest step size of an evolution, 1e-6 and 1e6 of the frame's spread.
+const uint LEAST_SIGMA = 0x358637BDu;
+const uint MOST_SIGMA = 0x49742400u;

@@ -127,6 +127,11 @@ impl Statistics {
     }
 }
 
+/// Sum of the squares of `values`.
+pub(super) fn sum_of_squares(values: &[f32]) -> f32 {
+    tree(lanes(1, values, |_, value, sums| sums[0] += value * value), 1)[0]
+}
+
 /// `SUM_LANES` rows of `width` sums, to which `add` adds index by index.
 fn lanes(width: usize, weights: &[f32], mut add: impl FnMut(usize, f32, &mut [f32])) -> Vec<f32> {
     let mut sums = vec![0.0; SUM_LANES * width];

@@ -1,5 +1,5 @@
 //! Search for the best pose of a frame over counter-based random numbers (METHOD A8): particle swarm, particle filter, annealed
-//! particle filter, hierarchical particle swarm and CMA-ES, at equal numbers of evaluations.
+//! particle filter, hierarchical particle swarm, CMA-ES and MA-ES, at equal numbers of evaluations.
 //!
 //! A search proposes batches of poses and is told their fitness; it knows neither cameras nor pictures. All of its random
 //! numbers have an address of their own (see [`Random`]), all ties go to the lower index and all its sums run in a fixed
@@ -18,7 +18,7 @@ use anyhow::{Result, ensure};
 
 pub use device::{DeviceFound, DeviceSearch};
 pub use kinds::{
-    AnnealedFilter, AnnealingSettings, CmaEs, CmaSettings, FilterSettings, HierarchicalPso, HierarchySettings,
+    AnnealedFilter, AnnealingSettings, CmaSettings, FilterSettings, HierarchicalPso, HierarchySettings, MatrixSettings,
     ParticleFilter, Pso, PsoSettings, SearchKind, SearchSettings,
 };
 pub use philox::{Draw, Random, Stream, philox4x32};

@@ -70,7 +70,7 @@ fn every_search_scores_its_budget_and_comes_nearer() {
     let before = distance(&centre, &target, &spread);
     for kind in SearchKind::ALL {
         // A mean is scored as one pose more; a bootstrap filter only weighs what it scattered.
-        let is_mean = matches!(kind, SearchKind::ParticleFilter | SearchKind::Annealed | SearchKind::CmaEs);
+        let is_mean = !matches!(kind, SearchKind::Pso | SearchKind::Hierarchical);
         let nearer = if kind == SearchKind::ParticleFilter { 1.0 } else { 0.8 };
         for (particles, iterations, refine) in [(300, 15, 0), (200, 1, 0), (37, 2, 11), (60, 3, 0), (7, 9, 300)] {
             let settings = SearchSettings { refine, ..settings(kind, particles, iterations, 4) };
@@ -258,7 +258,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
     #[test]
     fn limits_always_hold(
-        seed in any::<u64>(), frame in any::<u32>(), size in 0.01_f32..1e6, kind in 0..5_usize, far in -1e6_f32..1e6,
+        seed in any::<u64>(), frame in any::<u32>(), size in 0.01_f32..1e6, kind in 0..SearchKind::ALL.len(), far in -1e6_f32..1e6,
         refine in 0..50_usize
     ) {
         let space = adult_space();

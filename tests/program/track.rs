@@ -466,7 +466,7 @@ fn wrong_inputs_are_one_sentence() {
             ["--backend", "cuda"],
             "unknown backend `cuda`, the nearest is `auto` (known: auto, reference, cpu, compute, graphics)",
         ),
-        (["--search", "luck"], "(known: pso, pf, apf, hpso, cmaes)"),
+        (["--search", "luck"], "(known: pso, pf, apf, hpso, cmaes, maes)"),
         (["--objective", "best"], "unknown objective `best`, the nearest is `ws` (known: ws, sp, aows, aosp, posp)"),
         (["--frames", "5..2"], "the range of frames 5..2 is empty"),
         (["--seed", "many"], "invalid"),

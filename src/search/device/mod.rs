@@ -1,10 +1,11 @@
 //! The search on a Vulkan device: all iterations of a frame in one submission, and only its result read back.
 //!
-//! It is the search of [`super::Pso`], [`super::HierarchicalPso`], [`super::ParticleFilter`] and [`super::AnnealedFilter`] with
+//! It is the search of [`super::Pso`], [`super::HierarchicalPso`], [`super::ParticleFilter`], [`super::AnnealedFilter`] and MA-ES with
 //! the same random numbers and, operation by operation, the same arithmetic: given the same fitness it finds the same poses to the bit. What it does is recorded once; a frame
 //! writes its centre and spread, submits the recording and waits.
 
 mod annealed;
+mod evolution;
 mod filter;
 mod swarm;
 #[cfg(test)]
@@ -14,7 +15,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 
-use super::kinds::SwarmLevel;
+use super::kinds::{Answer, SwarmLevel};
 use super::shaders::{SEARCH_GROUP, layout, spread_comp};
 use super::{Estimate, SearchKind, SearchSettings, SearchSpace, check_start};
 use crate::evaluate::DeviceEvaluator;
@@ -28,7 +29,7 @@ pub struct DeviceFound {
     pub estimate: Estimate,
     /// Drawn area, overlap, edge pixels and proximity of its pose, one row a view.
     pub sums: Vec<[u32; 4]>,
-    /// The best fitness after each iteration of a swarm, not a number while none was finite; empty for a filter.
+    /// The best fitness after each iteration of a swarm, not a number while none was finite; empty for the others.
     pub best: Vec<f32>,
 }
 
@@ -80,6 +81,7 @@ impl DeviceSearch {
             }
             SearchKind::ParticleFilter => recording.filter(settings),
             SearchKind::Annealed => recording.annealed(settings),
+            SearchKind::MaEs => recording.evolution(settings),
             kind => bail!("the search {:?} has no form for devices", kind.name()),
         }
         .with_context(|| {
@@ -139,18 +141,19 @@ impl DeviceSearch {
         let SearchSettings { particles, iterations, kind, .. } = self.settings;
         let scored = particles * iterations;
         ensure!(key != 0, "none of the {scored} poses of frame {frame} has a finite fitness");
-        let is_filter = kind.estimates_a_mean();
-        let (pose, fitness, evaluations) = if is_filter {
+        let answer = kind.answer();
+        let (pose, fitness) = if answer == Answer::Mean {
             let fitness = f32::from_bits(words[places.fitness]);
             ensure!(fitness.is_finite(), "the estimate of frame {frame} has a fitness of {fitness}");
-            (values(2), fitness, scored + 1)
+            (values(2), fitness)
         } else {
-            (values(0), value_of(key), scored)
+            (values(0), value_of(key))
         };
+        let evaluations = scored + usize::from(kind.estimates_a_mean());
         if kind.carries_on() {
             self.estimated.extend_from_slice(&pose);
         }
-        let history = &words[places.history..places.history + if is_filter { 0 } else { iterations }];
+        let history = &words[places.history..places.history + if answer == Answer::Best { iterations } else { 0 }];
         let sums = words[places.sums..places.sums + 4 * self.views].as_chunks::<4>().0;
         Ok(DeviceFound {
             estimate: Estimate { pose, fitness, spread: values(1), evaluations },
@@ -293,15 +296,20 @@ impl FrameRecording<'_> {
         };
         let push = spread_comp::Push { count, dofs: extent.dofs, level: 0 };
         self.recorder.run(bindings.dispatch(push, Groups::Count([extent.dofs, 1, 1])))?;
-        let row = 4 * u64::from(extent.dofs);
-        let mean = 4 * memory.places.values as u64 + 2 * row;
-        let (positions, fitness) = (self.evaluator.poses().clone(), self.evaluator.fitness().clone());
-        let sums = self.evaluator.sums().clone();
-        self.recorder.copy("estimate", (&memory.outcome, mean), (&positions, 0), row)?;
-        self.evaluate(1)?;
+        self.evaluate_mean()?;
+        let (fitness, sums) = (self.evaluator.fitness().clone(), self.evaluator.sums().clone());
         self.recorder.copy("gather", (&fitness, 0), (&memory.fitness, 0), 4)?;
         self.recorder.copy("gather", (&sums, 0), (&memory.sums, 0), memory.sums.size())?;
         self.recorder.fill("no history", &memory.history, 0)
+    }
+
+    /// The evaluation of the mean that has been found.
+    fn evaluate_mean(&mut self) -> Result<()> {
+        let row = 4 * u64::from(self.extent.dofs);
+        let mean = 4 * self.memory.places.values as u64 + 2 * row;
+        let positions = self.evaluator.poses().clone();
+        self.recorder.copy("estimate", (&self.memory.outcome, mean), (&positions, 0), row)?;
+        self.evaluate(1)
     }
 
     /// A buffer of `count` values a particle.

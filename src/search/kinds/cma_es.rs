@@ -2,13 +2,16 @@
 //! strategy: a tutorial", 2016). Written here because a frame's samples must be scored in batches, drawn from addressed
 //! random numbers and held within limits, none of which the published crate does.
 
-use anyhow::{Result, bail, ensure};
+use std::ops::Range;
+
+use anyhow::{Result, ensure};
 use serde::Serialize;
 use toml::Table;
 
-use super::form::{Budget, SearchForm};
+use super::evolution::{Distribution, Evolution};
+use super::form::{Answer, Budget, SearchForm};
 use crate::files::table_of;
-use crate::search::{Draw, Estimate, Fitness, Random, Search, SearchSpace, Stream, check_start};
+use crate::search::{Search, SearchSpace};
 
 /// Least pivot of the factorisation, relative to the first distribution's variance: below it a dimension stands still.
 const LEAST_PIVOT: f64 = 1e-20;
@@ -32,7 +35,7 @@ impl Default for CmaSettings {
 
 impl SearchForm for CmaSettings {
     fn build(&self, budget: &Budget, space: &SearchSpace) -> Box<dyn Search> {
-        Box::new(CmaEs::new(self, budget, space))
+        Box::new(Evolution::new(self.generation, budget, space, Covariance::new(self.sigma, budget.particles, space)))
     }
 
     fn check(&self) -> Result<()> {
@@ -46,40 +49,79 @@ impl SearchForm for CmaSettings {
         table_of(self)
     }
 
-    fn is_mean(&self) -> bool {
-        true
+    fn answer(&self) -> Answer {
+        Answer::Better
     }
 }
 
-/// The strategy. It works in units of the frame's spread about the frame's centre, where the first distribution is
-/// `sigma^2 I`. Samples are `m + sigma A z` with the Cholesky factor A of the covariance; the path of the step size is
-/// whitened by A's inverse. A sample outside the limits is put on them before it is scored and counts as what it became.
-/// The first sample is the centre. The estimate is the mean of the last distribution, scored as one more pose, or the best
-/// sample where that is better.
-pub struct CmaEs {
-    name: &'static str,
-    settings: CmaSettings,
-    particles: usize,
-    iterations: usize,
-    random: Random,
+/// A normal distribution by its covariance. It works in units of the frame's spread about the frame's centre, where the first
+/// distribution is `sigma^2 I`. Samples are `m + sigma A z` with the Cholesky factor A of the covariance; the path of the step
+/// size is whitened by A's inverse. A sample outside the limits is put on them before it is scored and counts as what it became.
+struct Covariance {
+    first_sigma: f64,
     space: SearchSpace,
-    frame: u32,
-    /// Iterations done in this frame; `None` before the first frame.
-    done: Option<usize>,
     centre: Vec<f32>,
     spread: Vec<f32>,
-    distribution: Distribution,
-    rows: Vec<f32>,
-    fitness: Vec<f32>,
-    /// The rows in units of the spread about the centre.
+    paths: Paths,
+    /// The samples in units of the spread about the centre.
     samples: Vec<f64>,
-    order: Vec<usize>,
-    best: Vec<f32>,
-    best_fitness: f32,
+}
+
+impl Covariance {
+    fn new(sigma: f32, particles: usize, space: &SearchSpace) -> Self {
+        let dofs = space.dof_count();
+        Self {
+            first_sigma: f64::from(sigma),
+            space: space.clone(),
+            centre: vec![0.0; dofs],
+            spread: vec![0.0; dofs],
+            paths: Paths::new(dofs),
+            samples: vec![0.0; particles * dofs],
+        }
+    }
+}
+
+impl Distribution for Covariance {
+    fn start(&mut self, centre: &[f32], spread: &[f32]) {
+        self.centre.copy_from_slice(centre);
+        self.spread.copy_from_slice(spread);
+        self.paths.reset(self.first_sigma);
+    }
+
+    fn draw(&mut self, index: usize, normals: Option<&[f32]>, row: &mut [f32]) {
+        let dofs = row.len();
+        let sample = &mut self.samples[index * dofs..(index + 1) * dofs];
+        if let Some(normals) = normals {
+            self.paths.sample(normals, sample);
+            self.space.place(&self.centre, &self.spread, sample, row);
+        } else {
+            row.copy_from_slice(&self.centre);
+        }
+        self.space.clamp(row);
+        for (d, sample) in sample.iter_mut().enumerate() {
+            let off = f64::from(row[d]) - f64::from(self.centre[d]);
+            *sample = if self.spread[d] > 0.0 { off / f64::from(self.spread[d]) } else { 0.0 };
+        }
+    }
+
+    fn learn(&mut self, range: Range<usize>, order: &[usize]) {
+        self.paths.learn(&self.samples, order, range.len());
+    }
+
+    fn mean(&self, row: &mut [f32]) {
+        self.space.place(&self.centre, &self.spread, &self.paths.mean, row);
+        self.space.clamp(row);
+    }
+
+    fn deviation(&self) -> Vec<f32> {
+        let variances = self.paths.covariance.iter().step_by(self.spread.len() + 1);
+        let deviations = variances.map(|variance| self.paths.sigma * variance.sqrt());
+        deviations.zip(&self.spread).map(|(deviation, spread)| deviation as f32 * spread).collect()
+    }
 }
 
 /// The distribution and its paths.
-struct Distribution {
+struct Paths {
     mean: Vec<f64>,
     sigma: f64,
     covariance: Vec<f64>,
@@ -93,7 +135,7 @@ struct Distribution {
     step: Vec<f64>,
 }
 
-impl Distribution {
+impl Paths {
     fn new(dofs: usize) -> Self {
         let zeros = || vec![0.0; dofs];
         Self {
@@ -211,165 +253,17 @@ impl Distribution {
     }
 }
 
-impl CmaEs {
-    /// A search from checked settings.
-    fn new(settings: &CmaSettings, budget: &Budget, space: &SearchSpace) -> Self {
-        let (count, dofs) = (budget.particles, space.dof_count());
-        Self {
-            name: budget.name,
-            settings: *settings,
-            particles: count,
-            iterations: budget.iterations,
-            random: Random::new(budget.seed),
-            space: space.clone(),
-            frame: 0,
-            done: None,
-            centre: vec![0.0; dofs],
-            spread: vec![0.0; dofs],
-            distribution: Distribution::new(dofs),
-            rows: vec![0.0; count * dofs],
-            fitness: vec![f32::NAN; count],
-            samples: vec![0.0; count * dofs],
-            order: Vec::with_capacity(count),
-            best: vec![0.0; dofs],
-            best_fitness: f32::NEG_INFINITY,
-        }
-    }
-
-    /// Draws the samples `range` of iteration `iteration`.
-    fn draw(&mut self, iteration: usize, range: std::ops::Range<usize>) {
-        let dofs = self.space.dof_count();
-        let mut normals = vec![0.0; dofs];
-        for particle in range {
-            let place = particle * dofs..(particle + 1) * dofs;
-            let (row, sample) = (&mut self.rows[place.clone()], &mut self.samples[place]);
-            if (iteration, particle) == (0, 0) {
-                row.copy_from_slice(&self.centre);
-            } else {
-                let stream = Stream {
-                    frame: self.frame,
-                    iteration: iteration as u32,
-                    particle: particle as u32,
-                    draw: Draw::Scatter,
-                };
-                self.random.normals(stream, &mut normals);
-                self.distribution.sample(&normals, sample);
-                self.space.place(&self.centre, &self.spread, sample, row);
-            }
-            self.space.clamp(row);
-            for (d, sample) in sample.iter_mut().enumerate() {
-                let off = f64::from(row[d]) - f64::from(self.centre[d]);
-                *sample = if self.spread[d] > 0.0 { off / f64::from(self.spread[d]) } else { 0.0 };
-            }
-        }
-    }
-}
-
-impl Search for CmaEs {
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn iterations(&self) -> usize {
-        self.iterations
-    }
-
-    fn start_frame(&mut self, frame: u32, centre: &[f32], spread: &[f32]) -> Result<()> {
-        check_start(self.space.dof_count(), centre, spread)?;
-        self.frame = frame;
-        self.done = Some(0);
-        self.centre.copy_from_slice(centre);
-        self.space.clamp(&mut self.centre);
-        self.spread.copy_from_slice(spread);
-        self.distribution.reset(f64::from(self.settings.sigma));
-        self.best.copy_from_slice(&self.centre);
-        self.best_fitness = f32::NEG_INFINITY;
-        Ok(())
-    }
-
-    fn iterate(&mut self, fitness: &mut Fitness<'_>) -> Result<()> {
-        let Some(done) = self.done else { bail!("the search has no frame yet: start one before iterating") };
-        ensure!(done < self.iterations, "all {done} iterations of frame {} are done", self.frame);
-        let dofs = self.space.dof_count();
-        let generations = (self.particles / self.settings.generation).max(1);
-        for generation in 0..generations {
-            let range = generation * self.particles / generations..(generation + 1) * self.particles / generations;
-            self.draw(done, range.clone());
-            let rows = &self.rows[range.start * dofs..range.end * dofs];
-            fitness(rows, &mut self.fitness[range.clone()])?;
-            let scores = &self.fitness;
-            self.order.clear();
-            self.order.extend(range.clone().filter(|&row| scores[row].is_finite()));
-            // A stable sort: of equals the lower index stays first.
-            self.order.sort_by(|&a, &b| scores[b].total_cmp(&scores[a]));
-            let Some(&first) = self.order.first() else { continue };
-            if scores[first] > self.best_fitness {
-                self.best_fitness = scores[first];
-                self.best.copy_from_slice(&self.rows[first * dofs..(first + 1) * dofs]);
-            }
-            self.distribution.learn(&self.samples, &self.order, range.len());
-        }
-        self.done = Some(done + 1);
-        Ok(())
-    }
-
-    fn estimate(&mut self, fitness: &mut Fitness<'_>) -> Result<Estimate> {
-        let scored = self.done.unwrap_or(0) * self.particles;
-        ensure!(scored > 0, "the search has scored no pose yet, so there is nothing to estimate");
-        let is_finite = self.best_fitness.is_finite();
-        ensure!(is_finite, "none of the {scored} poses of frame {} has a finite fitness", self.frame);
-        let dofs = self.space.dof_count();
-        let mut mean = vec![0.0; dofs];
-        self.space.place(&self.centre, &self.spread, &self.distribution.mean, &mut mean);
-        self.space.clamp(&mut mean);
-        let mut score = [f32::NAN];
-        fitness(&mean, &mut score)?;
-        let variances = self.distribution.covariance.iter().step_by(dofs + 1);
-        let deviations = variances.map(|variance| self.distribution.sigma * variance.sqrt());
-        let spread = deviations.zip(&self.spread).map(|(deviation, spread)| deviation as f32 * spread).collect();
-        let is_mean = score[0].is_finite() && score[0] >= self.best_fitness;
-        let (pose, fitness) = if is_mean { (mean, score[0]) } else { (self.best.clone(), self.best_fitness) };
-        Ok(Estimate { pose, fitness, spread, evaluations: scored + 1 })
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::evolution::tests::{ellipsoid, least, rosenbrock, sphere};
     use super::*;
     use crate::search::{SearchKind, SearchSettings};
 
-    /// The best of a function to be minimised, after so many generations of 20 samples from (1, 1, …) on.
-    fn least(dofs: usize, iterations: usize, function: &dyn Fn(&[f64]) -> f64) -> f64 {
-        let space = SearchSpace::new(vec![-50.0; dofs], vec![50.0; dofs], vec![1.0; dofs]).unwrap();
-        let cma = CmaSettings { sigma: 0.5, generation: 20 };
-        let settings = SearchSettings { kind: SearchKind::CmaEs, particles: 20, iterations, cma, ..Default::default() };
-        let mut search = settings.build(&space).unwrap();
-        let mut least = f64::INFINITY;
-        let centre: Vec<f32> = (0..dofs).map(|d| if d % 2 == 0 { -1.0 } else { 1.5 }).collect();
-        search
-            .search_frame(0, &centre, &vec![1.0; dofs], &mut |rows, fitness| {
-                for (row, fitness) in rows.chunks_exact(dofs).zip(fitness) {
-                    let row: Vec<f64> = row.iter().map(|x| f64::from(*x)).collect();
-                    let value = function(&row);
-                    least = least.min(value);
-                    // Only the order counts, and this one keeps it where a single's digits would end.
-                    *fitness = -(value.max(1e-30).ln() as f32);
-                }
-                Ok(())
-            })
-            .unwrap();
-        least
-    }
-
     #[test]
     fn sphere_ellipsoid_and_rosenbrock() {
-        let sphere = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
-        let ellipsoid = |x: &[f64]| {
-            let n = x.len() as f64 - 1.0;
-            x.iter().enumerate().map(|(i, x)| 10_f64.powf(4.0 * i as f64 / n) * x * x).sum::<f64>()
-        };
-        let rosenbrock =
-            |x: &[f64]| x.windows(2).map(|p| 100.0 * (p[1] - p[0] * p[0]).powi(2) + (1.0 - p[0]).powi(2)).sum::<f64>();
+        let cma = CmaSettings { sigma: 0.5, generation: 20 };
+        let settings = SearchSettings { kind: SearchKind::CmaEs, particles: 20, cma, ..Default::default() };
+        let least = |dofs, iterations, function: &dyn Fn(&[f64]) -> f64| least(&settings, dofs, iterations, function);
         let found = [least(10, 150, &sphere), least(10, 400, &ellipsoid), least(6, 400, &rosenbrock)];
         assert!(found.iter().all(|value| *value < 1e-8), "{found:?}");
         // What it cannot do so soon: the bounds above are able to fail.

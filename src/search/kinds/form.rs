@@ -16,6 +16,17 @@ pub(super) struct Budget {
     pub(super) seed: u64,
 }
 
+/// What the estimate of a search is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Answer {
+    /// The best pose it scored.
+    Best,
+    /// A mean, which is scored as one pose more.
+    Mean,
+    /// The better of the two.
+    Better,
+}
+
 /// A kind of search by the constants that it alone uses.
 pub(super) trait SearchForm {
     /// Makes it from checked constants.
@@ -32,9 +43,9 @@ pub(super) trait SearchForm {
         false
     }
 
-    /// It estimates a mean, which is scored as one pose more.
-    fn is_mean(&self) -> bool {
-        false
+    /// What its estimate is.
+    fn answer(&self) -> Answer {
+        Answer::Best
     }
 
     /// It has a form that runs whole on a device.

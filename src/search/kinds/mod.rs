@@ -2,8 +2,10 @@
 
 mod annealed;
 mod cma_es;
+mod evolution;
 mod form;
 mod hierarchical;
+mod ma_es;
 mod particle_filter;
 mod pso;
 
@@ -11,11 +13,15 @@ use anyhow::{Result, ensure};
 use toml::Table;
 
 pub use annealed::{AnnealedFilter, AnnealingSettings};
-pub use cma_es::{CmaEs, CmaSettings};
+pub use cma_es::CmaSettings;
+pub(super) use evolution::generations;
+pub(super) use form::Answer;
 use form::{Budget, SearchForm};
 use hierarchical::SwarmHierarchy;
 pub(super) use hierarchical::SwarmLevel;
 pub use hierarchical::{HierarchicalPso, HierarchySettings};
+pub use ma_es::MatrixSettings;
+pub(super) use ma_es::Rates;
 pub use particle_filter::{FilterSettings, ParticleFilter};
 pub use pso::{Pso, PsoSettings};
 
@@ -45,6 +51,8 @@ choices! {
         },
         /// CMA-ES: evolution of a normal distribution, generations of 50 or more samples.
         "cmaes" CmaEs => |settings| Box::new(settings.cma),
+        /// MA-ES: the same by the matrix that makes the samples, products alone in single precision.
+        "maes" MaEs => |settings| Box::new(settings.matrix),
     }
 }
 
@@ -61,7 +69,12 @@ impl SearchKind {
 
     /// Whether its estimate is a mean, which is scored as one pose more.
     pub fn estimates_a_mean(self) -> bool {
-        self.form_by_default().is_mean()
+        self.answer() != Answer::Best
+    }
+
+    /// What its estimate is.
+    pub(super) fn answer(self) -> Answer {
+        self.form_by_default().answer()
     }
 
     /// Whether it has a form that runs whole on a device; the others are driven from the host.
@@ -78,7 +91,7 @@ pub struct SearchSettings {
     /// Poses scored at once.
     pub particles: usize,
     /// Batches of `particles` poses scored a frame, by every kind alike. A particle filter is not iterative: it holds
-    /// particles times iterations samples. What is a mean (pf, apf, cmaes) is scored as one pose more.
+    /// particles times iterations samples. What is a mean (pf, apf, cmaes, maes) is scored as one pose more.
     pub iterations: usize,
     /// Seed of all random numbers.
     pub seed: u64,
@@ -92,6 +105,8 @@ pub struct SearchSettings {
     pub hierarchy: HierarchySettings,
     /// What only CMA-ES uses.
     pub cma: CmaSettings,
+    /// What only MA-ES uses.
+    pub matrix: MatrixSettings,
     /// Poses scored to refine the winner, beyond those of the iterations.
     pub refine: usize,
 }
@@ -108,6 +123,7 @@ impl Default for SearchSettings {
             annealing: AnnealingSettings::default(),
             hierarchy: HierarchySettings::default(),
             cma: CmaSettings::default(),
+            matrix: MatrixSettings::default(),
             refine: 0,
         }
     }

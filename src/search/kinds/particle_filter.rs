@@ -4,7 +4,7 @@ use anyhow::{Result, bail, ensure};
 use serde::Serialize;
 use toml::Table;
 
-use super::form::{Budget, SearchForm};
+use super::form::{Answer, Budget, SearchForm};
 use crate::files::table_of;
 use crate::search::arithmetic::Statistics;
 use crate::search::weights::Weights;
@@ -49,8 +49,8 @@ impl SearchForm for FilterSettings {
         true
     }
 
-    fn is_mean(&self) -> bool {
-        true
+    fn answer(&self) -> Answer {
+        Answer::Mean
     }
 
     fn has_device_form(&self) -> bool {
