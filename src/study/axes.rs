@@ -21,6 +21,8 @@ choices! {
         "particles" Particles,
         /// Times that many poses are scored a frame.
         "iterations" Iterations,
+        /// Poses scored a frame: particles times iterations.
+        "evaluations" Evaluations,
     }
 }
 
@@ -35,14 +37,24 @@ impl Axis {
             Self::Search => run.search.to_string(),
             Self::Particles => run.particles.to_string(),
             Self::Iterations => run.iterations.to_string(),
+            Self::Evaluations => (run.particles * run.iterations).to_string(),
         }
     }
 
-    /// Where a run stands as a number, for the horizontal axis of a plot.
+    /// Whether runs stand on it as numbers: the horizontal axis of a plot, and a heading that says of what.
+    pub(super) fn is_number(self) -> bool {
+        match self {
+            Self::Particles | Self::Iterations | Self::Evaluations => true,
+            Self::Sequence | Self::Backend | Self::Model | Self::Objective | Self::Search => false,
+        }
+    }
+
+    /// Where a run stands as a number.
     pub(super) fn number(self, run: &Run) -> Option<f64> {
         match self {
             Self::Particles => Some(run.particles as f64),
             Self::Iterations => Some(run.iterations as f64),
+            Self::Evaluations => Some((run.particles * run.iterations) as f64),
             Self::Sequence | Self::Backend | Self::Model | Self::Objective | Self::Search => None,
         }
     }

@@ -49,7 +49,7 @@ pub(super) fn shares(settings: &SharesSettings, rows: &[Row]) -> Result<String> 
             let mean = |name: &str| Statistic::of(of_bar.iter().filter_map(|row| row.outcome.stage(name)));
             let parts = names.iter().filter_map(|name| Some(((*name).to_string(), mean(name)?.mean))).collect();
             let named = settings.bars.iter().zip(&here).map(|(axis, at)| match axis {
-                Axis::Particles | Axis::Iterations => format!("{at} {}", axis.name()),
+                axis if axis.is_number() => format!("{at} {}", axis.name()),
                 _ => at.clone(),
             });
             Shares { name: named.collect::<Vec<_>>().join(", "), parts }

@@ -113,7 +113,7 @@ pub struct PlotSettings {
     pub name: String,
     /// What is plotted.
     pub value: Value,
-    /// Against `particles` or `iterations`.
+    /// Against `particles`, `iterations` or `evaluations`.
     pub x: Axis,
     /// What makes a line.
     #[serde(default)]
@@ -256,8 +256,8 @@ impl Study {
             (|| {
                 file_name(&plot.name)?;
                 ensure!(
-                    matches!(plot.x, Axis::Particles | Axis::Iterations),
-                    "x is `{}`, expected `particles` or `iterations`",
+                    plot.x.is_number(),
+                    "x is `{}`, expected `particles`, `iterations` or `evaluations`",
                     plot.x.name()
                 );
                 ensure!(!plot.lines.contains(&plot.x), "`{}` is both x and a line", plot.x.name());

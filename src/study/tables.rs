@@ -52,7 +52,7 @@ impl Table<'_> {
         let title = if title.is_empty() { name } else { title };
         let head = |place: &Vec<String>| {
             let named = columns.iter().zip(place).map(|(axis, at)| match axis {
-                Axis::Particles | Axis::Iterations => format!("{at} {}", axis.name()),
+                axis if axis.is_number() => format!("{at} {}", axis.name()),
                 _ => at.clone(),
             });
             named.collect::<Vec<_>>().join(", ")

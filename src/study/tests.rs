@@ -78,9 +78,9 @@ fn a_stopped_study_goes_on_to_the_same_rows() {
 
     let table = std::fs::read_to_string(parts.path().join("runs.csv")).unwrap();
     assert_eq!(table.lines().count(), 5, "{table}");
-    assert!(
-        table.starts_with("sequence,backend,model,objective,search,particles,iterations,seed,frames,points,error_mm,")
-    );
+    assert!(table.starts_with(
+        "sequence,backend,model,objective,search,particles,iterations,evaluations,seed,frames,points,error_mm,"
+    ));
     let table = std::fs::read_to_string(parts.path().join("table-errors.csv")).unwrap();
     let cells: Vec<&str> = table.lines().nth(1).unwrap().split(',').collect();
     let errors: Vec<f64> = [0, 2].map(|seed| all.rows[seed].outcome.error.unwrap()).to_vec();
@@ -140,7 +140,7 @@ fn what_makes_no_sense_is_named() {
         ("[12, 24]", "[12, -1]", &["line 4"]),
         ("[\"cpu\"]", "[\"gpu\"]", &["line 6", "unknown backend `gpu`", "auto, reference, cpu, compute, graphics"]),
         ("spread = 0.5", "objectives = [\"best\"]", &["unknown objective `best`", "ws, sp, aows, aosp, posp"]),
-        ("spread = 0.5", "searches = [\"best\"]", &["unknown search `best`", "pso, pf, apf, hpso, cmaes"]),
+        ("spread = 0.5", "searches = [\"best\"]", &["unknown search `best`", "pso, pf, apf, hpso, cmaes, maes"]),
         ("spread = 0.5", "models = [\"elliptic-19\"]", &["unknown model `elliptic-19`", "nearest is `elliptic-18`"]),
         ("preset = \"demo\"", "", &["neither `path` nor `preset`"]),
         ("preset = \"demo\"", "preset = \"demo\"\npath = \"walk\"", &["both `path` and `preset`"]),
@@ -151,7 +151,11 @@ fn what_makes_no_sense_is_named() {
         ("length = 3", "[[sequence]]\npreset = \"demo\"", &["two sequences are named \"demo\""]),
         ("rows = [\"particles\"]", "rows = []", &["[[table]] \"errors\"", "rows is empty"]),
         ("rows = [\"particles\"]", "rows = [\"sequence\"]", &["`sequence` stands twice"]),
-        ("x = \"particles\"", "x = \"search\"", &["[[plot]] \"errors\"", "expected `particles` or `iterations`"]),
+        (
+            "x = \"particles\"",
+            "x = \"search\"",
+            &["[[plot]] \"errors\"", "expected `particles`, `iterations` or `evaluations`"],
+        ),
         ("value = \"error\"\nrows", "value = \"eror\"\nrows", &["`eror`", "`error`"]),
     ] {
         assert!(SMALL.contains(from), "{from}");
