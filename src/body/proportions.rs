@@ -1,8 +1,12 @@
 //! The proportions of a grown person: symmetric factors on the lengths and girths of the default body.
 
+use std::collections::BTreeMap;
+
+use anyhow::{Result, ensure};
 use glam::DVec3;
 
 use super::Body;
+use crate::files::unknown;
 
 /// One factor of [`Proportions`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +66,29 @@ impl Proportions {
         girth("calf girth"),
         girth("foot girth"),
     ];
+
+    /// Factors by their names, 1 where none is given.
+    ///
+    /// # Errors
+    /// When a name is unknown (the nearest is named) or a factor is out of its range.
+    pub fn named(factors: &BTreeMap<String, f64>) -> Result<Self> {
+        let known = Self::ALL.map(|proportion| proportion.name);
+        let mut proportions = Self::default();
+        for (name, &factor) in factors {
+            let Some(index) = known.iter().position(|known| known == name) else {
+                return Err(unknown("proportion", name, &known));
+            };
+            let [low, high] = Self::ALL[index].limits;
+            ensure!((low..=high).contains(&factor), "`{name}` is {factor}, expected {low} to {high}");
+            proportions.0[index] = factor;
+        }
+        Ok(proportions)
+    }
+
+    /// A factor by its name; 1 where there is none of it.
+    pub fn of(&self, name: &str) -> f64 {
+        Self::ALL.iter().position(|known| known.name == name).map_or(1.0, |index| self.0[index])
+    }
 
     /// The body so stretched; bones and parts of other names stay as they are.
     pub fn apply(&self, body: &Body) -> Body {

@@ -9,7 +9,9 @@ use anyhow::Result;
 use super::draws::Draws;
 use super::progress::ProgressBar;
 use crate::files::{OutputFolder, Overwrite};
-use crate::synth::{Scene, ScenePreset, SyntheticSequence};
+use crate::gpu::Device;
+use crate::synth::{Lottery, LotterySettings, Scene, ScenePreset, SyntheticSequence};
+use crate::track::{StartPose, write_unseen};
 
 /// Makes a synthetic sequence with exact truth from scene.toml: people who walk, run, jump or follow a recorded motion (BVH,
 /// ASF/AMC, DeepMimic) in a room before any number of cameras. The folder can be tracked as it is; truth.trc holds the
@@ -17,11 +19,22 @@ use crate::synth::{Scene, ScenePreset, SyntheticSequence};
 #[derive(clap::Args, Debug)]
 pub(super) struct SynthArgs {
     /// The scene.
-    #[arg(value_name = "SCENE.toml", required_unless_present = "preset", conflicts_with = "preset")]
+    #[arg(value_name = "SCENE.toml", required_unless_present_any = ["preset", "lottery"])]
+    #[arg(conflicts_with_all = ["preset", "lottery"])]
     scene: Option<PathBuf>,
     /// A built-in scene.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", conflicts_with = "lottery")]
     preset: Option<ScenePreset>,
+    /// A scene drawn from this seed: person, motion, room, light, cameras; with a body measured in a T-pose second beside the
+    /// actor's own.
+    #[arg(long, value_name = "SEED", conflicts_with = "seed")]
+    lottery: Option<u64>,
+    /// The lottery's recorded motions: .bvh, .amc with .asf, DeepMimic clips; without them built-in gaits.
+    #[arg(long, value_name = "DIR", requires = "lottery")]
+    motions: Option<PathBuf>,
+    /// The lottery's people: skinned .glb or .gltf; without them our own figures.
+    #[arg(long, value_name = "DIR", requires = "lottery")]
+    people: Option<PathBuf>,
     /// The folder to write.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -48,6 +61,9 @@ pub(super) struct SynthArgs {
 /// When the scene makes no sense, a file it names cannot be read, the folder is not empty (without `--force` or
 /// `--resume`) or a file cannot be written; one sentence.
 pub(super) fn run(args: &SynthArgs) -> Result<()> {
+    if let Some(seed) = args.lottery {
+        return run_lottery(args, seed);
+    }
     let mut scene = match (&args.scene, &args.preset) {
         (Some(path), _) => Scene::load(path)?,
         (None, preset) => Scene::preset(preset.unwrap_or(ScenePreset::Demo).name())?,
@@ -55,18 +71,8 @@ pub(super) fn run(args: &SynthArgs) -> Result<()> {
     scene.frames = args.frames.unwrap_or(scene.frames);
     scene.seed = args.seed.unwrap_or(scene.seed);
     let synthetic = SyntheticSequence::new(&scene)?;
-    let mut device = args.backend.device()?;
-    if device.is_some()
-        && let Err(error) = synthetic.check_for_device()
-    {
-        if args.backend == Draws::Device {
-            return Err(error);
-        }
-        eprintln!("on the processor: {error:#}");
-        device = None;
-    }
-    let overwrite = if args.force || args.resume { Overwrite::Replace } else { Overwrite::Refuse };
-    let folder = OutputFolder::create(&args.output, overwrite)?;
+    let device = device(args, &synthetic)?;
+    let folder = folder(args)?;
     let begin = Instant::now();
     let bar = Mutex::new(ProgressBar::new("making the sequence", scene.frames));
     synthetic.write(&folder, args.resume, device.as_ref(), &|_| {
@@ -80,5 +86,53 @@ pub(super) fn run(args: &SynthArgs) -> Result<()> {
         seconds / scene.frames as f64,
         folder.path().display()
     );
+    Ok(())
+}
+
+/// What draws, if not the processor.
+fn device(args: &SynthArgs, synthetic: &SyntheticSequence) -> Result<Option<Device>> {
+    let device = args.backend.device()?;
+    if device.is_some()
+        && let Err(error) = synthetic.check_for_device()
+    {
+        if args.backend == Draws::Device {
+            return Err(error);
+        }
+        eprintln!("on the processor: {error:#}");
+        return Ok(None);
+    }
+    Ok(device)
+}
+
+fn folder(args: &SynthArgs) -> Result<OutputFolder> {
+    let overwrite = if args.force || args.resume { Overwrite::Replace } else { Overwrite::Refuse };
+    OutputFolder::create(&args.output, overwrite)
+}
+
+fn run_lottery(args: &SynthArgs, seed: u64) -> Result<()> {
+    let settings =
+        LotterySettings { seed, motions: args.motions.clone(), people: args.people.clone(), frames: args.frames };
+    let lottery = Lottery::draw(&settings)?;
+    let device = device(args, &SyntheticSequence::new(&lottery.scene)?)?;
+    let folder = folder(args)?;
+    println!("{}", lottery.summary());
+    let begin = Instant::now();
+    let frames = lottery.scene.frames + lottery.t_pose.frames;
+    let bar = Mutex::new(ProgressBar::new("making the sequence", frames));
+    let made = write_unseen(&lottery, &folder, args.resume, device.as_ref(), &|_| {
+        bar.lock().unwrap_or_else(PoisonError::into_inner).advance()
+    })?;
+    drop(bar);
+    println!(
+        "measured: body off by {:.1} mm in the T-pose, start pose by {:.1} mm{}",
+        made.body_error,
+        made.start_error,
+        match made.start {
+            StartPose::Searched => "",
+            StartPose::Improved => ", searched from a pose set by hand",
+            StartPose::ByHand => ", set by hand",
+        }
+    );
+    println!("made {frames} frames in {:.1} s: {}", begin.elapsed().as_secs_f64(), folder.path().display());
     Ok(())
 }

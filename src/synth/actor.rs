@@ -250,6 +250,16 @@ impl Actor {
         Ok(Self { shapes: tailor.shapes })
     }
 
+    /// Changes every shape: `change` is given its bone, how far up the bone it lies (mm) and what it is made of, and says how it
+    /// is widened along the bone's axes and what it is made of from now on.
+    pub(super) fn rebuild(&mut self, change: impl Fn(usize, f64, Material) -> (DVec3, Material)) {
+        for shape in &mut self.shapes {
+            let (widening, material) = change(shape.bone, shape.bone_from_local.translation.z, shape.material);
+            shape.bone_from_local = DAffine3::from_scale(widening) * shape.bone_from_local;
+            shape.material = material;
+        }
+    }
+
     /// The shapes, in the order of [`Self::place`].
     pub fn shapes(&self) -> &[Shape] {
         &self.shapes

@@ -226,7 +226,7 @@ mod tests {
             for row in 0..side - 1 {
                 for column in 0..side - 1 {
                     // A little into the cell, so that rounding does not leave the grid at its border.
-                    let at = member.shadow_middle + glam::DVec2::new(middle(column), middle(row)) + 1e-6;
+                    let at = member.lamp.shadow_middle + glam::DVec2::new(middle(column), middle(row)) + 1e-6;
                     let (expected, found) = (member.floor_shadow().at(at.x, at.y), shades[row * side + column]);
                     assert!(
                         (expected[1] - found[1]).abs() < 1e-4,

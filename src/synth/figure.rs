@@ -6,6 +6,7 @@ use anyhow::{Context, Result};
 use glam::{DAffine3, DVec3};
 
 use super::actor::{Actor, Material};
+use super::build::Build;
 use super::colour::Colour;
 use super::finish::{Finish, FinishSettings};
 use super::solid::BoundingBall;
@@ -122,6 +123,39 @@ impl Figure {
             })
             .collect();
         Ok(Self { body: body.clone(), wardrobe, shape: Shape::Mesh { mesh, materials } })
+    }
+
+    /// The person with another build: wider or thinner across the bones, with longer sleeves, shorter trousers. Lengths are the
+    /// body's.
+    #[must_use]
+    pub fn built(mut self, build: &Build) -> Self {
+        let end_of = |bone: usize| self.body.parts.iter().find(|part| part.bone == bone).map_or(0.0, |part| part.b.z);
+        let wearing = |bone: usize, along: f64, material: Material| {
+            let name = self.body.bones[bone].name.as_str();
+            let is_arm = name.ends_with("shoulder") || (name.ends_with("elbow") && along > 0.93 * end_of(bone));
+            match material {
+                Material::Skin if build.long_sleeves && is_arm => Material::Shirt,
+                Material::Trousers if build.shorts && name.ends_with("knee") => Material::Skin,
+                other => other,
+            }
+        };
+        match &mut self.shape {
+            Shape::Solids(actor) => actor.rebuild(|bone, along, material| {
+                (build.widening(&self.body.bones[bone].name), wearing(bone, along, material))
+            }),
+            Shape::Mesh { mesh, materials } => {
+                for (corners, material) in mesh.triangles.iter().zip(materials) {
+                    let vertices = corners.map(|corner| &mesh.vertices[corner as usize]);
+                    let middle = vertices.iter().map(|vertex| vertex.position.as_dvec3()).sum::<DVec3>() / 3.0;
+                    let bone = usize::from(vertices[0].bones[0]);
+                    *material = wearing(bone, mesh.inverse_bind[bone].transform_point3(middle).z, *material);
+                }
+                for (bind, bone) in mesh.inverse_bind.iter_mut().zip(&self.body.bones) {
+                    *bind = DAffine3::from_scale(build.widening(&bone.name)) * *bind;
+                }
+            }
+        }
+        self
     }
 
     /// The person in a pose (mm, radians).

@@ -6,12 +6,15 @@
 //! and [sensor](noise::Sensor) record it.
 
 pub mod actor;
+mod build;
+mod chroma;
 mod colour;
 pub mod device;
 pub mod figure;
 mod finish;
 pub mod gait;
 mod hash;
+mod lottery;
 pub mod noise;
 mod packing;
 pub mod performance;
@@ -28,9 +31,11 @@ pub mod solid;
 pub mod triangle;
 
 pub use finish::{Finish, FinishParameters, FinishSettings};
+pub use lottery::{Lottery, LotterySettings};
 pub use portrait::portrait;
 pub use scene::{
     ActorSettings, CameraSettings, Gait, Garment, LensKind, LightSettings, MotionSettings, MotionUnit, OutputSettings,
-    PictureForm, RigKind, RigSettings, RoomSettings, Scene, ScenePreset, SensorSettings,
+    PictureForm, RigKind, RigSettings, RoomSettings, Scene, ScenePreset, SensorSettings, StationSettings,
 };
+pub(crate) use sequence::FileNames;
 pub use sequence::SyntheticSequence;

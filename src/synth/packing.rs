@@ -108,7 +108,7 @@ impl PackedCast {
             }
             members.push(packed_member(member, is_mesh, bins.len() as u32, balls.len() as u32 / 2));
             balls.extend(member.figure.balls.iter().flatten().map(|&(centre, radius)| with(centre, radius)));
-            append_bins(&mut bins, &member.bins, first);
+            append_bins(&mut bins, &member.lamp.bins, first);
         }
         ensure!(
             solids.len().max(triangles.len()) < 1 << MEMBER_SHIFT && members.len() <= 1 << (32 - MEMBER_SHIFT),
@@ -194,9 +194,9 @@ fn look_of(material: Material) -> u32 {
 }
 
 fn packed_member(member: &Member<'_>, is_mesh: bool, first_bin: u32, first_pair: u32) -> layout::Member {
-    let bins = &member.bins;
+    let bins = &member.lamp.bins;
     layout::Member {
-        to_light: with(member.to_light, 0.0),
+        to_light: with(member.lamp.to_light, 0.0),
         across: bins.across.map(|axis| with(axis, 0.0)),
         bins_origin: bins.origin.as_vec2().to_array(),
         bins_size: bins.size.map(|bins| bins as u32),
@@ -205,7 +205,7 @@ fn packed_member(member: &Member<'_>, is_mesh: bool, first_bin: u32, first_pair:
         is_mesh: u32::from(is_mesh),
         first_pair,
         pairs: member.figure.balls.len() as u32,
-        floor_middle: member.shadow_middle.as_vec2().to_array(),
+        floor_middle: member.lamp.shadow_middle.as_vec2().to_array(),
         ..Zeroable::zeroed()
     }
 }

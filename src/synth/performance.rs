@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::gait::{Gait, Jump, Style, Way};
 use super::room::Room;
 use super::scene::{self, MotionSettings, MotionUnit, Scene};
-use crate::body::{Body, RetargetSettings};
+use crate::body::{Body, Dof, DofAxis, RetargetSettings};
 use crate::motion::read_skeletal_motion;
 
 /// How near an actor's root may come to a wall, mm.
@@ -25,6 +25,7 @@ enum Part {
     Gait(Gait),
     Jump(Jump),
     Stand(Vec<f64>),
+    TPose { body: Box<Body>, at: DVec2, heading: f64 },
     Recorded { rate: f64, poses: Vec<Vec<f64>> },
 }
 
@@ -62,6 +63,7 @@ impl Performance {
                 Part::Jump(Jump::new(body, at, heading.unwrap_or(0.0), settings.jump_height, period))
             }
             scene::Gait::Stand => Part::Stand(standing(body, at, heading.unwrap_or(0.0))),
+            scene::Gait::TPose => Part::TPose { body: Box::new(body.clone()), at, heading: heading.unwrap_or(0.0) },
         };
         Ok(Self { part, start: settings.start })
     }
@@ -77,6 +79,7 @@ impl Performance {
             Part::Gait(gait) => gait.pose(time),
             Part::Jump(jump) => jump.pose(time)?,
             Part::Stand(pose) => pose.clone(),
+            Part::TPose { body, at, heading } => t_pose(body, *at, *heading, time),
             Part::Recorded { rate, poses } => {
                 let last = poses.len() - 1;
                 let position = (time * rate).clamp(0.0, last as f64);
@@ -118,15 +121,58 @@ fn recorded(body: &Body, settings: &MotionSettings, scene: &Scene) -> Result<Vec
     let Some(file) = &settings.file else { bail!("no motion file is named") };
     let motion = read_skeletal_motion(file, settings.skeleton.as_deref(), settings.rate)?;
     let motion = motion.cut(settings.start, settings.until.unwrap_or(f64::INFINITY))?;
+    // Mirrored, what goes to the left goes to the right.
+    let side = if settings.mirrored { -1.0 } else { 1.0 };
     let retarget = RetargetSettings {
         joints: settings.joints.clone(),
         unit: settings.unit.map(MotionUnit::mm),
         up: settings.up,
-        at: Some(DVec2::from(settings.at)),
-        heading: settings.heading.map(f64::to_radians),
+        at: Some(DVec2::from(settings.at) * DVec2::new(1.0, side)),
+        heading: settings.heading.map(|heading| side * heading.to_radians()),
         repeats: settings.repeats,
     };
-    Ok(body.retarget(&motion, &retarget, scene.fps, scene.frames)?.poses)
+    let rate = scene.fps / settings.speed.unwrap_or(1.0);
+    let poses = body.retarget(&motion, &retarget, rate, scene.frames)?.poses;
+    Ok(if settings.mirrored { poses.iter().map(|pose| mirrored(body, pose)).collect() } else { poses })
+}
+
+/// The pose in a mirror along the x axis: bones change sides.
+fn mirrored(body: &Body, pose: &[f64]) -> Vec<f64> {
+    let twin = |name: &str| match (name.strip_prefix("left_"), name.strip_prefix("right_")) {
+        (Some(rest), _) => format!("right_{rest}"),
+        (_, Some(rest)) => format!("left_{rest}"),
+        _ => name.to_string(),
+    };
+    let of_twin = |(bone, dof): (usize, &Dof)| {
+        let from = twin(&body.bones[bone].name);
+        let mut dofs = body.dofs().zip(pose);
+        let value = dofs.find(|((other, found), _)| found.axis == dof.axis && body.bones[*other].name == from);
+        let sign = if matches!(dof.axis, DofAxis::Ty | DofAxis::Rx | DofAxis::Rz) { -1.0 } else { 1.0 };
+        (sign * value.map_or(0.0, |(_, value)| *value)).clamp(dof.limits[0], dof.limits[1])
+    };
+    body.dofs().map(of_twin).collect()
+}
+
+/// With the arms out sideways, as people do it: elbows not quite straight, swaying a little with the time in seconds.
+fn t_pose(body: &Body, at: DVec2, heading: f64, time: f64) -> Vec<f64> {
+    let mut pose = body.standing_pose();
+    let sway = |period: f64, phase: f64| (std::f64::consts::TAU * (time / period + phase)).sin();
+    for ((index, dof), value) in body.dofs().zip(&mut pose) {
+        let name = body.bones[index].name.as_str();
+        let (sign, phase) = if name.starts_with("right") { (-1.0, 0.4) } else { (1.0, 0.0) };
+        let asked = match (name, dof.axis.name()) {
+            ("pelvis", "tx") => at.x,
+            ("pelvis", "ty") => at.y,
+            ("pelvis", "rz") => heading,
+            ("thorax", "ry") => (1.0 + 1.5 * sway(1.7, 0.2)).to_radians(),
+            ("left_shoulder" | "right_shoulder", "rx") => sign * (84.0 + 4.0 * sway(1.3, phase)).to_radians(),
+            ("left_elbow" | "right_elbow", "ry") => -(9.0 + 4.0 * sway(1.1, phase)).to_radians(),
+            ("left_hip" | "right_hip", "rx") => sign * 6f64.to_radians(),
+            _ => continue,
+        };
+        *value = asked.clamp(dof.limits[0], dof.limits[1]);
+    }
+    pose
 }
 
 /// Standing at ease: arms a little off the body, elbows and knees a little bent.

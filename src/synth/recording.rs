@@ -11,6 +11,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use rayon::prelude::*;
 
+use super::chroma::with_half_chroma;
 use super::device::DevicePainter;
 use super::figure::Figure;
 use super::hash::hash;
@@ -149,13 +150,14 @@ impl Studio<'_> {
                 instants.push(*time);
             }
         }
-        let lamp = self.scene.light.position.map(DVec3::from);
+        let light = &self.scene.light;
+        let lamps: Vec<DVec3> = light.position.iter().chain(&light.lamps).map(|at| DVec3::from(*at)).collect();
         for instant in instants {
             let poses = self.performances.iter().map(|performance| performance.pose(instant));
             let poses: Vec<Vec<f64>> = poses.collect::<Result<_>>()?;
             let figures = self.figures.iter().zip(&poses).map(|(figure, pose)| figure.place(pose));
             let figures: Vec<_> = figures.collect::<Result<_>>()?;
-            let cast = Cast::new(&figures, lamp)?;
+            let cast = Cast::lit(&figures, &lamps, light.softness)?;
             let bright = brightness(&self.scene.light, instant);
             let mut is_wanted = vec![false; self.views.len()];
             for (&view, times) in asked.iter().zip(&times) {
@@ -180,9 +182,13 @@ impl Studio<'_> {
         for ((&view, times), (light, covered)) in asked.iter().zip(&times).zip(sums) {
             let shutter = &self.shutters[view];
             let half = 2 * times.len() as u16;
+            // A dropped frame is the same picture once more, noise and all.
+            let mut bytes = shutter.sensor.expose(&light, view, shutter.shown[frame]);
+            if self.scene.output.half_chroma {
+                with_half_chroma(&mut bytes, self.views[view].camera().size);
+            }
             shots.push(Shot {
-                // A dropped frame is the same picture once more, noise and all.
-                bytes: shutter.sensor.expose(&light, view, shutter.shown[frame]),
+                bytes,
                 mask: covered.iter().map(|&quarters| if quarters >= half { 255 } else { 0 }).collect(),
             });
         }

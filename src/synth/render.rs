@@ -10,6 +10,7 @@ use super::colour::Colour;
 use super::figure::PlacedFigure;
 use super::hash::smooth_noise;
 use super::room::{Room, Surface};
+use super::scene::USUAL_SOFTNESS;
 use super::shaders::TILE_SIDE;
 use super::shadow::{FloorShadow, LightBins};
 use super::solid::Ray;
@@ -56,17 +57,63 @@ pub struct Cast<'a> {
 /// One of them with the light as it falls there.
 pub(super) struct Member<'a> {
     pub(super) figure: &'a PlacedFigure<'a>,
+    /// The first lamp, and those beside it; each gives an equal share of the key light.
+    pub(super) lamp: Lamp<'a>,
+    others: Vec<Lamp<'a>>,
+}
+
+/// The light of a lamp at a member.
+pub(super) struct Lamp<'a> {
     pub(super) to_light: DVec3,
     pub(super) bins: LightBins<'a>,
     /// The middle of the shadow on the floor.
     pub(super) shadow_middle: DVec2,
+    softness: u32,
     /// Made when it is first asked for: a device makes its own.
     floor_shadow: OnceLock<FloorShadow>,
 }
 
+impl<'a> Lamp<'a> {
+    /// The light at `figure` of a lamp at a place (mm), or from far away.
+    fn new(figure: &'a PlacedFigure<'a>, lamp: Option<DVec3>, softness: u32) -> Result<Self> {
+        let towards = match lamp {
+            None => TO_WINDOW,
+            Some(lamp) => {
+                // A lamp beside a person would throw a shadow without end.
+                let towards = (lamp - figure.root()?).normalize_or(DVec3::Z);
+                towards.with_z(towards.z.max(0.25))
+            }
+        };
+        let to_light = towards.normalize();
+        let bins = LightBins::new(&figure.primitives, to_light);
+        // The middle of the shadow lies away from the light.
+        let low = figure.balls.iter().map(|pair| pair[0].0.truncate());
+        let middle = low.fold(DVec2::ZERO, |sum, p| sum + p) / figure.balls.len().max(1) as f64;
+        let shadow_middle = middle - towards.truncate() / towards.z * 700.0;
+        Ok(Self { to_light, bins, shadow_middle, softness, floor_shadow: OnceLock::new() })
+    }
+}
+
 impl Member<'_> {
     pub(super) fn floor_shadow(&self) -> &FloorShadow {
-        self.floor_shadow.get_or_init(|| FloorShadow::new(&self.bins, &self.figure.balls, self.shadow_middle))
+        self.shadow_of(&self.lamp)
+    }
+
+    fn shadow_of<'l>(&self, lamp: &'l Lamp<'_>) -> &'l FloorShadow {
+        let shadow = || FloorShadow::new(&lamp.bins, &self.figure.balls, lamp.shadow_middle, lamp.softness);
+        lamp.floor_shadow.get_or_init(shadow)
+    }
+
+    fn lamps(&self) -> impl Iterator<Item = &Lamp<'_>> {
+        std::iter::once(&self.lamp).chain(&self.others)
+    }
+
+    /// The share of its light that a point of the floor keeps.
+    fn shading(&self, shadows: &[&FloorShadow], x: f64, y: f64) -> f32 {
+        let [first, around] = self.floor_shadow().at(x, y);
+        let others: f32 = shadows.iter().map(|shadow| shadow.at(x, y)[0]).sum();
+        let key = (first + others) / (1 + shadows.len()) as f32;
+        KEY_SHARE * key + (1.0 - KEY_SHARE) * around
     }
 }
 
@@ -89,22 +136,18 @@ impl<'a> Cast<'a> {
     /// # Errors
     /// When a figure has no root.
     pub fn new(figures: &'a [PlacedFigure<'a>], lamp: Option<DVec3>) -> Result<Self> {
+        Self::lit(figures, lamp.as_slice(), USUAL_SOFTNESS)
+    }
+
+    /// The same with any number of lamps, and shadows on the floor that are blurred `softness` times.
+    ///
+    /// # Errors
+    /// When a figure has no root.
+    pub(super) fn lit(figures: &'a [PlacedFigure<'a>], lamps: &[DVec3], softness: u32) -> Result<Self> {
         let member = |figure: &'a PlacedFigure<'a>| {
-            let towards = match lamp {
-                None => TO_WINDOW,
-                Some(lamp) => {
-                    // A lamp beside a person would throw a shadow without end.
-                    let towards = (lamp - figure.root()?).normalize_or(DVec3::Z);
-                    towards.with_z(towards.z.max(0.25))
-                }
-            };
-            let to_light = towards.normalize();
-            let bins = LightBins::new(&figure.primitives, to_light);
-            // The middle of the shadow lies away from the light.
-            let low = figure.balls.iter().map(|pair| pair[0].0.truncate());
-            let middle = low.fold(DVec2::ZERO, |sum, p| sum + p) / figure.balls.len().max(1) as f64;
-            let shadow_middle = middle - towards.truncate() / towards.z * 700.0;
-            Ok(Member { figure, to_light, bins, shadow_middle, floor_shadow: OnceLock::new() })
+            let lamp = Lamp::new(figure, lamps.first().copied(), softness)?;
+            let others = lamps.iter().skip(1).map(|at| Lamp::new(figure, Some(*at), softness));
+            Ok(Member { figure, lamp, others: others.collect::<Result<_>>()? })
         };
         Ok(Self { members: figures.iter().map(member).collect::<Result<_>>()? })
     }
@@ -144,11 +187,11 @@ impl<'a> Cast<'a> {
         Some(Meeting { of, point, facet, normal: self.blended(facet, point, of, candidates) })
     }
 
-    /// Whether a member stands between a meeting and the light.
-    pub(super) fn in_shadow(&self, meeting: &Meeting) -> bool {
+    /// Whether a member stands between a meeting and the lamp of that number.
+    fn in_shadow(&self, meeting: &Meeting, lamp: usize) -> bool {
         // Lifted off the surface, so that nothing shades its own skin by rounding.
         let lifted = meeting.point + meeting.facet * LIFT;
-        self.members.iter().any(|other| other.bins.in_shadow(lifted))
+        self.members.iter().filter_map(|other| other.lamps().nth(lamp)).any(|lamp| lamp.bins.in_shadow(lifted))
     }
 
     /// The member that is first met along a ray, and the light from there.
@@ -158,8 +201,11 @@ impl<'a> Cast<'a> {
         let (member, point) = (&self.members[usize::from(of)], meeting.point);
         let look = member.figure.look(index as usize, point);
         let normal = (meeting.normal + folds(look.material, look.at)).normalize_or_zero();
-        let towards_light = normal.dot(member.to_light).max(0.0);
-        let key = if towards_light > 0.0 && !self.in_shadow(&meeting) { towards_light } else { 0.0 };
+        let arriving = |(number, lamp): (usize, &Lamp<'_>)| {
+            let towards_light = normal.dot(lamp.to_light).max(0.0);
+            if towards_light > 0.0 && !self.in_shadow(&meeting, number) { towards_light } else { 0.0 }
+        };
+        let key = member.lamps().enumerate().map(arriving).sum::<f64>() / (1 + member.others.len()) as f64;
         let up = 0.5 + 0.5 * normal.z;
         // Near the floor less of the room's light arrives.
         let open = 0.72 + 0.28 * (point.z / 500.0).clamp(0.0, 1.0);
@@ -234,9 +280,10 @@ impl View {
     }
 
     /// The room with people in it, and how much of each pixel the first of them covers, in 0..=4 quarters.
-    pub fn picture(&self, cast: &Cast) -> (Light, Vec<u8>) {
+    pub fn picture<'a>(&self, cast: &'a Cast<'_>) -> (Light, Vec<u8>) {
         let [width, height] = self.camera.size.map(|side| side as usize);
-        let shadows: Vec<&FloorShadow> = cast.members.iter().map(Member::floor_shadow).collect();
+        let others = |member: &'a Member<'_>| member.others.iter().map(|lamp| member.shadow_of(lamp)).collect();
+        let shadows: Vec<Vec<&FloorShadow>> = cast.members.iter().map(others).collect();
         let mut light: Light = self
             .plate
             .iter()
@@ -246,11 +293,8 @@ impl View {
                     return *rgb;
                 }
                 let (x, y) = (f64::from(x), f64::from(y));
-                let factor = shadows.iter().map(|shadow| {
-                    let [key, around] = shadow.at(x, y);
-                    KEY_SHARE * key + (1.0 - KEY_SHARE) * around
-                });
-                let factor: f32 = factor.product();
+                let shadings = cast.members.iter().zip(&shadows).map(|(member, others)| member.shading(others, x, y));
+                let factor: f32 = shadings.product();
                 rgb.map(|value| value * factor)
             })
             .collect();

@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::room::Room;
-use super::scene::{LensKind, RigKind, RigSettings};
+use super::scene::{LensKind, RigKind, RigSettings, StationSettings};
 use crate::geometry::{BrownConrady, Camera, Lens, Tsai};
 use crate::sequence::read_cameras;
 
@@ -82,13 +82,14 @@ pub fn cameras(settings: &RigSettings, room: &Room) -> Result<Vec<Camera>> {
         return Ok(cameras);
     }
     let mut cameras = match settings.preset {
+        _ if !settings.station.is_empty() => stations(&settings.station, settings.size, room)?,
         RigKind::Ring => ring(settings.count, room.half_size, settings.size),
         RigKind::Corners => four_cameras(room.half_size, settings.size),
     };
     for camera in &mut cameras {
         let centre = camera.centre_in_world();
         // Low ceilings bring a camera down.
-        if centre.z > room.height - 100.0 {
+        if settings.station.is_empty() && centre.z > room.height - 100.0 {
             camera.camera_from_world = look_at(centre.with_z(room.height - 100.0), TARGET);
         }
         if let Lens::BrownConrady(lens) = &mut camera.lens {
@@ -101,6 +102,31 @@ pub fn cameras(settings: &RigSettings, room: &Room) -> Result<Vec<Camera>> {
         }
     }
     Ok(cameras)
+}
+
+/// Cameras that stand where each is asked to.
+fn stations(settings: &[StationSettings], size: [u32; 2], room: &Room) -> Result<Vec<Camera>> {
+    let middle = (DVec2::new(f64::from(size[0]), f64::from(size[1])) - 1.0) * 0.5;
+    let camera = |(index, station): (usize, &StationSettings)| {
+        let name = format!("cam{}", index + 1);
+        let at = DVec3::from(station.at);
+        if !(at.truncate().abs().cmplt(room.half_size).all() && at.z > 0.0 && at.z < room.height) {
+            bail!("the station of {name} is at {at:.0} mm, expected it inside the room");
+        }
+        let upright = look_at(at, DVec3::from(station.towards));
+        Ok(Camera {
+            name,
+            size,
+            camera_from_world: DAffine3::from_axis_angle(DVec3::Z, station.roll.to_radians()) * upright,
+            lens: Lens::BrownConrady(BrownConrady {
+                focal: DVec2::splat(station.focal),
+                centre: middle + DVec2::from(station.centre),
+                radial: [station.radial[0], station.radial[1], 0.0],
+                tangential: station.tangential,
+            }),
+        })
+    };
+    settings.iter().enumerate().map(camera).collect()
 }
 
 /// A lens of 6 mm with the same focal length in pixels and, to first order, the same distortion.
@@ -130,7 +156,7 @@ fn ring(count: usize, half_size: DVec2, size: [u32; 2]) -> Vec<Camera> {
 const TARGET: DVec3 = DVec3::new(0.0, 0.0, 880.0);
 
 /// The frame of an upright camera at `centre` that looks at `target`: x right, y down, z forward.
-fn look_at(centre: DVec3, target: DVec3) -> DAffine3 {
+pub(super) fn look_at(centre: DVec3, target: DVec3) -> DAffine3 {
     let forward = (target - centre).normalize_or(DVec3::X);
     let right = forward.cross(DVec3::Z).normalize_or(DVec3::X);
     let world_from_camera = DMat3::from_cols(right, forward.cross(right), forward);

@@ -6,6 +6,7 @@ use anyhow::{Context, Result, bail};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::build::{Build, body_of};
 use super::device::DevicePainter;
 use super::figure::{Figure, Wardrobe};
 use super::packing::PackedFinishes;
@@ -14,7 +15,7 @@ use super::recording::{Shutter, Studio, shutters, source_of, write_picture};
 use super::render::View;
 use super::rig;
 use super::room::Room;
-use super::scene::{PictureForm, Scene};
+use super::scene::{PictureForm, Scene, USUAL_SOFTNESS};
 use crate::body::{Body, MeshSource, PoseTable, Skinning};
 use crate::files::{OutputFolder, Overwrite};
 use crate::geometry::Camera;
@@ -42,6 +43,22 @@ pub struct SyntheticSequence {
     performances: Vec<Performance>,
     shutters: Vec<Shutter>,
     poses: PoseTable,
+}
+
+/// Names of a sequence's manifest, and of the body and the start pose that it names.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FileNames<'a> {
+    pub(crate) manifest: &'a str,
+    pub(crate) body: &'a str,
+    pub(crate) start: &'a str,
+    /// Whether the manifest names the exact silhouettes, where there are any.
+    pub(crate) masks: bool,
+}
+
+impl Default for FileNames<'_> {
+    fn default() -> Self {
+        Self { manifest: "sequence.toml", body: "body.toml", start: "start.csv", masks: true }
+    }
 }
 
 /// sequence.toml as this room writes it.
@@ -79,7 +96,8 @@ impl SyntheticSequence {
         let (mut figures, mut performances, mut tracked) = (Vec::new(), Vec::new(), None);
         for (index, actor) in scene.actor.iter().enumerate() {
             let number = || format!("actor {}", index + 1);
-            let mut body = Body::adult(actor.height)?;
+            let mut body = body_of(actor).with_context(number)?;
+            let build = Build::of(actor).with_context(number)?;
             let wardrobe = Wardrobe::new(&actor.clothes).with_context(number)?;
             let figure = match &actor.mesh {
                 None => Figure::of_solids(&body, actor.height, wardrobe),
@@ -89,7 +107,11 @@ impl SyntheticSequence {
                     Figure::of_mesh(&body, wardrobe)
                 }
             };
-            figures.push(figure.with_context(number)?);
+            figures.push(figure.with_context(number)?.built(&build));
+            if actor.own_bones || !actor.proportions.is_empty() {
+                // Cones tell of the build, the file does not.
+                body.mesh = None;
+            }
             let performance = Performance::new(&body, &actor.motion, scene, &room).with_context(number)?;
             let poses = performance.poses(&body, scene, &room).with_context(number)?;
             performances.push(performance);
@@ -118,6 +140,10 @@ impl SyntheticSequence {
     /// # Errors
     /// When someone wears a material that is drawn on the processor alone; one sentence that names both.
     pub fn check_for_device(&self) -> Result<()> {
+        let light = &self.scene.light;
+        if light.lamps.len() > 1 || light.softness != USUAL_SOFTNESS {
+            bail!("[light]: several lamps, and shadows of another softness, are drawn on the processor alone");
+        }
         PackedFinishes::new(&self.figures).map(|_| ())
     }
 
@@ -150,6 +176,21 @@ impl SyntheticSequence {
         device: Option<&Device>,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<()> {
+        self.write_as(&FileNames::default(), folder, resume, device, progress)
+    }
+
+    /// [`Self::write`] with other names of the files that belong to the truth.
+    ///
+    /// # Errors
+    /// As [`Self::write`].
+    pub(crate) fn write_as(
+        &self,
+        names: &FileNames<'_>,
+        folder: &OutputFolder,
+        resume: bool,
+        device: Option<&Device>,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<()> {
         let record = toml::to_string(&self.scene).context("cannot write the scene's settings")?;
         if resume {
             let path = folder.path().join(RECORD);
@@ -163,7 +204,7 @@ impl SyntheticSequence {
         folder.write(RECORD, |writer| Ok(writer.write_all(record.as_bytes())?))?;
         let views: Vec<View> =
             self.cameras.par_iter().map(|camera| View::new(camera, &self.room)).collect::<Result<_>>()?;
-        self.write_text_files(folder)?;
+        self.write_text_files(names, folder)?;
         let studio = Studio {
             scene: &self.scene,
             figures: &self.figures,
@@ -177,11 +218,19 @@ impl SyntheticSequence {
             write_picture(&path, camera.size, &studio.plate(index), self.scene.output.quality)?;
         }
         studio.record(folder, resume, progress)?;
-        let manifest = toml::to_string(&self.manifest()).context("cannot write sequence.toml")?;
-        folder.write("sequence.toml", |writer| Ok(writer.write_all(manifest.as_bytes())?))
+        self.write_manifest(names, folder)
     }
 
-    fn write_text_files(&self, folder: &OutputFolder) -> Result<()> {
+    /// Writes a manifest that names a body and a start pose.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub(crate) fn write_manifest(&self, names: &FileNames<'_>, folder: &OutputFolder) -> Result<()> {
+        let manifest = toml::to_string(&self.manifest(names)).context("cannot write the manifest")?;
+        folder.write(names.manifest, |writer| Ok(writer.write_all(manifest.as_bytes())?))
+    }
+
+    fn write_text_files(&self, names: &FileNames<'_>, folder: &OutputFolder) -> Result<()> {
         write_cameras_toml(&folder.file("cameras.toml")?, &self.cameras, Overwrite::Replace)?;
         let mut body = self.body.clone();
         if let Some(MeshSource::Skinned { file, .. }) = &mut body.mesh {
@@ -190,9 +239,9 @@ impl SyntheticSequence {
             folder.write("person.glb", |writer| Ok(writer.write_all(&bytes)?))?;
             *file = "person.glb".into();
         }
-        body.save(&folder.file("body.toml")?, Overwrite::Replace)?;
+        body.save(&folder.file(names.body)?, Overwrite::Replace)?;
         let first = PoseTable { frames: vec![0], poses: self.poses.poses[..1].to_vec() };
-        first.write(&folder.file("start.csv")?, Overwrite::Replace, &self.body)?;
+        first.write(&folder.file(names.start)?, Overwrite::Replace, &self.body)?;
         self.poses.write(&folder.file("truth_poses.csv")?, Overwrite::Replace, &self.body)?;
         write_points(&folder.file("truth.trc")?, &self.joints()?, Overwrite::Replace)?;
         let markers = self.body.marker_trajectory(&self.poses, self.scene.fps)?;
@@ -211,15 +260,15 @@ impl SyntheticSequence {
         Ok(())
     }
 
-    fn manifest(&self) -> Manifest<'_> {
-        let output = &self.scene.output;
-        let view = |camera| ManifestView::of(camera, output.pictures, output.masks);
+    fn manifest<'a>(&'a self, names: &FileNames<'a>) -> Manifest<'a> {
+        let masks = names.masks && self.scene.output.masks;
+        let view = |camera| ManifestView::of(camera, self.scene.output.pictures, masks);
         Manifest {
             name: &self.scene.name,
             fps: self.scene.fps,
             cameras: "cameras.toml",
-            body: "body.toml",
-            start: "start.csv",
+            body: names.body,
+            start: names.start,
             truth: "truth.trc",
             view: self.cameras.iter().map(view).collect(),
             features: self.scene.features.as_ref(),

@@ -79,14 +79,14 @@ const SIDE: usize = SHADOW_SIDE as usize;
 
 impl FloorShadow {
     /// The shadow of what is in `bins`, in a square of the floor round `middle`; `balls` are pairs whose hulls stand for it
-    /// where light comes from all around.
-    pub(super) fn new(bins: &LightBins, balls: &[[BoundingBall; 2]], middle: DVec2) -> Self {
+    /// where light comes from all around. A lamp's width is `softness` blurs.
+    pub(super) fn new(bins: &LightBins, balls: &[[BoundingBall; 2]], middle: DVec2, softness: u32) -> Self {
         let origin = middle - 0.5 * CELL * SIDE as f64;
         let at = |index: usize| origin + DVec2::new((index % SIDE) as f64 + 0.5, (index / SIDE) as f64 + 0.5) * CELL;
         let mut key: Vec<f32> =
             (0..SIDE * SIDE).map(|i| if bins.in_shadow(at(i).extend(0.0)) { 0.0 } else { 1.0 }).collect();
         // A lamp of some width: three box blurs are nearly a bell.
-        for _ in 0..3 {
+        for _ in 0..softness {
             key = blurred(&blurred(&key, 1, SIDE), SIDE, 1);
         }
         let cells = key
@@ -183,7 +183,7 @@ mod tests {
     fn the_floor_is_darkest_under_the_ball_and_open_far_away() {
         let solids = [ball(DVec3::new(100.0, 50.0, 150.0), 140.0)];
         let bins = LightBins::new(&solids, DVec3::Z);
-        let shadow = FloorShadow::new(&bins, &[solids[0].bounding_balls()], DVec2::new(100.0, 50.0));
+        let shadow = FloorShadow::new(&bins, &[solids[0].bounding_balls()], DVec2::new(100.0, 50.0), 3);
         assert!(shadow.at(100.0, 50.0)[0] < 0.01 && shadow.at(100.0, 50.0)[1] < 0.85);
         assert!(shadow.at(400.0, 50.0)[0] > 0.99);
         assert_eq!(shadow.at(9000.0, 0.0), [1.0, 1.0]);

@@ -32,6 +32,7 @@ mod summary;
 mod timings;
 mod tracked_points;
 mod truth;
+mod unseen;
 
 pub use backend::{Backend, BuiltBackend};
 pub use confidence::{Confidence, FrameConfidence, JointConfidence, LossRule};
@@ -48,6 +49,7 @@ pub use settings::TrackSettings;
 pub use summary::{ErrorSummary, TrackSummary};
 pub use timings::TimingSummary;
 pub use tracked_points::tracked_points;
+pub use unseen::{StartPose, UnseenSummary, write_unseen};
 
 #[cfg(test)]
 mod fit_tests;

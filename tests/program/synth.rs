@@ -113,7 +113,7 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
         ("frames = \"three\"", "line 1"),
         (
             "[[actor]]\nmotion = { gait = \"fly\" }",
-            "unknown gait `fly`, the nearest is `run` (known: circle, straight, diagonal, run, jump, stand)",
+            "unknown gait `fly`, the nearest is `run` (known: circle, straight, diagonal, run, jump, stand, t-pose)",
         ),
         ("[[actor]]\nmotion = { gait = \"run\", file = \"x.bvh\" }", "both `gait` and `file`"),
         ("[[actor]]\nmotion = { file = \"nowhere.bvh\" }", "cannot read"),
@@ -148,4 +148,90 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
         message(&unknown)
     );
     assert_eq!(synth(&[], &folder).status.code(), Some(2), "neither a scene nor a preset");
+}
+
+#[test]
+fn a_lottery_is_a_folder_that_can_be_tracked_and_the_same_seed_the_same_bytes() {
+    let temporary = tempfile::tempdir().unwrap();
+    let [first, second] = ["first", "second"].map(|name| temporary.path().join(name));
+    let arguments = ["--lottery", "5", "--frames", "2"];
+    let made = synth(&arguments, &first);
+    assert!(made.status.success(), "{}", message(&made));
+    assert!(stdout(&made).contains("measured: body off by"), "{}", stdout(&made));
+    assert!(synth(&arguments, &second).status.success());
+    let names = [
+        "sequence.toml",
+        "exact.toml",
+        "true_sequence.toml",
+        "true_body.toml",
+        "true_start.csv",
+        "body.toml",
+        "start.csv",
+        "scene.toml",
+        "truth.trc",
+        "masks/cam2_0001.png",
+        "plates/cam4.png",
+        "t_pose/sequence.toml",
+        "t_pose/start.csv",
+        "t_pose/truth.trc",
+    ];
+    for name in names {
+        assert_eq!(fs::read(first.join(name)).unwrap(), fs::read(second.join(name)).unwrap(), "{name}");
+    }
+    for name in ["frames", "t_pose/frames"] {
+        for entry in fs::read_dir(first.join(name)).unwrap() {
+            let path = entry.unwrap().path();
+            let other = second.join(name).join(path.file_name().unwrap());
+            assert_eq!(fs::read(&path).unwrap(), fs::read(other).unwrap(), "{}", path.display());
+        }
+    }
+    // What a user has is measured, not known, and each manifest opens.
+    let read = |name: &str| fs::read_to_string(first.join(name)).unwrap();
+    assert!(read("body.toml") != read("true_body.toml") && read("start.csv") != read("true_start.csv"));
+    for (manifest, has_masks) in
+        [("sequence.toml", false), ("exact.toml", true), ("true_sequence.toml", false), ("t_pose/sequence.toml", false)]
+    {
+        let sequence = pantin::sequence::Sequence::open(&first.join(manifest)).unwrap();
+        assert_eq!(sequence.views.iter().all(|view| view.mask.is_some()), has_masks, "{manifest}");
+        assert!(sequence.views.iter().all(|view| view.background.is_some()) && sequence.truth.is_some(), "{manifest}");
+    }
+    // The record makes the same pictures as any scene does.
+    let again = temporary.path().join("again");
+    let scene = first.join("scene.toml");
+    assert!(synth(&[scene.to_str().unwrap()], &again).status.success());
+    let pictures = |folder: &Path| {
+        let mut files: Vec<_> =
+            fs::read_dir(folder.join("frames")).unwrap().map(|entry| entry.unwrap().path()).collect();
+        files.sort();
+        files.iter().map(|file| fs::read(file).unwrap()).collect::<Vec<_>>()
+    };
+    assert_eq!(pictures(&again), pictures(&first));
+}
+
+#[test]
+fn a_lottery_says_what_it_cannot_read() {
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = temporary.path().join("out");
+    let empty = temporary.path().join("empty");
+    fs::create_dir(&empty).unwrap();
+    let torn = temporary.path().join("torn");
+    fs::create_dir(&torn).unwrap();
+    fs::write(torn.join("walk.bvh"), "HIERARCHY\n").unwrap();
+    for (option, path, expected) in [
+        ("--motions", "/nonexistent", "cannot read the motions of /nonexistent"),
+        ("--people", "/nonexistent", "cannot read the people of /nonexistent"),
+        ("--motions", empty.to_str().unwrap(), "holds no motion"),
+        ("--people", empty.to_str().unwrap(), "holds no person"),
+        ("--motions", torn.to_str().unwrap(), "walk.bvh"),
+    ] {
+        let failed = synth(&["--lottery", "1", option, path], &folder);
+        let message = message(&failed);
+        assert_eq!(failed.status.code(), Some(1), "{message}");
+        assert!(message.contains(expected) && message.trim().lines().count() == 1, "{message}");
+        assert!(!folder.exists(), "{option} {path} wrote something");
+    }
+    for wrong in [&["--motions", "x"][..], &["--lottery", "1", "--preset", "demo"], &["--lottery", "1", "--seed", "2"]]
+    {
+        assert_eq!(synth(wrong, &folder).status.code(), Some(2), "{wrong:?}");
+    }
 }

@@ -4,7 +4,9 @@ use anyhow::{Context, Result, bail, ensure};
 
 use super::{
     ActorSettings, CameraSettings, Garment, MotionSettings, RigKind, RigSettings, RoomSettings, Scene, SensorSettings,
+    StationSettings,
 };
+use crate::body::Proportions;
 
 /// Holds a number to its range; NaN is in none.
 fn within(what: &str, value: f64, low: f64, high: f64, unit: &str) -> Result<()> {
@@ -29,12 +31,27 @@ impl Scene {
         self.room.check().context("[room]")?;
         within("[light] swing", self.light.swing, 0.0, 0.95, "of the light")?;
         within("[light] period", self.light.period, 0.01, 1e6, "s")?;
-        if let Some([x, y, z]) = self.light.position {
+        let lamp = self.light.position.iter().map(|at| ("position", at));
+        for (key, [x, y, z]) in lamp.chain(self.light.lamps.iter().map(|at| ("lamps", at))) {
             ensure!(
-                [x, y, z].iter().all(|value| value.abs() <= 1e9) && z > 2000.0,
-                "[light] position is [{x}, {y}, {z}], expected a place at least 2000 mm above the floor"
+                [x, y, z].iter().all(|value| value.abs() <= 1e9) && *z > 2000.0,
+                "[light] {key} is [{x}, {y}, {z}], expected a place at least 2000 mm above the floor"
             );
         }
+        ensure!(
+            self.light.position.is_none() || self.light.lamps.is_empty(),
+            "[light] has both `position` and `lamps`, expected one of them"
+        );
+        ensure!(
+            self.light.lamps.len() <= 8,
+            "[light] lamps has {} of them, expected at most 8",
+            self.light.lamps.len()
+        );
+        ensure!(
+            (1..=50).contains(&self.light.softness),
+            "[light] softness is {}, expected 1 to 50",
+            self.light.softness
+        );
         self.rig.check().context("[rig]")?;
         self.sensor.check(self.fps).context("[sensor]")?;
         ensure!(
@@ -74,6 +91,14 @@ impl RigSettings {
             self.count,
             self.preset
         );
+        ensure!(
+            self.cameras.is_none() || self.station.is_empty(),
+            "it has both `cameras` and `station`, expected one of them"
+        );
+        ensure!(self.station.len() <= 64, "there are {} stations, expected at most 64", self.station.len());
+        for station in &self.station {
+            station.check()?;
+        }
         within("zoom", self.zoom, 0.3, 5.0, "")?;
         ensure!(
             self.size.iter().all(|side| (32..=8192).contains(side)),
@@ -81,6 +106,21 @@ impl RigSettings {
             self.size[0],
             self.size[1]
         );
+        Ok(())
+    }
+}
+
+impl StationSettings {
+    fn check(&self) -> Result<()> {
+        within("the focal length of a station", self.focal, 10.0, 1e5, "pixels")?;
+        within("the roll of a station", self.roll, -180.0, 180.0, "degrees")?;
+        let places = self.at.iter().chain(&self.towards).chain(&self.centre);
+        for value in places {
+            within("a place of a station", *value, -60_000.0, 60_000.0, "mm")?;
+        }
+        for value in self.radial.iter().chain(&self.tangential) {
+            within("a distortion of a station", *value, -2.0, 2.0, "")?;
+        }
         Ok(())
     }
 }
@@ -112,6 +152,11 @@ impl CameraSettings {
 impl ActorSettings {
     fn check(&self) -> Result<()> {
         within("height", self.height, 500.0, 2500.0, "mm")?;
+        ensure!(
+            !self.own_bones || self.mesh.is_some(),
+            "`own_bones` stands without `mesh`, expected it beside a skinned person"
+        );
+        Proportions::named(&self.proportions).context("proportions")?;
         for name in self.clothes.keys() {
             Garment::from_name(name)?;
         }
@@ -125,6 +170,7 @@ impl MotionSettings {
         within("stride_time", self.stride_time, 0.4, 10.0, "seconds")?;
         within("jump_height", self.jump_height, 10.0, 1000.0, "mm")?;
         within("start", self.start, 0.0, 1e5, "seconds")?;
+        within("speed", self.speed.unwrap_or(1.0), 0.1, 10.0, "times the file's")?;
         within("heading", self.heading.unwrap_or(0.0), -3600.0, 3600.0, "degrees")?;
         for value in self.at {
             within("at", value, -30_000.0, 30_000.0, "mm")?;
@@ -138,6 +184,8 @@ impl MotionSettings {
                 ("up", self.up.is_some()),
                 ("until", self.until.is_some()),
                 ("repeats", self.repeats),
+                ("mirrored", self.mirrored),
+                ("speed", self.speed.is_some()),
                 ("joints", !self.joints.is_empty()),
             ];
             if let Some((key, _)) = of_files.into_iter().find(|(_, is_there)| *is_there) {

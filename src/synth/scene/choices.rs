@@ -36,6 +36,8 @@ choices! {
         "jump" Jump,
         /// Stands at ease.
         "stand" Stand,
+        /// Stands with the arms out sideways, swaying a little.
+        "t-pose" TPose,
     }
 }
 

@@ -68,6 +68,12 @@ pub struct RoomSettings {
 pub struct LightSettings {
     /// Where the lamp hangs, mm; without one light falls from far away.
     pub position: Option<[f64; 3]>,
+    /// Several lamps of equal strength instead, mm.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lamps: Vec<[f64; 3]>,
+    /// How wide lamps are: times that the shadow on the floor is blurred.
+    #[serde(skip_serializing_if = "is_usual_softness")]
+    pub softness: u32,
     /// By which fraction all light grows and shrinks.
     pub swing: f64,
     /// How long that takes, s.
@@ -90,6 +96,33 @@ pub struct RigSettings {
     pub lens: LensKind,
     /// Factor on the focal length of a preset.
     pub zoom: f64,
+    /// The cameras one by one instead of a preset, named cam1 and so on.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub station: Vec<StationSettings>,
+}
+
+/// `[[rig.station]]`: one camera.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct StationSettings {
+    /// Where it stands, mm.
+    pub at: [f64; 3],
+    /// What it looks at, mm.
+    pub towards: [f64; 3],
+    /// By how much it is turned about its axis, degrees.
+    #[serde(default)]
+    pub roll: f64,
+    /// Focal length, pixels.
+    pub focal: f64,
+    /// By how much the principal point is off the picture's middle, pixels.
+    #[serde(default)]
+    pub centre: [f64; 2],
+    /// k1 k2
+    #[serde(default)]
+    pub radial: [f64; 2],
+    /// p1 p2
+    #[serde(default)]
+    pub tangential: [f64; 2],
 }
 
 /// `[sensor]`, for all cameras.
@@ -141,6 +174,9 @@ pub struct OutputSettings {
     pub crf: u8,
     /// Write the tracked person's silhouettes too.
     pub masks: bool,
+    /// Colour has half the resolution of brightness, as in videos.
+    #[serde(skip_serializing_if = "is_off")]
+    pub half_chroma: bool,
 }
 
 /// `[[actor]]`.
@@ -151,8 +187,20 @@ pub struct ActorSettings {
     pub height: f64,
     /// A skinned glTF person instead of ellipsoids and capsules.
     pub mesh: Option<PathBuf>,
+    /// Bones as the mesh has them, instead of the default body's.
+    #[serde(skip_serializing_if = "is_off")]
+    pub own_bones: bool,
+    /// Sleeves reach the wrists.
+    #[serde(skip_serializing_if = "is_off")]
+    pub long_sleeves: bool,
+    /// Trousers end at the knees.
+    #[serde(skip_serializing_if = "is_off")]
+    pub shorts: bool,
     /// What the actor does.
     pub motion: MotionSettings,
+    /// Factors on the bones' lengths and the girths round them, by the names of [`crate::body::Proportions`].
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub proportions: BTreeMap<String, f64>,
     /// Clothes by part: skin, hair, shirt, trousers, shoes.
     pub clothes: BTreeMap<String, FinishSettings>,
 }
@@ -189,8 +237,26 @@ pub struct MotionSettings {
     pub until: Option<f64>,
     /// Begin again where the motion ends, from the place it has reached.
     pub repeats: bool,
+    /// Left and right of the file change places.
+    #[serde(skip_serializing_if = "is_off")]
+    pub mirrored: bool,
+    /// How many times as fast as the file it is played.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed: Option<f64>,
     /// Names of the file's joints by bones of the body, where the names themselves do not tell.
     pub joints: BTreeMap<String, String>,
+}
+
+/// Times that the shadow on the floor is blurred where a scene does not say.
+pub(in crate::synth) const USUAL_SOFTNESS: u32 = 3;
+
+// Settings that say nothing are left out of the record, so that folders begun before there were any go on.
+fn is_usual_softness(softness: &u32) -> bool {
+    *softness == USUAL_SOFTNESS
+}
+
+fn is_off(switch: &bool) -> bool {
+    !switch
 }
 
 impl Default for Scene {
@@ -221,7 +287,7 @@ impl Default for RoomSettings {
 
 impl Default for LightSettings {
     fn default() -> Self {
-        Self { position: None, swing: 0.0, period: 4.0 }
+        Self { position: None, lamps: Vec::new(), softness: USUAL_SOFTNESS, swing: 0.0, period: 4.0 }
     }
 }
 
@@ -234,6 +300,7 @@ impl Default for RigSettings {
             size: [480, 270],
             lens: LensKind::default(),
             zoom: 1.0,
+            station: Vec::new(),
         }
     }
 }
@@ -246,13 +313,22 @@ impl Default for SensorSettings {
 
 impl Default for OutputSettings {
     fn default() -> Self {
-        Self { pictures: PictureForm::default(), quality: 90, crf: 18, masks: false }
+        Self { pictures: PictureForm::default(), quality: 90, crf: 18, masks: false, half_chroma: false }
     }
 }
 
 impl Default for ActorSettings {
     fn default() -> Self {
-        Self { height: 1750.0, mesh: None, motion: MotionSettings::default(), clothes: BTreeMap::new() }
+        Self {
+            height: 1750.0,
+            mesh: None,
+            own_bones: false,
+            long_sleeves: false,
+            shorts: false,
+            motion: MotionSettings::default(),
+            proportions: BTreeMap::new(),
+            clothes: BTreeMap::new(),
+        }
     }
 }
 
@@ -273,6 +349,8 @@ impl Default for MotionSettings {
             up: None,
             until: None,
             repeats: false,
+            mirrored: false,
+            speed: None,
             joints: BTreeMap::new(),
         }
     }
