@@ -11,7 +11,7 @@ use pantin::calibrate::{Held, Layout, LensModel};
 use pantin::evaluate::ObjectiveKind;
 use pantin::evaluate::cpu::InstructionSet;
 use pantin::evaluate::device::{Coverage, Gathering, HostComparison, Packing, Projection, Tiling};
-use pantin::features::{Adaptation, Cue, Magnitude, Metric, Normalisation, Operator, Shape};
+use pantin::features::{Adaptation, Cue, ForegroundKind, Magnitude, Metric, Normalisation, Operator, Shape};
 use pantin::files::Choice;
 use pantin::geometry::LengthUnit;
 use pantin::motion::{MotionFormat, PointFormat, UpAxis};
@@ -43,6 +43,7 @@ fn lists() -> Vec<List> {
         list::<Metric>(),
         list::<Normalisation>(),
         list::<Adaptation>(),
+        list::<ForegroundKind>(),
         list::<Shape>(),
         list::<Cue>(),
         list::<PointFormat>(),

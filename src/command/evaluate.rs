@@ -65,7 +65,7 @@ pub(super) fn run(args: &EvaluateArgs) -> Result<()> {
             let sequence = Sequence::open(sequence)?;
             let objective = choice.resolve(sequence.objective.as_ref(), &sequence.path.display().to_string())?;
             let frame = args.frame.ok_or_else(|| anyhow!("--frame is missing"))?;
-            (ScoredFrame::of_sequence(&sequence, frame)?, objective)
+            (ScoredFrame::of_sequence(&sequence, frame, &objective)?, objective)
         }
         (None, Some(folder)) => {
             let objective = choice.resolve(None, "")?;

@@ -7,9 +7,10 @@ use rayon::prelude::*;
 use super::device::DeviceChain;
 use super::edges::EdgeDetector;
 use super::foreground::Foreground;
+use super::likelihood::LikelySilhouette;
 use super::morphology::Morphology;
 use super::segment::Segmenter;
-use super::{BitImage, FeatureSettings, Region, ViewFeatures};
+use super::{BitImage, FeatureSettings, ForegroundKind, Region, ViewFeatures};
 use crate::geometry::LARGEST_SIDE;
 use crate::gpu::{Device, PassTiming};
 
@@ -42,6 +43,8 @@ struct View {
 pub struct Extractor {
     settings: FeatureSettings,
     segmenter: Option<Segmenter>,
+    /// Makes the likelihoods of each view; empty where nobody asks for them.
+    likely: Vec<LikelySilhouette>,
     /// Widths and heights of the views.
     sizes: Vec<(u32, u32)>,
     chain: Chain,
@@ -65,6 +68,8 @@ impl Extractor {
             bail!("features need at least one view, found none");
         }
         let sizes = views.iter().map(|view| (view.width, view.height)).collect();
+        let plates = views.iter().filter(|_| settings.needs_likelihoods());
+        let likely = plates.map(|view| LikelySilhouette::new(view.plate.clone())).collect();
         let views = views
             .into_iter()
             .enumerate()
@@ -72,7 +77,8 @@ impl Extractor {
             .collect::<Result<_>>()?;
         let proximity = settings.proximity.table(settings.distance.metric);
         let segmenter = Segmenter::new(&settings.segment)?;
-        Ok(Self { settings, segmenter, sizes, chain: Chain::Processor { views, proximity } })
+        let chain = Chain::Processor { views, proximity };
+        Ok(Self { settings, segmenter, likely, sizes, chain })
     }
 
     /// As [`Self::new`] and [`Self::move_to`].
@@ -86,12 +92,15 @@ impl Extractor {
     }
 
     /// Leaves everything from the pictures to the packed bytes to a Vulkan device, which gives the same features bit by bit (but
-    /// see docs/FEATURES.md on `mixture.adaptation = "density"`); body parts are still told apart by the processor. What was
-    /// learnt so far is forgotten.
+    /// see docs/FEATURES.md on `mixture.adaptation = "density"`); body parts are still told apart by the processor, and likelihoods
+    /// are made by it. What was learnt so far is forgotten. Where likelihoods need what a mixture learns, nothing is moved.
     ///
     /// # Errors
     /// When the device fails, has no memory for the views, or cannot bind buffers of their size; the extractor is then as it was.
     pub fn move_to(&mut self, device: &Device) -> Result<()> {
+        if self.likely.iter().any(LikelySilhouette::learns) {
+            return Ok(());
+        }
         if let Chain::Processor { views, proximity } = &self.chain {
             let views = views.iter().map(|view| ([view.width, view.height], view.foreground.plate()));
             let chain = DeviceChain::new(device, views, &self.settings, proximity)?;
@@ -170,15 +179,55 @@ impl Extractor {
             }
         }
         let settings = &self.settings;
+        let is_likely = settings.foreground == ForegroundKind::Likelihood;
         match &mut self.chain {
             Chain::Processor { views, proximity } => {
-                let views = views.par_iter_mut().zip(pictures).zip(masks).zip(features.par_iter_mut());
-                views.for_each(|(((view, picture), mask), features)| {
-                    view.find_silhouette(picture, mask.as_ref(), settings, features);
+                let mut likely: Vec<_> = self.likely.iter_mut().map(Some).collect();
+                likely.resize_with(views.len(), || None);
+                let inputs = views.par_iter_mut().zip(likely).zip(pictures).zip(masks);
+                inputs.zip(features.par_iter_mut()).for_each(|((((view, likely), picture), mask), features)| {
+                    let mask = mask.as_ref();
+                    let is_likely = is_likely && mask.is_none();
+                    if is_likely {
+                        view.foreground.learn(picture, settings);
+                    } else {
+                        view.find_silhouette(picture, mask, settings, features);
+                    }
+                    if let Some(likely) = likely {
+                        let learnt = view.foreground.learnt();
+                        let likelihood = features.likelihood.get_or_insert_default();
+                        likely.find(picture, mask, learnt.as_ref(), settings, likelihood);
+                        if is_likely {
+                            features.foreground.copy_from(likely.foreground());
+                            features.silhouette.copy_from(likely.silhouette());
+                        }
+                    }
+                    view.find_region(settings, features);
                     view.find_edges(picture, settings, proximity, features);
                 });
             }
-            Chain::Device(device) => device.run(pictures, masks, features)?,
+            Chain::Device(device) if self.likely.is_empty() => device.run(pictures, masks, features)?,
+            Chain::Device(device) => {
+                let views = self.likely.par_iter_mut().zip(pictures).zip(masks).zip(features.par_iter_mut());
+                let found: Vec<_> = views
+                    .map(|(((likely, picture), mask), features)| {
+                        let likelihood = features.likelihood.get_or_insert_default();
+                        likely.find(picture, mask.as_ref(), None, settings, likelihood);
+                        mask.clone().or_else(|| is_likely.then(|| likely.silhouette().to_gray()))
+                    })
+                    .collect();
+                device.run(pictures, &found, features)?;
+                if is_likely {
+                    for ((features, likely), mask) in features.iter_mut().zip(&self.likely).zip(masks) {
+                        if mask.is_none() {
+                            features.foreground.copy_from(likely.foreground());
+                        }
+                    }
+                }
+            }
+        }
+        if !settings.likelihoods {
+            features.iter_mut().for_each(|features| features.likelihood = None);
         }
         let Some(segmenter) = &self.segmenter else {
             features.iter_mut().for_each(|features| features.observation.segmentation = None);
@@ -258,6 +307,9 @@ impl View {
                 self.foreground.find(picture, settings, &mut features.foreground, &mut features.silhouette);
             }
         }
+    }
+
+    fn find_region(&self, settings: &FeatureSettings, features: &mut ViewFeatures) {
         let bounds = features.silhouette.bounds();
         features.region = bounds.map_or(Region::whole(self.width, self.height), |bounds| {
             bounds.enlarged(settings.silhouette.motion, self.width, self.height)

@@ -54,6 +54,14 @@ impl Foreground {
         }
     }
 
+    /// The empty scene as it was learnt so far, where it is learnt and something was seen.
+    pub(super) fn learnt(&self) -> Option<RgbImage> {
+        match &self.background {
+            Background::Plate { .. } => None,
+            Background::Mixture { mixture, .. } => mixture.most_probable_colours(),
+        }
+    }
+
     /// Shows a picture to a background model that learns.
     pub(super) fn learn(&mut self, picture: &RgbImage, settings: &FeatureSettings) {
         if let Background::Mixture { mixture, foreground } = &mut self.background {
@@ -96,14 +104,25 @@ impl Foreground {
                 self.morphology.open(silhouette, settings.opening());
             }
         }
-        self.morphology.close(silhouette, settings.closing());
-        let SilhouetteSettings { blobs, min_area, min_share, max_hole, max_cover, .. } = settings.silhouette;
-        let pixels = f64::from(picture.width()) * f64::from(picture.height());
-        if f64::from(silhouette.count()) > f64::from(max_cover) * pixels {
-            silhouette.clear();
-            return;
-        }
-        self.components.keep_largest(silhouette, blobs, min_area, min_share);
-        self.components.fill_holes(silhouette, max_hole);
+        clean(silhouette, settings, &mut self.morphology, &mut self.components);
     }
+}
+
+/// From foreground to silhouette: what belongs together is joined, then the largest blobs are kept and their holes filled; nothing is
+/// left where too much of the picture is foreground.
+pub(super) fn clean(
+    silhouette: &mut BitImage,
+    settings: &FeatureSettings,
+    morphology: &mut Morphology,
+    components: &mut Components,
+) {
+    morphology.close(silhouette, settings.closing());
+    let SilhouetteSettings { blobs, min_area, min_share, max_hole, max_cover, .. } = settings.silhouette;
+    let pixels = f64::from(silhouette.width()) * f64::from(silhouette.height());
+    if f64::from(silhouette.count()) > f64::from(max_cover) * pixels {
+        silhouette.clear();
+        return;
+    }
+    components.keep_largest(silhouette, blobs, min_area, min_share);
+    components.fill_holes(silhouette, max_hole);
 }

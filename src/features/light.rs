@@ -1,5 +1,7 @@
 //! A change of the light over the whole picture: how much brighter a picture is than the background known, channel by channel.
 
+use image::RgbImage;
+
 use super::shaders::{RATIO_COUNTS, RATIO_GRID, RATIO_LEAST, RATIO_MOST, RATIO_STEPS};
 
 /// The steps a ratio is counted in.
@@ -40,6 +42,18 @@ impl Ratios {
         let [least, most] = [RATIO_LEAST, RATIO_MOST].map(|steps| steps as f32 / STEPS as f32);
         self.counts.map(|counts| median(&counts).clamp(least, most))
     }
+}
+
+/// What to multiply `background` with, channel by channel, so that it is as bright as `picture`, of the same size.
+pub(super) fn gains(picture: &RgbImage, background: &RgbImage) -> [f32; 3] {
+    let mut ratios = Ratios::new();
+    let bytes = (picture.width() as usize * 3).max(1);
+    let rows = picture.as_raw().chunks_exact(bytes).zip(background.as_raw().chunks_exact(bytes));
+    for (seen, background) in rows.step_by(GRID) {
+        let pixels = seen.as_chunks().0.iter().zip(background.as_chunks().0);
+        pixels.step_by(GRID).for_each(|(&seen, &background)| ratios.add(seen, background));
+    }
+    ratios.gains()
 }
 
 /// The median of counted ratios (steps of 1/[`STEPS`]); 1 when none was counted.

@@ -132,6 +132,20 @@ impl Mixture {
         }
     }
 
+    /// The mean of the most probable component of every pixel; none before the first picture.
+    pub(super) fn most_probable_colours(&self) -> Option<RgbImage> {
+        let row = self.blocks * self.settings.components * FIELDS * LANES;
+        let height = self.state.len().checked_div(row)?;
+        let blocks = self.state.as_chunks::<LANES>().0;
+        let fields = self.settings.components * FIELDS;
+        (self.frames > 0).then(|| {
+            RgbImage::from_fn(self.width as u32, height as u32, |x, y| {
+                let block = y as usize * self.blocks + x as usize / LANES;
+                image::Rgb(most_probable(&blocks[block * fields..][..fields], x as usize % LANES))
+            })
+        })
+    }
+
     /// How much brighter a picture is than the most probable components.
     fn gain<const K: usize>(&self, picture: &RgbImage) -> [f32; 3] {
         let mut ratios = Ratios::new();

@@ -3,7 +3,7 @@
 use image::RgbImage;
 use serde::Deserialize;
 
-use super::light::{GRID, Ratios};
+use super::light::gains;
 use super::shadow::ShadowSettings;
 
 /// The parameters of the plate difference.
@@ -79,13 +79,7 @@ impl Plate {
     /// What to multiply the plate with, channel by channel, so that it is as bright as `picture`: the median ratio over
     /// a grid of pixels, which no person covering less than half the picture can move far.
     pub fn gain(&self, picture: &RgbImage) -> [f32; 3] {
-        let mut ratios = Ratios::new();
-        let rows = picture.as_raw().chunks_exact(self.width * 3).zip(self.image.as_raw().chunks_exact(self.width * 3));
-        for (seen, plate) in rows.step_by(GRID) {
-            let pixels = seen.as_chunks().0.iter().zip(plate.as_chunks().0);
-            pixels.step_by(GRID).for_each(|(&seen, &plate)| ratios.add(seen, plate));
-        }
-        ratios.gains()
+        gains(picture, &self.image)
     }
 
     /// Flags in one row of a picture what differs from the plate times `gain`.

@@ -1,7 +1,7 @@
 //! The region of interest: where in a picture the person is, with room for the motion of one frame (METHOD A5.6).
 
 /// A half-open rectangle of pixels: columns `x0..x1`, rows `y0..y1`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Region {
     /// First column.
     pub x0: u32,

@@ -14,7 +14,18 @@ use super::plate::PlateSettings;
 use super::proximity::{Normalisation, ProximitySettings};
 use super::segment::SegmentSettings;
 use super::shadow::ShadowSettings;
-use crate::files::parse_table;
+use crate::files::{choices, parse_table};
+
+choices! {
+    /// How a pixel is told from the background.
+    #[derive(Default)]
+    "foreground" pub enum ForegroundKind {
+        /// By its distance from the plate, or by what the mixture explains, each beyond a threshold (the default).
+        "difference" #[default] Difference,
+        /// By how likely its colour is as background, lit or in shadow, with the picture's own noise.
+        "likelihood" Likelihood,
+    }
+}
 
 /// How raw foreground becomes a silhouette.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -69,6 +80,8 @@ pub struct DistanceSettings {
 #[derive(Clone, Debug, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FeatureSettings {
+    /// How a view without ready masks is told from its background.
+    pub foreground: ForegroundKind,
     /// The background model of a view that has neither mask nor plate.
     pub mixture: MixtureSettings,
     /// The difference from a plate.
@@ -85,6 +98,9 @@ pub struct FeatureSettings {
     pub proximity: ProximitySettings,
     /// The body parts that are told apart; none by default.
     pub segment: Vec<SegmentSettings>,
+    /// Whether the likelihoods of soft evidence are wanted: no key, but what whoever compares by evidence asks for.
+    #[serde(skip)]
+    pub likelihoods: bool,
 }
 
 impl FeatureSettings {
@@ -102,6 +118,11 @@ impl FeatureSettings {
     #[must_use]
     pub fn without_segments(self) -> Self {
         Self { segment: Vec::new(), ..self }
+    }
+
+    /// Whether likelihoods are made, to be given out or to find the foreground.
+    pub(super) fn needs_likelihoods(&self) -> bool {
+        self.likelihoods || self.foreground == ForegroundKind::Likelihood
     }
 
     /// Turns the parts that segments name into their labels; `parts` are the body's, each with its label.

@@ -1,6 +1,6 @@
 //! Everything that is found in one view of a frame.
 
-use super::{BitImage, DistanceMap, Observation, Region};
+use super::{BitImage, DistanceMap, Likelihood, Observation, Region};
 
 /// What was found in one view of one frame; every intermediate picture can be looked at.
 #[derive(Clone, Debug)]
@@ -17,6 +17,8 @@ pub struct ViewFeatures {
     pub region: Region,
     /// Silhouette and edge proximity, packed.
     pub observation: Observation,
+    /// How likely each pixel is as background, where that was asked for ([`super::FeatureSettings::likelihoods`]).
+    pub likelihood: Option<Likelihood>,
 }
 
 impl ViewFeatures {
@@ -29,6 +31,7 @@ impl ViewFeatures {
             distance: DistanceMap::default(),
             region: Region::whole(width, height),
             observation: Observation::empty(width, height),
+            likelihood: None,
         }
     }
 }

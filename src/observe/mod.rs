@@ -1,8 +1,10 @@
 //! From the pictures of a sequence to observations: the settings of its features, which backgrounds have to be learnt, and its
 //! frames one after the other. Whoever looks at a sequence does it through this room.
 
+mod appearance;
 mod observer;
 mod settings;
 
-pub use observer::{Observer, check_background, take_observations, view_extractors};
+pub use appearance::{Appearance, Lesson};
+pub use observer::{Observer, check_background, take_likelihoods, take_observations, view_extractors};
 pub use settings::{feature_settings, silhouette_settings};

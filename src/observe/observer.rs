@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, ensure};
 
-use crate::features::{Extractor, FeatureSettings, Observation, ViewFeatures, ViewSource};
+use crate::features::{Extractor, FeatureSettings, Likelihood, Observation, ViewFeatures, ViewSource};
 use crate::gpu::Device;
 use crate::sequence::{FrameReader, FrameSet, Sequence, View};
 
@@ -94,6 +94,11 @@ pub fn check_background(sequence: &Sequence, range: &Range<usize>) -> Result<()>
 pub fn take_observations(features: &mut [ViewFeatures]) -> Vec<Observation> {
     let take = |view: &mut ViewFeatures| std::mem::replace(&mut view.observation, Observation::empty(0, 0));
     features.iter_mut().map(take).collect()
+}
+
+/// Takes the likelihoods out of features; none where they were not asked for.
+pub fn take_likelihoods(features: &mut [ViewFeatures]) -> Vec<Likelihood> {
+    features.iter_mut().filter_map(|view| view.likelihood.take()).collect()
 }
 
 /// An extractor for each view by itself, which has seen the frames before `first` where its background is learnt.

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, anyhow};
 use serde_json::json;
 
+use super::appearance::RunAppearance;
 use super::confidence::{Confidence, LossRule, seen_joints};
 use super::feed::Prepared;
 use super::journal::{Extent, FrameResult, Journal};
@@ -99,7 +100,11 @@ pub fn track(
     let confidence = Confidence::new(&plan.body, LossRule::default());
     let recovery = Recovery::new(&plan.body, &sequence.cameras, &settings.search, &plan.space);
     let recovery = settings.may_recover().then_some(recovery);
+    let is_learnt = plan.features.likelihoods;
+    let appearance = is_learnt.then(|| RunAppearance::new(&plan.body, &sequence.cameras));
     let mut run = Run {
+        appearance,
+        lost: Vec::new(),
         sequence,
         settings,
         output,
@@ -143,6 +148,10 @@ struct Run<'a> {
     /// The search for a lost person, where one is asked for.
     recovery: Option<Recovery>,
     pace: Box<dyn Pace>,
+    /// The person's colours, where poses are compared by evidence.
+    appearance: Option<RunAppearance>,
+    /// The frames that are lost.
+    lost: Vec<usize>,
 }
 
 impl Run<'_> {
@@ -161,6 +170,9 @@ impl Run<'_> {
     /// Takes note of a frame that is done: its confidence, and the mean error so far.
     fn judge(&mut self, result: &FrameResult) -> (f64, Option<f64>) {
         let confidence = self.confidence.next(result);
+        if confidence.is_lost {
+            self.lost.push(result.frame);
+        }
         let mut is_gap = false;
         if let Some(recovery) = &mut self.recovery {
             recovery.note(&result.pose, confidence.is_lost);
@@ -194,12 +206,26 @@ impl Run<'_> {
         if self.next_frame() >= self.plan.range.end {
             return Ok(());
         }
-        let mut feed = self.pace.feed(self.sequence, &self.plan, self.next_frame())?;
+        // The person's colours are learnt again from the frames that an earlier run did.
+        let next = self.next_frame();
+        let learns_again = self.appearance.is_some() && self.settings.realtime.is_none();
+        let mut feed =
+            self.pace.feed(self.sequence, &self.plan, if learns_again { self.plan.range.start } else { next })?;
         loop {
             let start = Instant::now();
-            let Some(prepared) = feed.next()? else { break };
+            let Some(mut prepared) = feed.next()? else { break };
             let waited = Span::since(start);
             let frame = prepared.index;
+            if let Some(appearance) = &self.appearance {
+                let start = Instant::now();
+                appearance.observe(&mut prepared)?;
+                self.timings.record("evidence", Thread::Search, frame, Span::since(start))?;
+            }
+            if frame < next {
+                let result = self.frames.get(frame - self.plan.range.start).cloned();
+                result.map_or(Ok(()), |result| self.learn(&prepared, &result))?;
+                continue;
+            }
             self.timings.record("read", Thread::Features, frame, prepared.read)?;
             self.timings.record("features", Thread::Features, frame, prepared.features)?;
             self.timings.record("wait", Thread::Search, frame, waited)?;
@@ -214,6 +240,7 @@ impl Run<'_> {
             self.timings.record("output", Thread::Search, frame, Span::since(start))?;
             let (confidence, mean_error) = self.judge(&result);
             let fitness = result.fitness;
+            self.learn(&prepared, &result)?;
             self.keep(result);
             self.pace.judge(fitness, confidence);
             let done = frame + 1 - self.plan.range.start;
@@ -223,6 +250,16 @@ impl Run<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Learns the person's colours from a frame, unless she is lost in it.
+    fn learn(&mut self, prepared: &Prepared, result: &FrameResult) -> Result<()> {
+        match &mut self.appearance {
+            Some(appearance) if !self.lost.contains(&result.frame) => {
+                appearance.learn(result.frame.saturating_sub(self.plan.range.start), prepared, &result.pose)
+            }
+            _ => Ok(()),
+        }
     }
 
     /// What became of a frame whose device was lost, and what the user can do; other errors stay as they are.

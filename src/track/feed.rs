@@ -9,8 +9,8 @@ use anyhow::{Context, Result, bail};
 use image::RgbImage;
 
 use super::timings::Span;
-use crate::features::{FeatureSettings, Observation};
-use crate::observe::{Observer, take_observations};
+use crate::features::{FeatureSettings, Likelihood, Observation};
+use crate::observe::{Observer, take_likelihoods, take_observations};
 use crate::sequence::Sequence;
 
 /// Frames that wait for the search. Together with the one being prepared this bounds the memory.
@@ -24,6 +24,8 @@ pub(super) struct Prepared {
     pub(super) pictures: Vec<RgbImage>,
     /// What was seen, one a view.
     pub(super) observations: Vec<Observation>,
+    /// How likely each pixel is as background, one a view; none where poses are not compared by evidence.
+    pub(super) likelihoods: Vec<Likelihood>,
     /// Waiting for the pictures.
     pub(super) read: Span,
     /// Making the features.
@@ -125,6 +127,7 @@ impl Worker {
             return Ok(Some(Prepared {
                 index: frame.index,
                 observations: take_observations(features),
+                likelihoods: take_likelihoods(features),
                 pictures: frame.pictures,
                 read,
                 features: made,

@@ -13,7 +13,7 @@ use super::hull::Hull;
 use super::{FrameRange, ObjectiveChoice};
 use crate::body::{Body, PoseTable, Proportions};
 use crate::evaluate::cpu::{Cpu, InstructionSet};
-use crate::evaluate::{Components, Evaluator, Objective};
+use crate::evaluate::{Components, Evaluator, Objective, ObjectiveKind};
 use crate::features::Observation;
 use crate::geometry::Camera;
 use crate::observe::{Observer, silhouette_settings, take_observations};
@@ -53,7 +53,7 @@ pub struct FitSettings {
     pub heading: Option<f64>,
     /// Whether the body stays the sequence's and only poses are sought.
     pub keep_body: bool,
-    /// What a good pose is; over the sequence's `[objective]` table.
+    /// What a good pose is; over the sequence's `[objective]` table. Silhouettes are compared, whatever weighs evidence.
     pub objective: ObjectiveChoice,
     /// Poses scored at once.
     pub particles: usize,
@@ -117,6 +117,7 @@ pub fn fit(sequence: &Sequence, settings: &FitSettings) -> Result<Fit> {
     let name = sequence.path.display().to_string();
     ensure!(settings.samples > 0, "0 frames were asked for, expected at least 1");
     let objective = settings.objective.resolve(sequence.objective.as_ref(), &name)?;
+    let objective = if objective.weighs_evidence() { Objective::of(ObjectiveKind::Sp) } else { objective };
     let frames = sampled(settings.frames.within(sequence.frame_count, &name)?, settings.samples);
     let observations = observe(sequence, &frames)?;
     let in_frame = |at: usize| format!("{name}, frame {}", frames[at]);

@@ -3,6 +3,7 @@
 //!
 //! [`track`] is the driver, offline and in real time. [`score_poses`] scores given poses of one frame.
 
+mod appearance;
 mod auto;
 mod backend;
 mod confidence;

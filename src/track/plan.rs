@@ -48,7 +48,8 @@ impl Plan {
         u32::try_from(range.end).map_err(|_| anyhow::anyhow!("{name} has {} frames, too many", range.end))?;
         let body = Body::load(&sequence.body)?;
         let objective = settings.objective.resolve(sequence.objective.as_ref(), &name)?;
-        let features = feature_settings(sequence)?;
+        let mut features = feature_settings(sequence)?;
+        features.likelihoods = objective.weighs_evidence();
         check_background(sequence, &range)?;
         let Some(start_path) = settings.start.clone().or_else(|| sequence.start.clone()) else {
             bail!("{name} names no start pose, expected a poses.csv as `start` there or as --start");

@@ -14,7 +14,7 @@ use crate::evaluate::{Components, Evaluator, Objective, Reference, SegmentSums};
 use crate::features::Observation;
 use crate::files::OutputFolder;
 use crate::geometry::Camera;
-use crate::observe::{Observer, check_background, feature_settings, take_observations};
+use crate::observe::{Appearance, Observer, check_background, feature_settings, take_likelihoods, take_observations};
 use crate::sequence::Sequence;
 
 /// Poses scored at once: enough to keep every worker busy, and a bound on the memory.
@@ -31,11 +31,11 @@ pub struct ScoredFrame {
 }
 
 impl ScoredFrame {
-    /// Frame `frame` of a sequence.
+    /// Frame `frame` of a sequence; with evidence where `objective` weighs it, by which every colour of the person is as likely.
     ///
     /// # Errors
     /// When the sequence has no such frame, or anything it names cannot be read.
-    pub fn of_sequence(sequence: &Sequence, frame: usize) -> Result<Self> {
+    pub fn of_sequence(sequence: &Sequence, frame: usize, objective: &Objective) -> Result<Self> {
         ensure!(
             frame < sequence.frame_count,
             "{} has no frame {frame}, expected 0 to {}",
@@ -44,16 +44,20 @@ impl ScoredFrame {
         );
         let range = frame..frame + 1;
         check_background(sequence, &range)?;
-        let mut observer = Observer::new(sequence, feature_settings(sequence)?, range, frame)?;
+        let mut settings = feature_settings(sequence)?;
+        settings.likelihoods = objective.weighs_evidence();
+        let mut observer = Observer::new(sequence, settings, range, frame)?;
+        let body = Body::load(&sequence.body)?;
         let mut seen = None;
         while let Some(set) = observer.read()? {
-            seen = observer.features(&set, true)?.map(take_observations);
+            if let Some(features) = observer.features(&set, true)? {
+                seen = Some((take_observations(features), take_likelihoods(features)));
+            }
         }
-        Ok(Self {
-            body: Body::load(&sequence.body)?,
-            cameras: sequence.cameras.clone(),
-            observations: seen.with_context(|| format!("{} ended before frame {frame}", sequence.path.display()))?,
-        })
+        let ended = || format!("{} ended before frame {frame}", sequence.path.display());
+        let (mut observations, likelihoods) = seen.with_context(ended)?;
+        Appearance::new(&body).give(&likelihoods, &mut observations)?;
+        Ok(Self { body, cameras: sequence.cameras.clone(), observations })
     }
 
     /// Packed observations `<camera>.png` from a folder.

@@ -17,6 +17,7 @@ mod demo;
 mod devices_and_bench;
 mod drawn;
 mod evaluate;
+mod evidence;
 mod example_bodies;
 mod features;
 mod losses;

@@ -467,7 +467,10 @@ fn wrong_inputs_are_one_sentence() {
             "unknown backend `cuda`, the nearest is `auto` (known: auto, reference, cpu, compute, graphics)",
         ),
         (["--search", "luck"], "(known: pso, pf, apf, hpso, cmaes, maes)"),
-        (["--objective", "best"], "unknown objective `best`, the nearest is `ws` (known: ws, sp, aows, aosp, posp)"),
+        (
+            ["--objective", "best"],
+            "unknown objective `best`, the nearest is `ws` (known: ws, sp, aows, aosp, posp, evidence)",
+        ),
         (["--frames", "5..2"], "the range of frames 5..2 is empty"),
         (["--seed", "many"], "invalid"),
     ] {

@@ -10,7 +10,7 @@ use anyhow::{Context, Result, anyhow};
 use image::{GrayImage, RgbImage};
 
 use super::timeline::{Row, Timeline};
-use crate::features::{Extractor, Observation, ViewFeatures};
+use crate::features::{Extractor, Likelihood, Observation, ViewFeatures};
 use crate::sequence::{Captured, FrameSet};
 use crate::track::feed::Prepared;
 use crate::track::timings::Span;
@@ -35,6 +35,7 @@ struct Task {
 struct Done {
     picture: RgbImage,
     observation: Observation,
+    likelihood: Option<Likelihood>,
 }
 
 impl Processing {
@@ -75,12 +76,14 @@ impl Processing {
             let (view, done) = self.done.recv().map_err(|_| failed())?;
             views[view] = Some(done?);
         }
-        let (mut pictures, mut observations) = (Vec::new(), Vec::new());
-        for Done { picture, observation } in views.into_iter().flatten() {
+        let (mut pictures, mut observations, mut likelihoods) = (Vec::new(), Vec::new(), Vec::new());
+        for Done { picture, observation, likelihood } in views.into_iter().flatten() {
             pictures.push(picture);
             observations.push(observation);
+            likelihoods.extend(likelihood);
         }
-        Ok(Prepared { index, pictures, observations, read, features: Span::since(begin), captured: Some(at) })
+        let features = Span::since(begin);
+        Ok(Prepared { index, pictures, observations, likelihoods, read, features, captured: Some(at) })
     }
 }
 
@@ -105,17 +108,17 @@ fn work(
     let mut features = vec![ViewFeatures::empty(1, 1)];
     while let Ok(Task { frame, picture, mask }) = tasks.recv() {
         let start = Instant::now();
-        let process = || -> Result<Observation> {
+        let process = || -> Result<(Observation, Option<Likelihood>)> {
             extractor.extract_into(std::slice::from_ref(&picture), std::slice::from_ref(&mask), &mut features)?;
             let observation = std::mem::replace(&mut features[0].observation, Observation::empty(0, 0));
-            Ok(observation)
+            Ok((observation, features[0].likelihood.take()))
         };
         // A worker that died without a word would leave the others waiting for ever.
         let done = catch_unwind(AssertUnwindSafe(process)).unwrap_or_else(|_| {
             Err(anyhow!("the worker for the features of view {view} failed; its message stands above"))
         });
         timeline.worked(Row::View(view), frame, Span::since(start));
-        let done = done.map(|observation| Done { picture, observation });
+        let done = done.map(|(observation, likelihood)| Done { picture, observation, likelihood });
         if sender.send((view, done)).is_err() {
             return;
         }

@@ -1,0 +1,348 @@
+//! The density of a pixel's colour as background: lit as it is known, in shadow or a reflection, or neither (METHOD A12).
+
+use image::RgbImage;
+
+use super::super::Region;
+use super::super::light::GRID;
+use super::super::plate::split_row;
+use super::LOG_STEPS;
+
+/// A colour as luma, blue less luma and red less luma: a shadow changes the first and scales the other two.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Luminance {
+    y: f32,
+    b: f32,
+    r: f32,
+}
+
+impl Luminance {
+    #[inline]
+    fn of([r, g, b]: [f32; 3]) -> Self {
+        let y = 0.299 * r + 0.587 * g + 0.114 * b;
+        Self { y, b: b - y, r: r - y }
+    }
+}
+
+/// The least noise a channel, grey levels.
+const LEAST_NOISE: [f32; 3] = [1.5, 1.0, 1.0];
+/// A standard deviation over the median of absolute deviations of normal numbers.
+const DEVIATION: f32 = 1.4826;
+/// Standard deviation that a slope of the background adds, of luma and of the other two: a picture is never sampled twice at the same place.
+const SLOPE: [f32; 2] = [0.35, 0.2];
+/// Steps in which a slope is kept, one a grey level.
+const SLOPES: usize = 64;
+/// The share of pixels that no hypothesis explains.
+const OUTLIERS: f32 = 0.002;
+/// The share of pixels in shadow that is assumed before a picture is looked at, and how many pixels that is worth.
+const SHADOWED: f32 = 0.2;
+const PRIOR_PIXELS: f32 = 200.0;
+/// The darkest shadow and the brightest reflection, as multiples of the background's luma.
+const DARKEST: f32 = 0.45;
+const BRIGHTEST: f32 = 1.15;
+/// How fast the density falls below 1 and above.
+const SHADOW_FALL: f32 = 0.12;
+const REFLECTION_FALL: f32 = 0.04;
+/// The logarithms of the densities of brightness on both sides of 1: of (1 - 0.3) / 0.12 and of 0.3 / 0.04.
+const SHADOW_LOG: f32 = 1.763_588_6;
+const REFLECTION_LOG: f32 = 2.014_903;
+
+/// The background's colours in one view, a plane a number.
+#[derive(Clone, Debug)]
+pub(crate) struct BackgroundColours {
+    width: usize,
+    y: Vec<f32>,
+    b: Vec<f32>,
+    r: Vec<f32>,
+    /// 1 / luma and its logarithm, luma at least 4.
+    inverse: Vec<f32>,
+    log: Vec<f32>,
+    /// The change of luma to the neighbours, grey levels.
+    slopes: Vec<u8>,
+    /// What the last picture's noise and shadows make of every slope.
+    of_light: OfLight,
+}
+
+/// [`Widths`] of every pixel, by the noise and share of shadows that they are of.
+#[derive(Clone, Debug, Default)]
+struct OfLight {
+    light: Option<Light>,
+    y: Vec<f32>,
+    c: Vec<f32>,
+    lit: Vec<f32>,
+    shadow: Vec<f32>,
+}
+
+/// The constants of one picture for a slope of the background.
+#[derive(Clone, Copy, Debug, Default)]
+struct Widths {
+    /// 1 / variance of luma, and of the other two.
+    y: f32,
+    c: f32,
+    /// Log density of the lit background's own colour, and that of a shadow but for its luma, over the uniform one.
+    lit: f32,
+    shadow: f32,
+}
+
+/// Noise and share of shadows of a picture, in steps so coarse that pictures taken one after the other have the same.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Light {
+    /// Standard deviation a channel, grey levels.
+    noise: [f32; 3],
+    shadowed: f32,
+}
+
+impl Light {
+    fn new(noise: [f32; 3], shadowed: f32) -> Self {
+        // Steps of an eighth of a grey level and of a factor of 1.19.
+        let coarse = |shadowed: f32| 2.0_f32.powf((4.0 * shadowed.log2()).round() / 4.0);
+        Self { noise: noise.map(|noise| (8.0 * noise).round() / 8.0), shadowed: coarse(shadowed) }
+    }
+}
+
+/// What a picture says before its pixels are judged one by one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PictureLight {
+    /// What to multiply the picture's channels with to have them in the background's light.
+    dim: [f32; 3],
+    light: Light,
+}
+
+impl BackgroundColours {
+    /// Of a picture of the empty scene.
+    pub(crate) fn new(plate: &RgbImage) -> Self {
+        let (width, height) = (plate.width() as usize, plate.height() as usize);
+        let colours: Vec<Luminance> =
+            plate.as_raw().as_chunks::<3>().0.iter().map(|pixel| Luminance::of(pixel.map(f32::from))).collect();
+        let mut slopes = Vec::with_capacity(width * height);
+        for y in 0..height {
+            for x in 0..width {
+                let luma = |x: usize, y: usize| colours[y * width + x].y;
+                let across = luma((x + 1).min(width - 1), y) - luma(x.saturating_sub(1), y);
+                let down = luma(x, (y + 1).min(height - 1)) - luma(x, y.saturating_sub(1));
+                slopes.push((0.5 * across.hypot(down)).round().min(SLOPES as f32 - 1.0) as u8);
+            }
+        }
+        let bright = || colours.iter().map(|colour| colour.y.max(4.0));
+        Self {
+            width,
+            y: colours.iter().map(|colour| colour.y).collect(),
+            b: colours.iter().map(|colour| colour.b).collect(),
+            r: colours.iter().map(|colour| colour.r).collect(),
+            inverse: bright().map(|bright| 1.0 / bright).collect(),
+            log: bright().map(f32::ln).collect(),
+            slopes,
+            of_light: OfLight::default(),
+        }
+    }
+
+    /// The light of a picture that is `gain` times as bright as the background: its noise, and how much of what looks like background is in
+    /// shadow in `near`, where the person may be.
+    pub(super) fn light(&self, picture: &RgbImage, gain: [f32; 3], near: Option<Region>) -> PictureLight {
+        let dim = gain.map(|gain| 1.0 / gain.max(1e-3));
+        let mut deviations = [const { Vec::new() }; 3];
+        let rows = || picture.as_raw().chunks_exact(self.width * 3).enumerate();
+        for (y, row) in rows().step_by(GRID) {
+            for (x, seen) in row.as_chunks::<3>().0.iter().enumerate().step_by(GRID) {
+                let (colour, at) = (lit(*seen, dim), y * self.width + x);
+                let off = [colour.y - self.y[at], colour.b - self.b[at], colour.r - self.r[at]];
+                deviations.iter_mut().zip(off).for_each(|(list, value)| list.push(value.abs()));
+            }
+        }
+        let mut noise = LEAST_NOISE;
+        for (noise, list) in noise.iter_mut().zip(&mut deviations) {
+            let middle = list.len() / 2;
+            if middle < list.len() {
+                let (_, median, _) = list.select_nth_unstable_by(middle, f32::total_cmp);
+                *noise = noise.max(DEVIATION * *median);
+            }
+        }
+        let (mut shadowed, mut all) = (SHADOWED * PRIOR_PIXELS, PRIOR_PIXELS);
+        if let Some(near) = near {
+            let widths = widths(noise, SHADOWED);
+            let (columns, lines) = (near.x0 as usize..near.x1 as usize, near.y0 as usize..near.y1 as usize);
+            for (y, row) in rows().take(lines.end).skip(lines.start).step_by(GRID / 2) {
+                for x in columns.clone().step_by(GRID / 2) {
+                    let at = y * self.width + x;
+                    let seen = lit(row.as_chunks::<3>().0[x], dim);
+                    let known = [self.y[at], self.b[at], self.r[at], self.inverse[at], self.log[at]];
+                    let [lit, shadow] = hypotheses(seen, known, widths[usize::from(self.slopes[at])]);
+                    if lit.max(shadow) > 0.0 {
+                        all += 1.0;
+                        shadowed += f32::from(u8::from(shadow > lit));
+                    }
+                }
+            }
+        }
+        PictureLight { dim, light: Light::new(noise, (shadowed / all).clamp(0.02, 0.5)) }
+    }
+
+    /// The log densities of the pixels of `region` of a picture as background; `planes` is room for one row's channels.
+    pub(super) fn judge(&mut self, picture: &RgbImage, light: PictureLight, region: Region, densities: &mut [i16]) {
+        if self.of_light.light != Some(light.light) {
+            self.of_light.set(light.light, &self.slopes);
+        }
+        let columns = region.x0 as usize..region.x1 as usize;
+        let rows = picture.as_raw().chunks_exact(self.width * 3).enumerate();
+        let mut planes = [const { Vec::new() }; 3];
+        for (y, rgb) in rows.take(region.y1 as usize).skip(region.y0 as usize) {
+            split_row(&rgb[3 * columns.start..3 * columns.end], &mut planes);
+            let at = y * self.width + columns.start..y * self.width + columns.end;
+            let of_light = &self.of_light;
+            let known = [
+                &self.y,
+                &self.b,
+                &self.r,
+                &self.inverse,
+                &self.log,
+                &of_light.y,
+                &of_light.c,
+                &of_light.lit,
+                &of_light.shadow,
+            ]
+            .map(|plane| &plane[at.clone()]);
+            judge_row(&planes, light.dim, known, &mut densities[at]);
+        }
+    }
+}
+
+impl OfLight {
+    fn set(&mut self, light: Light, slopes: &[u8]) {
+        let widths = widths(light.noise, light.shadowed);
+        let of = |value: &dyn Fn(&Widths) -> f32, plane: &mut Vec<f32>| {
+            let values = widths.each_ref().map(value);
+            plane.clear();
+            plane.extend(slopes.iter().map(|&slope| values[usize::from(slope) % SLOPES]));
+        };
+        of(&|widths| widths.y, &mut self.y);
+        of(&|widths| widths.c, &mut self.c);
+        of(&|widths| widths.lit, &mut self.lit);
+        of(&|widths| widths.shadow, &mut self.shadow);
+        self.light = Some(light);
+    }
+}
+
+/// The log densities of some pixels of a row. Compiled for the wider vectors too: no operation is fused, so that every version gives
+/// the same numbers.
+#[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn judge_row(planes: &[Vec<f32>; 3], dim: [f32; 3], known: [&[f32]; 9], densities: &mut [i16]) {
+    let count = densities.len();
+    let [red, green, blue] = [&planes[0][..count], &planes[1][..count], &planes[2][..count]];
+    let [y, b, r, inverse, log, wy, wc, lit, shadow] = known.map(|plane| &plane[..count]);
+    let outlier = OUTLIERS.ln();
+    for at in 0..count {
+        let seen = Luminance::of([red[at] * dim[0], green[at] * dim[1], blue[at] * dim[2]]);
+        let widths = Widths { y: wy[at], c: wc[at], lit: lit[at], shadow: shadow[at] };
+        let [lit, shadow] = hypotheses(seen, [y[at], b[at], r[at], inverse[at], log[at]], widths);
+        densities[at] = (lit.max(shadow).max(outlier) * LOG_STEPS) as i32 as i16;
+    }
+}
+
+#[inline]
+fn lit(seen: [u8; 3], dim: [f32; 3]) -> Luminance {
+    Luminance::of([f32::from(seen[0]) * dim[0], f32::from(seen[1]) * dim[1], f32::from(seen[2]) * dim[2]])
+}
+
+/// The constants for every slope, with this noise a channel and share of shadows.
+fn widths([y, b, r]: [f32; 3], shadowed: f32) -> [Widths; SLOPES] {
+    // A colour's cube in luma and differences is as large as in red, green and blue times the weight of green.
+    let uniform = (256.0_f32.powi(3) * 0.587).ln();
+    let normal = 0.5 * std::f32::consts::TAU.ln();
+    std::array::from_fn(|slope| {
+        let slope = slope as f32;
+        let [vy, vc] = [y * y + (SLOPE[0] * slope).powi(2), b * r + (SLOPE[1] * slope).powi(2)];
+        Widths {
+            y: 1.0 / vy,
+            c: 1.0 / vc,
+            lit: uniform - 3.0 * normal - 0.5 * vy.ln() - vc.ln() + (1.0 - shadowed - OUTLIERS).ln(),
+            shadow: uniform - 2.0 * normal - vc.ln() + shadowed.ln(),
+        }
+    })
+}
+
+/// The log density of a colour as lit background and as background in another light, over the uniform one; of the background luma, the two
+/// differences, 1 / luma and its logarithm are given.
+#[inline(always)]
+fn hypotheses(seen: Luminance, [y, b, r, inverse, log]: [f32; 5], widths: Widths) -> [f32; 2] {
+    let (dy, db, dr) = (seen.y - y, seen.b - b, seen.r - r);
+    let lit = widths.lit - 0.5 * (dy * dy * widths.y + (db * db + dr * dr) * widths.c);
+    let bright = seen.y * inverse;
+    let below = SHADOW_LOG - (1.0 - bright) * (1.0 / SHADOW_FALL);
+    let above = REFLECTION_LOG - (bright - 1.0) * (1.0 / REFLECTION_FALL);
+    let (db, dr) = (seen.b - bright * b, seen.r - bright * r);
+    let shadow = widths.shadow - log + if bright < 1.0 { below } else { above } - 0.5 * (db * db + dr * dr) * widths.c;
+    let is_shadow = (DARKEST..=BRIGHTEST).contains(&bright);
+    [lit, if is_shadow { shadow } else { -1e4 }]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plate() -> RgbImage {
+        RgbImage::from_fn(64, 48, |x, y| image::Rgb([(100 + x) as u8, (110 + y) as u8, 90]))
+    }
+
+    fn judged(picture: &RgbImage) -> Vec<i16> {
+        let mut colours = BackgroundColours::new(&plate());
+        let light = colours.light(picture, [1.0; 3], None);
+        let mut densities = vec![0; 64 * 48];
+        colours.judge(picture, light, Region::whole(64, 48), &mut densities);
+        densities
+    }
+
+    #[test]
+    fn the_background_lit_or_in_shadow_is_likely_and_skin_is_not() {
+        let mut picture = plate();
+        picture.put_pixel(20, 20, image::Rgb([210, 150, 130]));
+        let shaded = picture.get_pixel(40, 30).0.map(|v| (f32::from(v) * 0.75).round() as u8);
+        picture.put_pixel(40, 30, image::Rgb(shaded));
+        let densities = judged(&picture);
+        let at = |x: usize, y: usize| f32::from(densities[y * 64 + x]) / LOG_STEPS;
+        assert!((11.0..13.0).contains(&at(5, 5)), "{}", at(5, 5));
+        assert!(at(40, 30) > 4.0, "a shadow: {}", at(40, 30));
+        assert!((at(20, 20) - OUTLIERS.ln()).abs() < 0.05, "neither: {}", at(20, 20));
+    }
+
+    /// The formulas once more, in double precision and without tables.
+    #[test]
+    fn densities_are_the_formulas() {
+        let picture = RgbImage::from_fn(64, 48, |x, y| {
+            let at = x * 31 + y * 17;
+            image::Rgb([(at % 200) as u8, (at * 7 % 220) as u8, (at * 3 % 180) as u8])
+        });
+        let plate = plate();
+        let colours = BackgroundColours::new(&plate);
+        let light = colours.light(&picture, [1.0; 3], None).light;
+        let densities = judged(&picture);
+        let luminance = |p: [u8; 3]| {
+            let [r, g, b] = p.map(f64::from);
+            let y = 0.299 * r + 0.587 * g + 0.114 * b;
+            [y, b - y, r - y]
+        };
+        for (at, (seen, known)) in picture.pixels().zip(plate.pixels()).enumerate() {
+            let ([sy, sb, sr], [py, pb, pr]) = (luminance(seen.0), luminance(known.0));
+            let slope = f64::from(colours.slopes[at]);
+            let noise = light.noise.map(f64::from);
+            let (vy, vc) = (noise[0].powi(2) + (0.35 * slope).powi(2), noise[1] * noise[2] + (0.2 * slope).powi(2));
+            let normal = |d: f64, v: f64| -0.5 * d * d / v - 0.5 * (std::f64::consts::TAU * v).ln();
+            let uniform = (256.0_f64.powi(3) * 0.587).ln();
+            let odds = f64::from(light.shadowed);
+            let lit =
+                uniform + (1.0 - odds - 0.002).ln() + normal(sy - py, vy) + normal(sb - pb, vc) + normal(sr - pr, vc);
+            let a = sy / py;
+            let fall = if a < 1.0 {
+                (0.7_f64 / 0.12).ln() - (1.0 - a) / 0.12
+            } else {
+                (0.3_f64 / 0.04).ln() - (a - 1.0) / 0.04
+            };
+            let shadow = uniform + odds.ln() - py.ln() + fall + normal(sb - a * pb, vc) + normal(sr - a * pr, vc);
+            let shadow = if (0.45..=1.15).contains(&a) { shadow } else { f64::NEG_INFINITY };
+            let expected = lit.max(shadow).max(0.002_f64.ln()) * 64.0;
+            assert!(
+                (f64::from(densities[at]) - expected).abs() < 1.5,
+                "pixel {at}: {} is not {expected}",
+                densities[at]
+            );
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! Colours in coarse steps.
+
+/// A colour in 16 steps a channel, as one number below [`Self::COUNT`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ColourBin(u16);
+
+impl ColourBin {
+    /// Steps a channel.
+    pub const SIDE: usize = 16;
+    /// How many there are.
+    pub const COUNT: usize = Self::SIDE * Self::SIDE * Self::SIDE;
+
+    /// The bin of a pixel.
+    #[inline]
+    pub fn of([r, g, b]: [u8; 3]) -> Self {
+        Self(u16::from(r >> 4) << 8 | u16::from(g >> 4) << 4 | u16::from(b >> 4))
+    }
+
+    /// Its place in a table of [`Self::COUNT`] values, in which blue changes fastest.
+    #[inline]
+    pub fn index(self) -> usize {
+        usize::from(self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bins_are_sixteen_a_channel() {
+        assert_eq!(ColourBin::of([255; 3]).index(), ColourBin::COUNT - 1);
+        assert_eq!(ColourBin::of([15, 15, 15]).index(), 0);
+        assert_eq!(ColourBin::of([16, 0, 0]).index(), 256);
+        assert_eq!(ColourBin::of([0, 32, 48]).index(), 2 * 16 + 3);
+    }
+}

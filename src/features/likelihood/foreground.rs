@@ -1,0 +1,144 @@
+//! One view's likelihoods, and the silhouette of what does not look like background.
+
+use image::{GrayImage, RgbImage};
+
+use super::super::blobs::Components;
+use super::super::foreground::clean;
+use super::super::light::gains;
+use super::super::morphology::Morphology;
+use super::super::{BitImage, FeatureSettings, Region};
+use super::background::BackgroundColours;
+use super::smooth::smooth_rows;
+use super::{ColourBin, LOG_STEPS, Likelihood};
+
+/// The log-likelihood ratio from which a pixel is the person's, against colours of which nothing is known.
+const FOREGROUND: f32 = 1.0;
+
+/// Where a view's background comes from.
+#[derive(Debug)]
+enum Known {
+    Plate {
+        image: RgbImage,
+        colours: Box<BackgroundColours>,
+    },
+    /// From the mixture that the view learns, when it has learnt.
+    Learnt,
+}
+
+/// Makes the likelihoods of one view.
+#[derive(Debug)]
+pub(crate) struct LikelySilhouette {
+    known: Known,
+    flags: Vec<u8>,
+    foreground: BitImage,
+    silhouette: BitImage,
+    morphology: Morphology,
+    components: Components,
+}
+
+impl LikelySilhouette {
+    /// For a view with a picture of the empty scene, or one that learns it.
+    pub(crate) fn new(plate: Option<RgbImage>) -> Self {
+        let known = match plate {
+            Some(image) => Known::Plate { colours: Box::new(BackgroundColours::new(&image)), image },
+            None => Known::Learnt,
+        };
+        Self {
+            known,
+            flags: Vec::new(),
+            foreground: BitImage::new(1, 1),
+            silhouette: BitImage::new(1, 1),
+            morphology: Morphology::default(),
+            components: Components::default(),
+        }
+    }
+
+    /// Whether the background has to come from what the view learns.
+    pub(crate) fn learns(&self) -> bool {
+        matches!(self.known, Known::Learnt)
+    }
+
+    /// The likelihoods of a picture; `learnt` is what a view without a plate knows of its background by now.
+    pub(crate) fn find(
+        &mut self,
+        picture: &RgbImage,
+        mask: Option<&GrayImage>,
+        learnt: Option<&RgbImage>,
+        settings: &FeatureSettings,
+        likelihood: &mut Likelihood,
+    ) {
+        let (gain, motion) = (settings.plate.gain, settings.silhouette.motion);
+        let (width, height) = picture.dimensions();
+        let pixels = picture.as_raw().as_chunks::<3>().0;
+        (likelihood.width, likelihood.height, likelihood.is_masked) = (width, height, mask.is_some());
+        likelihood.colours.clear();
+        likelihood.colours.extend(pixels.iter().map(|&pixel| ColourBin::of(pixel)));
+        likelihood.background.resize(pixels.len(), 0);
+        self.foreground.resize(width, height);
+        if let Some(mask) = mask {
+            for (density, pixel) in likelihood.background.iter_mut().zip(mask.as_raw()) {
+                *density = if *pixel >= 128 { -Likelihood::MASKED } else { Likelihood::SURE };
+            }
+            self.foreground.copy_from_gray(mask);
+            self.silhouette.copy_from(&self.foreground);
+        } else {
+            let mut by_now;
+            let (image, colours) = match (&mut self.known, learnt) {
+                (Known::Plate { image, colours }, _) => (&*image, colours.as_mut()),
+                (Known::Learnt, Some(image)) => {
+                    by_now = BackgroundColours::new(image);
+                    (image, &mut by_now)
+                }
+                (Known::Learnt, None) => {
+                    likelihood.background.fill(Likelihood::SURE);
+                    likelihood.region = Region::default();
+                    self.foreground.clear();
+                    self.silhouette.copy_from(&self.foreground);
+                    return;
+                }
+            };
+            let gain = if gain { gains(picture, image) } else { [1.0; 3] };
+            // First as if shadows were as frequent everywhere, then round the person with those counted there.
+            let mut light = colours.light(picture, gain, None);
+            let mut region = Region::whole(width, height);
+            for pass in 0..2 {
+                colours.judge(picture, light, region, &mut likelihood.background);
+                threshold(likelihood, &mut self.flags, &mut self.foreground);
+                self.silhouette.copy_from(&self.foreground);
+                clean(&mut self.silhouette, settings, &mut self.morphology, &mut self.components);
+                let Some(bounds) = self.silhouette.bounds().filter(|_| pass == 0) else { break };
+                region = bounds.enlarged(motion, width, height);
+                light = colours.light(picture, gain, Some(region));
+            }
+        }
+        let bounds = self.silhouette.bounds();
+        likelihood.region = bounds.map_or_else(Region::default, |bounds| bounds.enlarged(motion, width, height));
+    }
+
+    /// What does not look like background in the last picture, or its ready mask.
+    pub(crate) fn foreground(&self) -> &BitImage {
+        &self.foreground
+    }
+
+    /// The same cleaned.
+    pub(crate) fn silhouette(&self) -> &BitImage {
+        &self.silhouette
+    }
+}
+
+/// Takes for foreground what is likelier to be of any colour than background; `flags` is room for a row.
+fn threshold(likelihood: &Likelihood, flags: &mut Vec<u8>, foreground: &mut BitImage) {
+    let width = likelihood.width as usize;
+    flags.resize(width, 0);
+    let most = (5.0 * LOG_STEPS) as i16;
+    let ratio = |y: usize, row: &mut [i16]| {
+        let densities = &likelihood.background[y * width..][..width];
+        row.iter_mut().zip(densities).for_each(|(ratio, &density)| *ratio = (-density).clamp(-most, most));
+    };
+    // Smoothed sums are sixteen times the ratio.
+    let least = (16.0 * FOREGROUND * LOG_STEPS) as i16;
+    smooth_rows(width, likelihood.height as usize, ratio, |y, sums| {
+        flags.iter_mut().zip(sums).for_each(|(flag, &sum)| *flag = u8::from(sum > least));
+        foreground.pack_row(y, flags);
+    });
+}

@@ -1,0 +1,204 @@
+//! The person's colours, part by part, learnt on the way, and the soft evidence that they make of a frame's likelihoods (METHOD A12).
+
+mod classes;
+mod colours;
+
+use std::sync::Arc;
+
+use anyhow::Result;
+use rayon::prelude::*;
+
+use self::classes::{Groups, grouped};
+use self::colours::{Colours, LogTable};
+use crate::body::Body;
+use crate::features::likelihood::{LOG_STEPS, smooth_rows};
+use crate::features::{Evidence, Likelihood, Observation, PartClasses};
+
+/// The largest log-likelihood ratio that is believed, in steps.
+const MOST: i32 = (5.0 * LOG_STEPS) as i32;
+/// The uniform share of the person's colours as a whole, and of a class's.
+const UNKNOWN_PERSON: f32 = 0.35;
+const UNKNOWN_PART: f32 = 0.15;
+
+/// What the person looks like, as far as it is known.
+///
+/// At first nothing is, and every colour is as likely: evidence then tells by how much a pixel does not look like background. Once poses
+/// are found, the pixels under each visible part teach its colours. Parts that look alike share a class, at most eight.
+#[derive(Clone, Debug)]
+pub struct Appearance {
+    groups: Groups,
+    /// The colours seen of every group of parts, left and right together.
+    seen: Vec<Colours>,
+    classes: Arc<PartClasses>,
+    /// The log density of every colour in a class, over the uniform one.
+    tables: Vec<LogTable>,
+    /// The same of the whole person.
+    person: LogTable,
+}
+
+/// What one view of a frame teaches.
+#[derive(Clone, Copy, Debug)]
+pub struct Lesson<'a> {
+    /// Its likelihoods.
+    pub likelihood: &'a Likelihood,
+    /// The frame's pose drawn there: a byte a pixel, bits 0 to 6 the label of the visible part, bit 7 an edge.
+    pub drawn: &'a [u8],
+}
+
+impl Appearance {
+    /// Of a person of whom nothing is known yet.
+    pub fn new(body: &Body) -> Self {
+        let groups = Groups::of(body);
+        Self {
+            seen: vec![Colours::default(); groups.count()],
+            groups,
+            classes: Arc::new(PartClasses::one()),
+            tables: vec![LogTable::uniform()],
+            person: LogTable::uniform(),
+        }
+    }
+
+    /// The classes of the parts by now.
+    pub fn classes(&self) -> &Arc<PartClasses> {
+        &self.classes
+    }
+
+    /// Learns from a frame whose pose is known. What was seen before counts `kept` times (0 to 1), so that old colours fade.
+    ///
+    /// # Errors
+    /// When a part's label is no label.
+    pub fn learn(&mut self, views: &[Lesson<'_>], kept: f32) -> Result<()> {
+        self.seen.iter_mut().for_each(|colours| colours.fade(kept));
+        for Lesson { likelihood, drawn } in views {
+            let pixels = likelihood.background.iter().zip(&likelihood.colours).zip(*drawn);
+            for ((&background, colour), &byte) in pixels {
+                // A border pixel may be its neighbour's, and what surely is background is nobody's colour.
+                let looks_empty = i32::from(background) - self.person.of(*colour) > MOST;
+                if byte & 0x80 == 0
+                    && !looks_empty
+                    && let Some(group) = self.groups.of_label(byte)
+                {
+                    self.seen[group].add(*colour);
+                }
+            }
+        }
+        let (classes, of_group) = grouped(&self.groups, &self.seen)?;
+        let mut person = Colours::default();
+        self.seen.iter().for_each(|colours| person.join(colours));
+        self.person = person.table(UNKNOWN_PERSON, None);
+        let mut of_classes = vec![Colours::default(); classes.count()];
+        for (colours, &class) in self.seen.iter().zip(&of_group) {
+            of_classes[usize::from(class)].join(colours);
+        }
+        self.tables = of_classes.iter().map(|colours| colours.table(UNKNOWN_PART, Some(&person))).collect();
+        self.classes = Arc::new(classes);
+        Ok(())
+    }
+
+    /// Gives a frame's observations the evidence of its likelihoods, one a view; none where there are none.
+    ///
+    /// # Errors
+    /// When likelihoods are of another size than they say.
+    pub fn give(&self, likelihoods: &[Likelihood], observations: &mut [Observation]) -> Result<()> {
+        observations.par_iter_mut().zip(likelihoods).try_for_each(|(observation, view)| {
+            observation.evidence = Some(self.view_evidence(view)?);
+            Ok(())
+        })
+    }
+
+    fn view_evidence(&self, view: &Likelihood) -> Result<Evidence> {
+        let (width, region) = (view.width as usize, view.region);
+        let all_classes = (0..self.classes.count()).fold(0_u32, |word, class| word | 1 << (Evidence::BITS * class));
+        // Away from what may be the person nothing speaks for her, and colours are not looked up.
+        let least = LOG_STEPS as i32;
+        let far: Vec<u32> = (least..=MOST).map(|density| all_classes * code(-16 * density)).collect();
+        let far_word = |density: i16| far[(i32::from(density).clamp(least, MOST) - least) as usize];
+        let columns = region.x0 as usize..region.x1 as usize;
+        let mut words = vec![0; view.background.len()];
+        let rows = words.chunks_exact_mut(width.max(1)).zip(view.background.chunks_exact(width.max(1)));
+        for (y, (words, densities)) in rows.enumerate() {
+            let inside = if (region.y0..region.y1).contains(&(y as u32)) { columns.clone() } else { width..width };
+            for outside in [0..inside.start, inside.end..width] {
+                let pixels = words[outside.clone()].iter_mut().zip(&densities[outside]);
+                pixels.for_each(|(word, &density)| *word = far_word(density));
+            }
+        }
+        let codes: Vec<u32> = (-16 * MOST..=16 * MOST).map(code).collect();
+        for (class, table) in self.tables.iter().enumerate() {
+            let make = |y: usize, row: &mut [i16]| {
+                let at = (y + region.y0 as usize) * width;
+                let densities = &view.background[at..][..width][columns.clone()];
+                let colours = &view.colours[at..][..width][columns.clone()];
+                for ((ratio, &background), &colour) in row.iter_mut().zip(densities).zip(colours) {
+                    // Inside of a ready mask it is the person's, and only which part is asked.
+                    let known = if view.is_masked && background < 0 { self.person.of(colour) } else { 0 };
+                    *ratio = (table.of(colour) - known - i32::from(background)).clamp(-MOST, MOST) as i16;
+                }
+            };
+            let take = |y: usize, sums: &[i16]| {
+                let at = (y + region.y0 as usize) * width;
+                for (word, &sum) in words[at..][..width][columns.clone()].iter_mut().zip(sums) {
+                    *word |= codes[(i32::from(sum) + 16 * MOST) as usize] << (Evidence::BITS * class);
+                }
+            };
+            smooth_rows(region.width() as usize, region.height() as usize, make, take);
+        }
+        Evidence::new(Arc::clone(&self.classes), view.width, view.height, words)
+    }
+}
+
+/// The code of sixteen times a ratio in steps.
+#[inline]
+fn code(sum: i32) -> u32 {
+    // 7 codes for 5 units, of 16 LOG_STEPS each.
+    (((sum * 7 + 8 * MOST) >> 4).div_euclid(MOST) + Evidence::NEUTRAL as i32).clamp(0, Evidence::MOST as i32) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::features::likelihood::ColourBin;
+    use crate::features::{Region, evidence};
+
+    #[test]
+    fn codes_are_rounded_ratios() {
+        for ratio in -330..=330_i32 {
+            let expected = (f64::from(ratio) / 64.0 * 1.4 + 7.0 + 0.5).floor().clamp(0.0, 14.0) as u32;
+            assert_eq!(code(16 * ratio), expected, "{ratio}");
+        }
+    }
+
+    /// A picture of 12 x 8 pixels: red left, blue right, both unlike the background, which shows in the last two rows.
+    fn seen() -> Likelihood {
+        let colours =
+            (0..96).map(|at| ColourBin::of(if at % 12 < 6 { [200, 30, 30] } else { [30, 30, 200] })).collect();
+        let background = (0..96).map(|at| if at < 72 { -64 } else { 700 }).collect();
+        let region = Region::whole(12, 8);
+        Likelihood { width: 12, height: 8, background, colours, is_masked: false, region }
+    }
+
+    #[test]
+    fn colours_under_parts_tell_them_apart() {
+        let body = Body::adult(1750.0).unwrap();
+        let label = |name: &str| body.parts.iter().find(|part| part.name == name).unwrap().label;
+        let (head, thigh) = (label("head"), label("left_thigh"));
+        let mut appearance = Appearance::new(&body);
+        let view = seen();
+        let before = appearance.view_evidence(&view).unwrap();
+        assert_eq!(before.classes().count(), 1);
+        assert_eq!((evidence::code(before.words()[0], 0), evidence::code(before.words()[90], 0)), (8, 0));
+        let drawn: Vec<u8> = (0..96).map(|at| if at % 12 < 6 { head } else { thigh }).collect();
+        for _ in 0..40 {
+            appearance.learn(&[Lesson { likelihood: &view, drawn: &drawn }], 1.0).unwrap();
+        }
+        let after = appearance.view_evidence(&view).unwrap();
+        let at = |pixel: usize, label: u8| {
+            evidence::code(after.words()[pixel], usize::from(after.classes().of_label(label)))
+        };
+        assert_ne!(after.classes().of_label(head), after.classes().of_label(thigh));
+        assert_eq!(after.classes().of_label(thigh), after.classes().of_label(label("right_thigh")));
+        assert!(at(24, head) == 14 && at(24, thigh) < at(24, head), "{} {}", at(24, head), at(24, thigh));
+        assert!(at(34, thigh) == 14 && at(34, head) < at(34, thigh), "{} {}", at(34, head), at(34, thigh));
+        assert_eq!(at(95, thigh), 0, "what surely is background stays it");
+    }
+}

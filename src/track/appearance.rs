@@ -1,0 +1,51 @@
+//! The person's colours over a run: what a frame's likelihoods become before it is searched, and what its pose teaches afterwards.
+
+use anyhow::Result;
+
+use super::feed::Prepared;
+use crate::body::Body;
+use crate::evaluate::Reference;
+use crate::geometry::Camera;
+use crate::observe::{Appearance, Lesson};
+
+/// Frames at the beginning that all teach, and how many there are to one that teaches afterwards.
+const EAGER: usize = 3;
+const SELDOM: usize = 5;
+/// How much of what was learnt is kept when a frame teaches.
+const KEPT: f32 = 0.95;
+
+/// The appearance of a run's person, and how her pose is drawn to learn it.
+pub(super) struct RunAppearance {
+    appearance: Appearance,
+    reference: Reference,
+}
+
+impl RunAppearance {
+    pub(super) fn new(body: &Body, cameras: &[Camera]) -> Self {
+        Self { appearance: Appearance::new(body), reference: Reference::new(body, cameras) }
+    }
+
+    /// Gives a frame's observations the evidence that its likelihoods are by what is known now.
+    ///
+    /// # Errors
+    /// When likelihoods do not fit their pictures.
+    pub(super) fn observe(&self, prepared: &mut Prepared) -> Result<()> {
+        self.appearance.give(&prepared.likelihoods, &mut prepared.observations)
+    }
+
+    /// Learns from a pose, `since` frames after the first. Whether a frame teaches depends on its number and its pose alone, so that a run
+    /// that is resumed learns the same.
+    ///
+    /// # Errors
+    /// As [`Appearance::learn`].
+    pub(super) fn learn(&mut self, since: usize, prepared: &Prepared, pose: &[f32]) -> Result<()> {
+        if since >= EAGER && !since.is_multiple_of(SELDOM) {
+            return Ok(());
+        }
+        let views = 0..prepared.likelihoods.len();
+        let drawn: Vec<Vec<u8>> = views.map(|view| self.reference.draw(pose, view).bytes).collect();
+        let lessons = prepared.likelihoods.iter().zip(&drawn);
+        let lessons: Vec<Lesson<'_>> = lessons.map(|(likelihood, drawn)| Lesson { likelihood, drawn }).collect();
+        self.appearance.learn(&lessons, KEPT)
+    }
+}
