@@ -73,12 +73,13 @@ pub(super) fn run(args: &FitArgs) -> Result<()> {
     let sequence =
         if args.output.is_some() { Sequence::open_unfitted(&args.sequence)? } else { Sequence::open(&args.sequence)? };
     let settings = FitSettings {
-        height: args.height,
+        height: args.height.or(sequence.height),
         frames: args.frames,
         samples: args.samples,
         start: args.start.clone(),
         heading: args.heading,
         keep_body: args.output.is_none(),
+        follow: false,
         objective: args.objective.choice(),
         particles: args.particles,
         iterations: args.iterations,

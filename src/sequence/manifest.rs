@@ -31,8 +31,11 @@ pub struct Sequence {
     pub cameras: Vec<Camera>,
     /// The views' working sizes, pixels, width then height: the stored size times `scale`, rounded, at least 1.
     pub sizes: Vec<[u32; 2]>,
-    /// The body file.
+    /// The body file; one that is yet to be made where [`Self::needs_body`].
     pub body: PathBuf,
+    /// The height of the person, mm, where the manifest tells it.
+    pub height: Option<f64>,
+    names_body: bool,
     /// A poses.csv with the first pose.
     pub start: Option<PathBuf>,
     /// Reference motion.
@@ -75,7 +78,8 @@ struct ManifestFile {
     name: String,
     fps: f64,
     cameras: PathBuf,
-    body: PathBuf,
+    body: Option<PathBuf>,
+    height: Option<f64>,
     start: Option<PathBuf>,
     truth: Option<PathBuf>,
     #[serde(default = "full_size")]
@@ -108,6 +112,14 @@ impl ManifestFile {
         }
         if !(self.scale > 0.0 && self.scale <= 1.0) {
             bail!("{name}: scale is {}, expected more than 0 and at most 1", self.scale);
+        }
+        if self.body.is_none() && self.height.is_none() {
+            bail!(
+                "{name} has neither `body` nor `height`, expected the file of the person's body or how tall the person is, mm"
+            );
+        }
+        if let Some(height) = self.height.filter(|height| !(500.0..=2500.0).contains(height)) {
+            bail!("{name}: height is {height}, expected 500 to 2500 mm");
         }
         if self.view.is_empty() {
             bail!("{name} has no views, expected a [[view]] with `camera` and `source` for each camera");
@@ -171,6 +183,11 @@ impl Sequence {
         Ok(())
     }
 
+    /// Whether the manifest names no body, so that one has to be measured first.
+    pub fn needs_body(&self) -> bool {
+        !self.names_body
+    }
+
     /// As [`Self::open`], but the files of the body and the start pose may be yet to be made.
     ///
     /// # Errors
@@ -198,7 +215,8 @@ impl Sequence {
         let fitted = |key: &str, relative: &Path| -> Result<PathBuf> {
             if is_fitted { existing(key, relative) } else { Ok(dir.join(relative)) }
         };
-        let body = fitted("body", &file.body)?;
+        let names_body = file.body.is_some();
+        let body = file.body.as_deref().map_or_else(|| Ok(dir.join("body.toml")), |body| fitted("body", body))?;
         let start = file.start.as_deref().map(|start| fitted("start", start)).transpose()?;
         let truth = file.truth.as_deref().map(|truth| existing("truth", truth)).transpose()?;
         let calibrated = read_cameras(&cameras_path)?;
@@ -227,6 +245,8 @@ impl Sequence {
             cameras,
             sizes,
             body,
+            height: file.height,
+            names_body,
             start,
             truth,
             views,

@@ -21,6 +21,7 @@ use super::searcher::{Searched, Start};
 use super::summary::{TrackSummary, lost_sentence, mean};
 use super::timings::{Span, Thread, Timings};
 use super::truth::Truth;
+use super::unaided::with_start;
 use super::{Backend, TrackSettings, folder, results, run_record};
 use crate::evaluate::ViewCounts;
 use crate::files::OutputFolder;
@@ -48,6 +49,8 @@ pub fn track(
     output: &OutputFolder,
     progress: &mut dyn Progress,
 ) -> Result<TrackSummary> {
+    let (sequence, found) = with_start(sequence, settings, output)?;
+    let sequence = sequence.as_ref();
     // What auto once chose is kept to: another machine, or a moment of noise, must not change a run midway.
     let recorded = match settings.backend {
         Backend::Auto if settings.resume => run_record::recorded_backend(output)?,
@@ -57,7 +60,7 @@ pub fn track(
     if let Some(backend) = recorded {
         plan.backend.reason = format!("{}, which this run began with", backend.name());
     }
-    let mut warnings = Vec::new();
+    let mut warnings: Vec<String> = found.into_iter().collect();
     let truth = match &sequence.truth {
         Some(path) => Truth::read(path, &plan.body, sequence.fps)?.map_err(|why| warnings.push(why)).ok(),
         None => None,

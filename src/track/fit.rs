@@ -53,6 +53,9 @@ pub struct FitSettings {
     pub heading: Option<f64>,
     /// Whether the body stays the sequence's and only poses are sought.
     pub keep_body: bool,
+    /// Whether a frame's first pose is searched round those found in the frames beside it too: where limbs are apart in one of them,
+    /// they are told apart in all.
+    pub follow: bool,
     /// What a good pose is; over the sequence's `[objective]` table. Silhouettes are compared, whatever weighs evidence.
     pub objective: ObjectiveChoice,
     /// Poses scored at once.
@@ -72,6 +75,7 @@ impl Default for FitSettings {
             start: None,
             heading: None,
             keep_body: false,
+            follow: false,
             objective: ObjectiveChoice::default(),
             particles: 300,
             iterations: 60,
@@ -148,7 +152,9 @@ pub fn fit(sequence: &Sequence, settings: &FitSettings) -> Result<Fit> {
         Some(path) => fitter.settle(start_poses(path, &body, &frames)?)?,
         None => {
             let found = hulls.iter().enumerate().map(|(at, hull)| fitter.first_pose(&body, at, hull, settings.heading));
-            found.collect::<Result<_>>()?
+            let found = found.collect::<Result<Vec<_>>>()?;
+            let found = if settings.follow { fitter.follow(found)? } else { found };
+            found.into_iter().map(|(pose, _)| pose).collect()
         }
     };
     let before = fitter.scorer.coverage(&poses)?;
@@ -374,7 +380,7 @@ impl Fitter {
     }
 
     /// The pose of a frame from nothing but the hull.
-    fn first_pose(&mut self, body: &Body, frame: usize, hull: &Hull, heading: Option<f64>) -> Result<Vec<f32>> {
+    fn first_pose(&mut self, body: &Body, frame: usize, hull: &Hull, heading: Option<f64>) -> Result<(Vec<f32>, f32)> {
         let headings = match heading {
             Some(heading) => vec![heading],
             None => (0..HEADINGS).map(|turn| turn as f64 * 360.0 / HEADINGS as f64 - 180.0).collect(),
@@ -402,7 +408,22 @@ impl Fitter {
             }
         }
         found.sort_by(by_fitness);
-        Ok(found.into_iter().next().map(|(pose, _)| pose).unwrap_or_default())
+        Ok(found.into_iter().next().unwrap_or_default())
+    }
+
+    /// First poses, each also searched round its neighbours', there and back: what fits better stays.
+    fn follow(&mut self, mut poses: Vec<(Vec<f32>, f32)>) -> Result<Vec<(Vec<f32>, f32)>> {
+        let last = poses.len().saturating_sub(1);
+        let there = (0..last).map(|at| (at, at + 1));
+        let back = (0..last).rev().map(|at| (at + 1, at));
+        for (from, to) in there.chain(back) {
+            let round = (poses[from].0.clone(), f32::NEG_INFINITY);
+            let found = self.narrowed(to, round)?;
+            if found.1 > poses[to].1 {
+                poses[to] = found;
+            }
+        }
+        Ok(poses)
     }
 
     /// A pose searched round with one spread after the other. A swarm has its centre among its particles, so nothing gets

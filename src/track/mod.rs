@@ -33,6 +33,7 @@ mod summary;
 mod timings;
 mod tracked_points;
 mod truth;
+mod unaided;
 mod unseen;
 
 pub use backend::{Backend, BuiltBackend};

@@ -34,4 +34,5 @@ mod support;
 mod synth;
 mod texture;
 mod track;
+mod unaided;
 mod walk;

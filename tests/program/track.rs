@@ -217,7 +217,7 @@ fn a_kill_at_any_frame_loses_nothing_but_time() {
 fn caught_at_work(output: &Path) -> std::process::Child {
     let mut child = program()
         .args(["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap()])
-        .args(["--particles", "150", "--iterations", "20", "--overlay-every", "2", "--backend", "reference"])
+        .args(["--particles", "60", "--iterations", "16", "--overlay-every", "2", "--backend", "reference"])
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
@@ -233,7 +233,7 @@ fn caught_at_work(output: &Path) -> std::process::Child {
 #[test]
 fn killed_or_interrupted_it_goes_on() {
     let folder = tempfile::tempdir().unwrap();
-    let slow = ["--particles", "150", "--iterations", "20", "--overlay-every", "2", "--backend", "reference"];
+    let slow = ["--particles", "60", "--iterations", "16", "--overlay-every", "2", "--backend", "reference"];
     let run = |output: &Path, more: &[&str]| {
         let mut arguments = vec!["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap()];
         arguments.extend(slow);
@@ -435,8 +435,14 @@ fn wrong_inputs_are_one_sentence() {
     refused(&bad_start, &["start.csv", "left_knee.ry is 171.88", "degrees", &between]);
     fs::write(folder.path().join("start.csv"), good).unwrap();
 
-    let manifest = change("sequence.toml", "start = \"start.csv\"\n", "");
-    refused(&track_with(folder.path(), &output, &[]), &["sequence.toml names no start pose", "--start"]);
+    let manifest = change("sequence.toml", "body = \"body.toml\"\n", "");
+    refused(&track_with(folder.path(), &output, &[]), &["sequence.toml has neither `body` nor `height`", "mm"]);
+    fs::write(folder.path().join("sequence.toml"), &manifest).unwrap();
+    let manifest = change("sequence.toml", "body = \"body.toml\"\n", "height = 1.75\n");
+    refused(&track_with(folder.path(), &output, &[]), &["sequence.toml: height is 1.75", "500 to 2500 mm"]);
+    fs::write(folder.path().join("sequence.toml"), &manifest).unwrap();
+    let manifest = change("sequence.toml", "body = \"body.toml\"\n", "height = 1750\n");
+    refused(&track_with(folder.path(), &output, &[]), &["names a start pose and no body", "`body`"]);
     fs::write(folder.path().join("sequence.toml"), &manifest).unwrap();
     change("sequence.toml", "[[view]]", "[objective]\nbata = 0.5\n[[view]]");
     refused(&track_with(folder.path(), &output, &[]), &["[objective]", "`bata`", "`beta`"]);
