@@ -18,7 +18,7 @@ shared uint words[4];
 
 int order_at(int x, int y, uint magnitude) {
     if (x < 0 || y < 0 || x >= int(picture.width) || y >= int(picture.height)) return 0;
-    return order(separable(x, y, 2), magnitude);
+    return order(separable(x, y, 1, 2), magnitude);
 }
 
 // The direction of the gradient is one of four, in steps of 45 degrees; (|gx| + |gy|)^2 < 2 gx^2 decides exactly.
@@ -42,7 +42,7 @@ void main() {
     // The stride is a whole number of workgroups, so the word is there even where the pixel is not.
     bool wanted = x < int(picture.width) && ((near[place] >> (uint(x) & 31u)) & 1u) != 0u;
     if (wanted) {
-        ivec2 g = separable(x, y, 2);
+        ivec2 g = separable(x, y, 1, 2);
         int here = order(g, magnitude);
         if (here >= order_of(picture.low, magnitude)) {
             ivec2 d = across(g);

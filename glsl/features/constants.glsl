@@ -35,6 +35,11 @@ const uint MAGNITUDE_EXACT = 0u;
 const uint MAGNITUDE_SUM = 1u;
 const uint MAGNITUDE_MAX = 2u;
 
+// The forms of an edge operator's masks.
+const uint EDGES_ACROSS = 0u;
+const uint EDGES_DIAGONALS = 1u;
+const uint EDGES_CROSSINGS = 2u;
+
 // Which distance.
 const uint METRIC_CHESSBOARD = 0u;
 const uint METRIC_CITY_BLOCK = 1u;

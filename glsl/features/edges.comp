@@ -5,21 +5,18 @@
 
 #include "features/gradient.glsl"
 
-// Places in the list of operators, src/features/edges/mod.rs.
-const uint EDGES_SOBEL = 0u;
-const uint EDGES_PREWITT = 1u;
-const uint EDGES_ROBERTS = 2u;
-const uint EDGES_LAPLACE_FOUR = 3u;
-const uint EDGES_LAPLACE_EIGHT = 4u;
-const uint EDGES_LAPLACE_PRODUCT = 5u;
-
 layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 1) readonly buffer Near { uint near[]; };
 layout(std430, set = 0, binding = 2) writeonly buffer Edges { uint edges[]; };
 
-layout(constant_id = 0) const uint OPERATOR = 0u;
+// The form of the operator's masks, and its weights at corners, sides and in the middle, or across outer ones, none and a middle one:
+// src/features/edges/mod.rs.
+layout(constant_id = 0) const uint FORM = 0u;
 layout(constant_id = 1) const uint MAGNITUDE = 0u;
+layout(constant_id = 2) const int CORNER = 1;
+layout(constant_id = 3) const int SIDE = 0;
+layout(constant_id = 4) const int MIDDLE = 2;
 
 shared uint words[2];
 
@@ -27,12 +24,12 @@ bool is_strong(ivec2 g, uint magnitude) {
     return order(g, magnitude) >= order_of(picture.amount, magnitude);
 }
 
-int response(int x, int y, uint mask) {
+int response(int x, int y, ivec3 weights) {
     int sides = at(x, y - 1) + at(x, y + 1) + at(x - 1, y) + at(x + 1, y);
-    if (mask == EDGES_LAPLACE_FOUR) return sides - 4 * at(x, y);
+    int response = weights.y * sides + weights.z * at(x, y);
+    if (weights.x == 0) return response;
     int corners = at(x - 1, y - 1) + at(x + 1, y - 1) + at(x - 1, y + 1) + at(x + 1, y + 1);
-    if (mask == EDGES_LAPLACE_EIGHT) return sides + corners - 8 * at(x, y);
-    return corners - 2 * sides + 4 * at(x, y);
+    return response + weights.x * corners;
 }
 
 bool jumps(int a, int b) {
@@ -40,16 +37,16 @@ bool jumps(int a, int b) {
 }
 
 // As the library's: of two neighbours the one nearer to zero, of equal ones the left or upper; a zero between two opposites.
-bool crosses_zero(int x, int y, uint mask) {
-    int here = response(x, y, mask);
+bool crosses_zero(int x, int y, ivec3 weights) {
+    int here = response(x, y, weights);
     bool has_left = x > 0;
     bool has_right = x + 1 < int(picture.width);
     bool has_up = y > 0;
     bool has_down = y + 1 < int(picture.height);
-    int left = response(x - 1, y, mask);
-    int right = response(x + 1, y, mask);
-    int up = response(x, y - 1, mask);
-    int down = response(x, y + 1, mask);
+    int left = response(x - 1, y, weights);
+    int right = response(x + 1, y, weights);
+    int up = response(x, y - 1, weights);
+    int down = response(x, y + 1, weights);
     if (here == 0) return (has_left && has_right && jumps(left, right)) || (has_up && has_down && jumps(up, down));
     bool before = (has_left && jumps(here, left) && abs(here) < abs(left)) || (has_up && jumps(here, up) && abs(here) < abs(up));
     bool after = (has_right && jumps(here, right) && abs(here) <= abs(right))
@@ -61,7 +58,8 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     int x = int(gl_GlobalInvocationID.x);
     int y = int(gl_GlobalInvocationID.y);
-    uint operator_ = OPERATOR;
+    uint form = FORM;
+    ivec3 weights = ivec3(CORNER, SIDE, MIDDLE);
     uint magnitude = MAGNITUDE;
     uint place = uint(y) * picture.stride + (uint(x) >> 5u);
     if (lane < 2u) words[lane] = 0u;
@@ -70,14 +68,12 @@ void main() {
     bool wanted = x < int(picture.width) && ((near[place] >> (uint(x) & 31u)) & 1u) != 0u;
     if (wanted) {
         bool found = false;
-        if (operator_ == EDGES_SOBEL) {
-            found = is_strong(separable(x, y, 2), magnitude);
-        } else if (operator_ == EDGES_PREWITT) {
-            found = is_strong(separable(x, y, 1), magnitude);
-        } else if (operator_ == EDGES_ROBERTS) {
+        if (form == EDGES_ACROSS) {
+            found = is_strong(separable(x, y, weights.x, weights.z), magnitude);
+        } else if (form == EDGES_DIAGONALS) {
             found = is_strong(ivec2(at(x, y) - at(x + 1, y + 1), at(x + 1, y) - at(x, y + 1)), magnitude);
         } else {
-            found = crosses_zero(x, y, operator_);
+            found = crosses_zero(x, y, weights);
         }
         if (found) atomicOr(words[lane >> 5u], 1u << (lane & 31u));
     }

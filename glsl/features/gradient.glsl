@@ -14,10 +14,10 @@ int at(int x, int y) {
     return int(smoothed[row * picture.width + column]);
 }
 
-// The middle weight is 2 for Sobel and 1 for Prewitt.
-ivec2 separable(int x, int y, int middle) {
-    int gx = at(x + 1, y - 1) - at(x - 1, y - 1) + middle * (at(x + 1, y) - at(x - 1, y)) + at(x + 1, y + 1) - at(x - 1, y + 1);
-    int gy = at(x - 1, y + 1) - at(x - 1, y - 1) + middle * (at(x, y + 1) - at(x, y - 1)) + at(x + 1, y + 1) - at(x + 1, y - 1);
+// Differences over two pixels, weighted across by (outer middle outer): Sobel has 1 2 1.
+ivec2 separable(int x, int y, int outer, int middle) {
+    int gx = outer * (at(x + 1, y - 1) - at(x - 1, y - 1) + at(x + 1, y + 1) - at(x - 1, y + 1)) + middle * (at(x + 1, y) - at(x - 1, y));
+    int gy = outer * (at(x - 1, y + 1) - at(x - 1, y - 1) + at(x + 1, y + 1) - at(x + 1, y - 1)) + middle * (at(x, y + 1) - at(x, y - 1));
     return ivec2(gx, gy);
 }
 

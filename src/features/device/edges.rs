@@ -4,10 +4,11 @@ use anyhow::Result;
 
 use super::components::{Keep, components};
 use super::view::{DeviceView, Plane};
+use crate::features::edges::Detector;
 use crate::features::shaders::{
     MAGNITUDE_EXACT, MAGNITUDE_MAX, MAGNITUDE_SUM, canny_comp, edges_comp, layout::Picture, smooth_comp,
 };
-use crate::features::{EdgeSettings, Magnitude, Operator};
+use crate::features::{EdgeSettings, Magnitude};
 use crate::gpu::Recorder;
 
 /// Records the step from colour to grey, smoothed or not: `colours` to `smoothed`.
@@ -34,7 +35,7 @@ pub(super) fn edges(recorder: &mut Recorder, views: &[&DeviceView], settings: &E
         low: i32::from(settings.low),
         ..view.picture
     };
-    if settings.operator == Operator::Canny {
+    let (Detector::Gradient(_, masks) | Detector::ZeroCrossings(_, masks)) = settings.operator.detector() else {
         // Thinned gradients of at least `low` and of at least `threshold`, then hysteresis.
         recorder.run_all(views.iter().map(|view| {
             canny_comp::Bindings {
@@ -46,17 +47,15 @@ pub(super) fn edges(recorder: &mut Recorder, views: &[&DeviceView], settings: &E
             .dispatch(canny_comp::Constants { magnitude }, picture(view), view.every_pixel())
         }))?;
         return components(recorder, views, Keep::Touched, Plane::Strong, [Plane::WorkA, Plane::Edges]);
-    }
+    };
+    let [corner, side, middle] = masks.weights.map(i32::from);
+    let constants = edges_comp::Constants { form: masks.form, magnitude, corner, side, middle };
     recorder.run_all(views.iter().map(|view| {
         edges_comp::Bindings {
             smoothed: &view.smoothed,
             near: view.plane(Plane::Near),
             edges: view.plane(Plane::Edges),
         }
-        .dispatch(
-            edges_comp::Constants { operator: settings.operator as u32, magnitude },
-            picture(view),
-            view.every_pixel(),
-        )
+        .dispatch(constants, picture(view), view.every_pixel())
     }))
 }

@@ -46,45 +46,18 @@ impl Magnitude {
     }
 }
 
-/// The pairs of masks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Gradient {
-    /// (1 2 1) across, (-1 0 1) along.
-    Sobel,
-    /// (1 1 1) across, (-1 0 1) along.
-    Prewitt,
-    /// The differences of the two diagonals of the square right below the pixel.
-    Roberts,
-}
-
 /// Rows of partial sums, kept between rows.
 #[derive(Clone, Debug, Default)]
-pub(super) struct GradientRows {
+pub(crate) struct GradientRows {
     columns: Vec<i16>,
     differences: Vec<i16>,
 }
 
 impl GradientRows {
-    /// Writes `f(gx, gy)` for every pixel of a row, from three rows with one column more on either side.
+    /// Writes `f(gx, gy)` for every pixel of a row, from three rows with one column more on either side: (-1 0 1) along and
+    /// (`OUTER` `MIDDLE` `OUTER`) across.
     #[inline]
-    pub(super) fn map<T>(&mut self, gradient: Gradient, rows: [&[u8]; 3], out: &mut [T], f: impl Fn(i16, i16) -> T) {
-        match gradient {
-            Gradient::Sobel => self.separable::<2, T>(rows, out, f),
-            Gradient::Prewitt => self.separable::<1, T>(rows, out, f),
-            Gradient::Roberts => {
-                let [_, here, below] = rows;
-                // The window's middle is the pixel.
-                for ((value, here), below) in out.iter_mut().zip(here.windows(3)).zip(below.windows(3)) {
-                    let [a, b, c, d] = [here[1], here[2], below[1], below[2]].map(i16::from);
-                    *value = f(a - d, b - c);
-                }
-            }
-        }
-    }
-
-    /// The pair of masks with (1 `MIDDLE` 1) across.
-    #[inline]
-    fn separable<const MIDDLE: i16, T>(
+    pub(super) fn across<const OUTER: i16, const MIDDLE: i16, T>(
         &mut self,
         [above, here, below]: [&[u8]; 3],
         out: &mut [T],
@@ -95,11 +68,21 @@ impl GradientRows {
         for ((((column, difference), &a), &b), &c) in
             self.columns.iter_mut().zip(&mut self.differences).zip(above).zip(here).zip(below)
         {
-            *column = i16::from(a) + MIDDLE * i16::from(b) + i16::from(c);
+            *column = OUTER * i16::from(a) + MIDDLE * i16::from(b) + OUTER * i16::from(c);
             *difference = i16::from(c) - i16::from(a);
         }
         for ((value, c), d) in out.iter_mut().zip(self.columns.windows(3)).zip(self.differences.windows(3)) {
-            *value = f(c[2] - c[0], d[0] + MIDDLE * d[1] + d[2]);
+            *value = f(c[2] - c[0], OUTER * d[0] + MIDDLE * d[1] + OUTER * d[2]);
+        }
+    }
+
+    /// The same from the differences of the two diagonals of the square right below the pixel.
+    #[inline]
+    pub(super) fn diagonals<T>(&mut self, [_, here, below]: [&[u8]; 3], out: &mut [T], f: impl Fn(i16, i16) -> T) {
+        // The window's middle is the pixel.
+        for ((value, here), below) in out.iter_mut().zip(here.windows(3)).zip(below.windows(3)) {
+            let [a, b, c, d] = [here[1], here[2], below[1], below[2]].map(i16::from);
+            *value = f(a - d, b - c);
         }
     }
 }

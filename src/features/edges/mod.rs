@@ -1,6 +1,7 @@
 //! Edges: grey, 3×3 Gauss, an operator, threshold; kept near the silhouette (METHOD A5.2).
 
 mod canny;
+mod detector;
 mod gradient;
 mod laplace;
 mod smooth;
@@ -10,44 +11,37 @@ use serde::Deserialize;
 
 pub use gradient::Magnitude;
 
+pub(super) use self::detector::Detector;
+
 use self::canny::Gradients;
-use self::gradient::{Gradient, GradientRows};
-use self::laplace::{Laplacian, crosses_zero};
+use self::detector::{MarkRow, RespondRow};
+use self::gradient::GradientRows;
+use self::laplace::crosses_zero;
 use self::smooth::SmoothPicture;
 use super::blobs::Components;
 use super::{BitImage, Region};
 use crate::files::choices;
 
 choices! {
-    /// What finds the edges. `glsl/features/edges.comp` knows them by their places in this list.
-    "edge operator" pub enum Operator => detector: Detector {
+    /// What finds the edges. An operator of other weights is a line here; `glsl/features/edges.comp` takes them from it.
+    "edge operator" pub enum Operator => pub(super) detector: Detector {
         /// Two perpendicular Sobels: a straight step of `s` grey levels has magnitude 3 `s` when smoothed, 4 `s` when not.
-        "sobel" Sobel => Detector::Gradient(Gradient::Sobel),
+        "sobel" Sobel => Detector::across::<1, 2>(),
         /// Two perpendicular Prewitts: three quarters of that.
-        "prewitt" Prewitt => Detector::Gradient(Gradient::Prewitt),
+        "prewitt" Prewitt => Detector::across::<1, 1>(),
         /// The differences along two diagonals, half a pixel right below: a quarter of Sobel's and less smooth.
-        "roberts" Roberts => Detector::Gradient(Gradient::Roberts),
+        "roberts" Roberts => Detector::diagonals(),
         /// Zero crossings of the mask 0 1 0, 1 -4 1, 0 1 0.
-        "laplace4" LaplaceFour => Detector::ZeroCrossings(Laplacian::Four),
+        "laplace4" LaplaceFour => Detector::crossings::<0, 1, -4>(),
         /// Zero crossings of the mask 1 1 1, 1 -8 1, 1 1 1.
-        "laplace8" LaplaceEight => Detector::ZeroCrossings(Laplacian::Eight),
+        "laplace8" LaplaceEight => Detector::crossings::<1, 1, -8>(),
+        // The product of the two second differences: it sees corners and texture, and no straight edge along a row or a column.
         /// Zero crossings of the mask 1 -2 1, -2 4 -2, 1 -2 1.
-        "laplace-product" LaplaceProduct => Detector::ZeroCrossings(Laplacian::Product),
+        "laplace-product" LaplaceProduct => Detector::crossings::<1, -2, 4>(),
         /// Sobels, thinned across the edge; what is weaker than `threshold` and at least `low` strong counts where it hangs
         /// together with something stronger.
         "canny" Canny => Detector::Canny,
     }
-}
-
-/// What an operator does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Detector {
-    /// Marks strong gradients.
-    Gradient(Gradient),
-    /// Marks zero crossings of a Laplacian.
-    ZeroCrossings(Laplacian),
-    /// Thins gradients and follows them.
-    Canny,
 }
 
 /// How edges are found.
@@ -94,8 +88,8 @@ impl EdgeDetector {
         edges.clear();
         let Some(region) = within.bounds() else { return };
         match settings.operator.detector() {
-            Detector::Gradient(masks) => self.gradient(picture, region, masks, settings, edges),
-            Detector::ZeroCrossings(mask) => self.laplace(picture, region, mask, settings, edges),
+            Detector::Gradient(mark, _) => self.gradient(picture, region, mark, settings, edges),
+            Detector::ZeroCrossings(respond, _) => self.laplace(picture, region, respond, settings, edges),
             Detector::Canny => self.canny(picture, region, settings, edges),
         }
         edges.and(within);
@@ -110,29 +104,17 @@ impl EdgeDetector {
         &mut self,
         picture: &RgbImage,
         region: Region,
-        gradient: Gradient,
+        mark: MarkRow,
         settings: &EdgeSettings,
         edges: &mut BitImage,
     ) {
         self.smooth.take(picture, region, settings.smooth);
         self.flags.clear();
         self.flags.resize(picture.width() as usize, 0);
-        let threshold = settings.threshold;
         for y in region.y0..region.y1 {
             let rows = self.smooth.around((y - region.y0) as usize);
             let flags = &mut self.flags[region.x0 as usize..region.x1 as usize];
-            // The choice is made outside the loops over pixels, which then have no branch.
-            match settings.magnitude {
-                Magnitude::Exact => {
-                    self.rows.map(gradient, rows, flags, |gx, gy| u8::from(Magnitude::Exact.reaches(gx, gy, threshold)))
-                }
-                Magnitude::Sum => {
-                    self.rows.map(gradient, rows, flags, |gx, gy| u8::from(Magnitude::Sum.reaches(gx, gy, threshold)))
-                }
-                Magnitude::Max => {
-                    self.rows.map(gradient, rows, flags, |gx, gy| u8::from(Magnitude::Max.reaches(gx, gy, threshold)))
-                }
-            }
+            mark(&mut self.rows, rows, flags, settings.magnitude, settings.threshold);
             edges.pack_row(y as usize, &self.flags);
         }
     }
@@ -142,7 +124,7 @@ impl EdgeDetector {
         &mut self,
         picture: &RgbImage,
         region: Region,
-        mask: Laplacian,
+        respond: RespondRow,
         settings: &EdgeSettings,
         edges: &mut BitImage,
     ) {
@@ -152,7 +134,7 @@ impl EdgeDetector {
         self.smooth.take(picture, outer, settings.smooth);
         self.responses.resize(width * height, 0);
         for (y, responses) in self.responses.chunks_exact_mut(width).take(height).enumerate() {
-            mask.row(self.smooth.around(y), responses);
+            respond(self.smooth.around(y), responses);
         }
         self.flags.clear();
         self.flags.resize(picture.width() as usize, 0);
@@ -179,7 +161,7 @@ impl EdgeDetector {
         self.smooth.take(picture, outer, settings.smooth);
         self.gradients.resize(outer.width() as usize, outer.height() as usize);
         for y in 0..outer.height() as usize {
-            self.rows.map(Gradient::Sobel, self.smooth.around(y), self.gradients.row_mut(y), |gx, gy| (gx, gy));
+            self.rows.across::<1, 2, _>(self.smooth.around(y), self.gradients.row_mut(y), |gx, gy| (gx, gy));
         }
         let magnitude = settings.magnitude;
         let [low, high] = [settings.low, settings.threshold].map(|threshold| magnitude.order_of(threshold));
