@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::pairs::{CameraPairs, Pair, add, camera_name, pixel};
 use super::table::each_row;
-use crate::files::shortened;
+use crate::files::{nearest, shortened};
 use crate::motion::{PointTrajectory, whole};
 
 /// A marker in one picture.
@@ -51,7 +51,7 @@ pub fn join_tracks(tracks: &[TrackedPoint], markers: &PointTrajectory) -> Result
     let mut cameras = Vec::new();
     for tracked in tracks {
         let Some(column) = markers.column(&tracked.marker) else {
-            let nearest = markers.names.iter().min_by_key(|name| strsim::damerau_levenshtein(name, &tracked.marker));
+            let nearest = nearest(&tracked.marker, markers.names.iter().map(String::as_str));
             let nearest = nearest.map(|name| format!(", the nearest is `{}`", shortened(name))).unwrap_or_default();
             anyhow::bail!("there is no marker `{}`{nearest}", shortened(&tracked.marker));
         };

@@ -7,7 +7,7 @@ use anyhow::{Context, Result, anyhow};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::shortened;
+use super::{nearest, shortened};
 
 /// Files a person edits are small; anything larger is a mistake (a video handed over as a body, say) and reading it
 /// whole would only waste memory.
@@ -67,9 +67,7 @@ fn one_sentence(message: &str) -> String {
     let found = &shortened(found);
     // What follows alternates between text and quoted names.
     let known: Vec<&str> = quoted.skip(1).step_by(2).collect();
-    let nearest =
-        known.iter().min_by(|a, b| strsim::damerau_levenshtein(found, a).cmp(&strsim::damerau_levenshtein(found, b)));
-    match nearest {
+    match nearest(found, known.iter().copied()) {
         Some(nearest) => {
             format!("unknown key `{found}`, the nearest known key is `{nearest}` (known: {})", known.join(", "))
         }

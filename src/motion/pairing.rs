@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use anyhow::{Result, bail, ensure};
 
 use super::points::PointTrajectory;
+use crate::files::nearest;
 
 /// Which of our points stands for which point of the truth.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,8 +110,8 @@ impl PointPairs {
 
 fn known(points: &PointTrajectory, name: &str, whose: &str) -> Result<()> {
     if points.column(name).is_none() {
-        let nearest = points.names.iter().min_by_key(|known| strsim::damerau_levenshtein(name, known));
-        bail!("{whose} has no point `{name}`, the nearest name is `{}`", nearest.map_or("", String::as_str));
+        let nearest = nearest(name, points.names.iter().map(String::as_str)).unwrap_or_default();
+        bail!("{whose} has no point `{name}`, the nearest name is `{nearest}`");
     }
     Ok(())
 }

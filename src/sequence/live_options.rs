@@ -3,6 +3,8 @@
 
 use anyhow::{Result, bail};
 
+use crate::files::nearest;
+
 /// Options with one value.
 const WITH_VALUE: [&str; 28] = [
     "f",
@@ -52,8 +54,7 @@ pub(super) fn check(options: &[String]) -> Result<()> {
         }
         if !WITH_VALUE.contains(&name) {
             let known = WITH_VALUE.iter().chain(&ALONE);
-            let nearest =
-                known.min_by_key(|known| strsim::damerau_levenshtein(known, name)).copied().unwrap_or_default();
+            let nearest = nearest(name, known.copied()).unwrap_or_default();
             bail!("`input` has {option:?}, which is none of the options taken here; the nearest is \"-{nearest}\"");
         }
         if options.next().is_none() {

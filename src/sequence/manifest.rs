@@ -11,7 +11,7 @@ use super::live_options;
 use super::pictures::{PicturePattern, picture_size, shown};
 use super::source::{LiveSource, Source};
 use super::video::{VideoInfo, probe_video};
-use crate::files::{parse_toml, read_toml};
+use crate::files::{nearest, parse_toml, read_toml};
 use crate::geometry::Camera;
 
 /// A sequence: synchronised pictures of calibrated cameras, and what belongs to them (METHOD A2, FORMATS).
@@ -269,9 +269,8 @@ fn find_camera<'a>(cameras: &'a [Camera], name: &str) -> Option<&'a Camera> {
 }
 
 fn unknown_camera(path: &Path, cameras_path: &Path, cameras: &[Camera], name: &str) -> anyhow::Error {
-    let nearest = cameras.iter().min_by_key(|camera| strsim::damerau_levenshtein(&camera.name, name));
-    let nearest =
-        nearest.map_or_else(|| "it has no cameras".to_string(), |near| format!("the nearest is {:?}", near.name));
+    let nearest = nearest(name, cameras.iter().map(|camera| camera.name.as_str()));
+    let nearest = nearest.map_or_else(|| "it has no cameras".to_string(), |near| format!("the nearest is {near:?}"));
     anyhow!("{}: {} has no camera {name:?}, {nearest}", path.display(), cameras_path.display())
 }
 

@@ -35,12 +35,9 @@ pub fn write_cameras_toml(path: &Path, cameras: &[Camera], overwrite: Overwrite)
 fn write_text(text: &mut String, cameras: &[Camera]) -> std::fmt::Result {
     for camera in cameras {
         let quoted = quoted(&camera.name);
-        let table = key(&camera.name, &quoted);
-        if camera.name == "metadata" {
-            "\"camera metadata\"".to_string()
-        } else {
-            key(&camera.name, &quoted)
-        };
+        // The table `[metadata]` is the units': whoever reads the file back is to hear of the name, not of two tables.
+        let is_taken = camera.name == "metadata";
+        let table = if is_taken { "\"camera metadata\"".to_string() } else { key(&camera.name, &quoted) };
         let [width, height] = camera.size;
         writeln!(text, "[{table}]\nname = {quoted}\nsize = [{width}, {height}]")?;
         match camera.lens {

@@ -184,6 +184,14 @@ proptest! {
 }
 
 #[test]
+fn a_camera_of_the_name_of_the_units_table_is_refused_by_its_name() {
+    let mut cameras = parse_cameras_toml(TWO, "calib.toml").unwrap();
+    cameras[0].name = "metadata".into();
+    let message = sentence(parse_cameras_toml(&cameras_toml(&cameras), "cameras.toml"));
+    assert!(message.contains("a camera is named `metadata`, expected another name"), "{message}");
+}
+
+#[test]
 fn writing_keeps_to_the_rules_of_files() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("cameras.toml");
