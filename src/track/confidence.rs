@@ -237,7 +237,7 @@ pub(super) fn seen_joints(body: &Body, cameras: &[Camera], observations: &[Obser
 
 #[cfg(test)]
 mod tests {
-    use super::super::fit_tests::{room, seen};
+    use super::super::fit_tests::{cameras_around, seen};
     use super::*;
 
     fn result(fitness: f32, views: &[f32], spread: f32) -> FrameResult {
@@ -313,7 +313,7 @@ mod tests {
 
     #[test]
     fn joints_are_seen_on_silhouettes() {
-        let (body, cameras) = (Body::adult(1700.0).unwrap(), room());
+        let (body, cameras) = (Body::adult(1700.0).unwrap(), cameras_around());
         let pose = body.standing_pose();
         let mut observations = seen(&body, &cameras, &pose);
         let single: Vec<f32> = pose.iter().map(|value| *value as f32).collect();

@@ -12,7 +12,7 @@ use crate::geometry::{BrownConrady, Camera, Lens};
 use crate::sequence::{Sequence, write_cameras_toml};
 
 /// Three cameras round the origin, 4.5 m away and a little above the chest.
-pub(super) fn room() -> Vec<Camera> {
+pub(super) fn cameras_around() -> Vec<Camera> {
     let lens = Lens::BrownConrady(BrownConrady {
         focal: DVec2::splat(260.0),
         centre: DVec2::new(99.5, 119.5),
@@ -87,7 +87,7 @@ fn a_drawn_person_is_measured() {
     for (name, degrees) in [("pelvis.rz", 35.0_f64), ("left_shoulder.rx", 80.0), ("right_shoulder.rx", -85.0)] {
         pose[dofs.iter().position(|dof| dof == name).unwrap()] = degrees.to_radians();
     }
-    let cameras = room();
+    let cameras = cameras_around();
     let folder = tempfile::tempdir().unwrap();
     write_sequence(folder.path(), &cameras, &seen(&person, &cameras, &pose));
     let sequence = Sequence::open_unfitted(folder.path()).unwrap();
@@ -132,7 +132,7 @@ fn a_drawn_person_is_measured() {
 
 #[test]
 fn what_cannot_be_measured_is_said() {
-    let cameras = room();
+    let cameras = cameras_around();
     let folder = tempfile::tempdir().unwrap();
     let body = Body::adult(1700.0).unwrap();
     write_sequence(folder.path(), &cameras, &seen(&body, &cameras, &body.standing_pose()));

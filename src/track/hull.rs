@@ -113,13 +113,13 @@ fn outer(d: DVec3) -> DMat3 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fit_tests::{room, seen};
+    use super::super::fit_tests::{cameras_around, seen};
     use super::*;
     use crate::body::Body;
 
     #[test]
     fn a_drawn_person_is_found_at_his_place_and_height() {
-        let cameras = room();
+        let cameras = cameras_around();
         let body = Body::adult(1700.0).unwrap();
         let mut pose = body.standing_pose();
         (pose[0], pose[1]) = (420.0, -310.0);
@@ -131,7 +131,7 @@ mod tests {
 
     #[test]
     fn too_little_is_said() {
-        let cameras = room();
+        let cameras = cameras_around();
         let nothing: Vec<Observation> = cameras.iter().map(|c| Observation::empty(c.size[0], c.size[1])).collect();
         let error = Hull::carve(&cameras, &nothing).unwrap_err().to_string();
         assert!(error.contains("0 of 3 cameras see a silhouette"), "{error}");

@@ -28,8 +28,8 @@ pub(super) struct HostBuffers {
 
 impl HostBuffers {
     /// For so many candidates.
-    pub(super) fn new(model: &DeviceScene, candidates: u32) -> Result<Self> {
-        let (device, counts) = (&model.device, model.counts);
+    pub(super) fn new(scene: &DeviceScene, candidates: u32) -> Result<Self> {
+        let (device, counts) = (&scene.device, scene.counts);
         let count = candidates as usize;
         let images = count * counts.views as usize;
         Ok(Self {
@@ -44,10 +44,10 @@ impl HostBuffers {
     pub(super) fn record_poses(
         &self,
         recorder: &mut Recorder,
-        (model, workspace): (&DeviceScene, &Workspace),
+        (scene, workspace): (&DeviceScene, &Workspace),
         candidates: u32,
     ) -> Result<()> {
-        let bytes = u64::from(candidates) * u64::from(model.counts.dofs) * size_of::<f32>() as u64;
+        let bytes = u64::from(candidates) * u64::from(scene.counts.dofs) * size_of::<f32>() as u64;
         recorder.copy("upload poses", (&self.poses_in, 0), (&workspace.poses, 0), bytes)
     }
 
@@ -61,23 +61,23 @@ impl HostBuffers {
     pub(super) fn record_sums(
         &self,
         recorder: &mut Recorder,
-        (model, workspace): (&DeviceScene, &Workspace),
+        (scene, workspace): (&DeviceScene, &Workspace),
         candidates: u32,
     ) -> Result<()> {
-        let bytes = u64::from(candidates) * u64::from(model.counts.views) * size_of::<layout::Sums>() as u64;
+        let bytes = u64::from(candidates) * u64::from(scene.counts.views) * size_of::<layout::Sums>() as u64;
         recorder.copy("read sums", (&workspace.sums, 0), (&self.sums_out, 0), bytes)
     }
 
     /// The components of a finished run; what the host itself counted stands for the device's sums.
     pub(super) fn read_components(
         &self,
-        model: &DeviceScene,
+        scene: &DeviceScene,
         counts: &HostCounts,
         components: &mut [Components],
     ) -> Result<()> {
         let mut sums: Vec<layout::Sums> = bytemuck::zeroed_vec(components.len());
         self.sums_out.read(0, &mut sums)?;
-        let areas: Vec<u32> = model.observed_areas().collect();
+        let areas: Vec<u32> = scene.observed_areas().collect();
         for (index, (components, sums)) in components.iter_mut().zip(&sums).enumerate() {
             let layout::Sums { area_model, overlap, edges, proximity } =
                 counts.sums.get(index).copied().flatten().unwrap_or(*sums);

@@ -17,7 +17,7 @@ pub(crate) struct DeviceSegments {
     segments: Arc<Segments>,
     /// Weights, the number of each label, observed areas.
     pub(super) table: StagedBuffer,
-    /// A word a segment for 32 pixels of a row, in the order of the model's planes.
+    /// A word a segment for 32 pixels of a row, in the order of the scene's planes.
     pub(super) planes: StagedBuffer,
     /// Observed pixels, `[view][segment]`, in rows of the most segments.
     areas: Vec<u32>,
@@ -28,30 +28,30 @@ pub(crate) struct DeviceSegments {
 
 impl DeviceSegments {
     /// For runs of so many candidates.
-    pub(super) fn new(model: &DeviceScene, segments: &Arc<Segments>, candidates: u32) -> Result<Self> {
-        let device = &model.device;
-        let words = model.planes.buffer.size() as usize / size_of::<u32>();
-        let table = size_of::<layout::SegmentTableHeader>() / 4 + model.sizes.len() * Segments::MOST;
-        let [sums, sums_out] = Self::room(model, candidates)?;
+    pub(super) fn new(scene: &DeviceScene, segments: &Arc<Segments>, candidates: u32) -> Result<Self> {
+        let device = &scene.device;
+        let words = scene.planes.buffer.size() as usize / size_of::<u32>();
+        let table = size_of::<layout::SegmentTableHeader>() / 4 + scene.sizes.len() * Segments::MOST;
+        let [sums, sums_out] = Self::buffers(scene, candidates)?;
         Ok(Self {
             segments: Arc::clone(segments),
             table: StagedBuffer::new::<u32>(device, "segments", table)?,
             planes: StagedBuffer::of(device, "observed segments", &vec![0_u32; words])?,
-            areas: vec![0; model.sizes.len() * Segments::MOST],
+            areas: vec![0; scene.sizes.len() * Segments::MOST],
             sums,
             sums_out,
         })
     }
 
-    fn room(model: &DeviceScene, candidates: u32) -> Result<[Buffer; 2]> {
-        let count = candidates as usize * model.sizes.len() * Segments::MOST;
-        let sums = |name, memory| model.device.buffer::<layout::SegmentSum>(name, count, memory);
+    fn buffers(scene: &DeviceScene, candidates: u32) -> Result<[Buffer; 2]> {
+        let count = candidates as usize * scene.sizes.len() * Segments::MOST;
+        let sums = |name, memory| scene.device.buffer::<layout::SegmentSum>(name, count, memory);
         Ok([sums("segment sums", Memory::Device)?, sums("segment sums readback", Memory::Readback)?])
     }
 
     /// Makes room for runs of so many candidates.
-    pub(super) fn reserve(&mut self, model: &DeviceScene, candidates: u32) -> Result<()> {
-        [self.sums, self.sums_out] = Self::room(model, candidates)?;
+    pub(super) fn reserve(&mut self, scene: &DeviceScene, candidates: u32) -> Result<()> {
+        [self.sums, self.sums_out] = Self::buffers(scene, candidates)?;
         Ok(())
     }
 
@@ -60,7 +60,7 @@ impl DeviceSegments {
     }
 
     /// Takes the observations of a frame, which have these segments.
-    pub(super) fn observe(&mut self, model: &DeviceScene, observations: &[Observation]) -> Result<()> {
+    pub(super) fn observe(&mut self, scene: &DeviceScene, observations: &[Observation]) -> Result<()> {
         let mut header: layout::SegmentTableHeader = bytemuck::Zeroable::zeroed();
         for (weight, segment) in header.weights.iter_mut().zip(self.segments.as_slice()) {
             *weight = segment.weight;
@@ -70,7 +70,7 @@ impl DeviceSegments {
         }
         self.areas.clear();
         for (segmentation, first) in
-            observations.iter().filter_map(|view| view.segmentation.as_ref()).zip(model.first_plane_words())
+            observations.iter().filter_map(|view| view.segmentation.as_ref()).zip(scene.first_plane_words())
         {
             let mut of_view = segmentation.areas();
             of_view.resize(Segments::MOST, 0);

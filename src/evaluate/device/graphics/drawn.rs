@@ -37,22 +37,22 @@ impl Drawn {
         Ok(Self::Flat(FlatDrawing::new(device, parts, packing, coverage)?))
     }
 
-    /// The mesh of a projector that `model` was made of.
-    pub(super) fn mesh(device: &Device, model: &DeviceScene, projector: &MeshProjector) -> Result<Self> {
+    /// The mesh of a projector that `scene` was made of.
+    pub(super) fn mesh(device: &Device, scene: &DeviceScene, projector: &MeshProjector) -> Result<Self> {
         let mesh = DeviceMesh::new(device, projector)?;
         let [bind, skin] = skin_stages(mesh.skinning);
         device.compile(&[bind, skin, outline_comp::stage()])?;
         Ok(Self::Mesh(Box::new(DrawnMesh {
             pipelines: mesh_pipelines(device)?,
-            workspace: MeshWorkspace::new(device, model.counts, &mesh, 1)?,
+            workspace: MeshWorkspace::new(device, scene.counts, &mesh, 1)?,
             mesh,
         })))
     }
 
     /// Makes room for batches of `candidates`, or as many as fit.
-    pub(super) fn reserve(&mut self, model: &DeviceScene, candidates: u32) -> Result<()> {
+    pub(super) fn reserve(&mut self, scene: &DeviceScene, candidates: u32) -> Result<()> {
         if let Self::Mesh(drawn) = self {
-            drawn.workspace = MeshWorkspace::new(&model.device, model.counts, &drawn.mesh, candidates)?;
+            drawn.workspace = MeshWorkspace::new(&scene.device, scene.counts, &drawn.mesh, candidates)?;
         }
         Ok(())
     }
@@ -71,9 +71,9 @@ impl Drawn {
     }
 
     /// The largest label of what is drawn.
-    pub(super) fn largest_label(&self, model: &DeviceScene) -> u32 {
+    pub(super) fn largest_label(&self, scene: &DeviceScene) -> u32 {
         match self {
-            Self::Flat(_) => model.labels.iter().copied().max().map_or(0, u32::from),
+            Self::Flat(_) => scene.labels.iter().copied().max().map_or(0, u32::from),
             Self::Mesh(drawn) => drawn.mesh.largest_label,
         }
     }
