@@ -2,27 +2,27 @@
 
 use anyhow::Result;
 
-use super::FrameRecording;
+use super::frame::{DeviceForm, FrameRecording};
 use crate::gpu::Groups;
-use crate::search::SearchSettings;
 use crate::search::shaders::{layer_comp, weigh_comp};
+use crate::search::{AnnealingSettings, SearchSpace};
 
-impl FrameRecording<'_> {
+impl DeviceForm for AnnealingSettings {
     /// Records a frame of the annealed filter: its layers, each with its weights, then the mean of the last and its own
     /// evaluation.
-    pub(super) fn annealed(&mut self, settings: &SearchSettings) -> Result<()> {
-        let (extent, memory) = (self.extent, self.memory);
-        let previous = self.values("previous particles", extent.candidates, extent.dofs)?;
-        let weights = self.values("weights", extent.candidates, 1)?;
-        let cumulated = self.values("sums of weights", extent.candidates, 2)?;
-        let sharpness = self.values("sharpness", 1, 1)?;
+    fn record(&self, frame: &mut FrameRecording, _: &SearchSpace, iterations: usize) -> Result<()> {
+        let (extent, memory) = (frame.extent, frame.memory);
+        let previous = frame.values("previous particles", extent.candidates, extent.dofs)?;
+        let weights = frame.values("weights", extent.candidates, 1)?;
+        let cumulated = frame.values("sums of weights", extent.candidates, 2)?;
+        let sharpness = frame.values("sharpness", 1, 1)?;
         // Particles live where the evaluator takes them from.
-        let (positions, fitness) = (self.evaluator.poses().clone(), self.evaluator.fitness().clone());
+        let (positions, fitness) = (frame.evaluator.poses().clone(), frame.evaluator.fitness().clone());
 
-        self.recorder.fill("sharpness", &sharpness, 0)?;
-        for layer in 0..settings.iterations {
+        frame.recorder.fill("sharpness", &sharpness, 0)?;
+        for layer in 0..iterations {
             if layer > 0 {
-                self.recorder.copy("keep", (&positions, 0), (&previous, 0), previous.size())?;
+                frame.recorder.copy("keep", (&positions, 0), (&previous, 0), previous.size())?;
             }
             let bindings = layer_comp::Bindings {
                 frame: &memory.frame.buffer,
@@ -31,10 +31,10 @@ impl FrameRecording<'_> {
                 cumulated: &cumulated,
                 positions: &positions,
             };
-            let noise = settings.annealing.noise_of(layer, settings.iterations);
+            let noise = self.noise_of(layer, iterations);
             let push = layer_comp::Push { particles: extent.candidates, dofs: extent.dofs, layer: layer as u32, noise };
-            self.recorder.run(bindings.dispatch(push, extent.block_groups(self.recorder.device())))?;
-            self.evaluate(extent.candidates)?;
+            frame.recorder.run(bindings.dispatch(push, extent.block_groups(frame.recorder.device())))?;
+            frame.evaluate(extent.candidates)?;
             let bindings = weigh_comp::Bindings {
                 fitness: &fitness,
                 outcome: &memory.outcome,
@@ -43,10 +43,10 @@ impl FrameRecording<'_> {
                 cumulated: &cumulated,
                 sharpness: &sharpness,
             };
-            let survival = settings.annealing.survival;
+            let survival = self.survival;
             let push = weigh_comp::Push { count: extent.candidates, dofs: extent.dofs, survival };
-            self.recorder.run(bindings.dispatch(push, Groups::Count([1; 3])))?;
+            frame.recorder.run(bindings.dispatch(push, Groups::Count([1; 3])))?;
         }
-        self.estimate_mean(&positions, &weights, extent.candidates)
+        frame.estimate_mean(&positions, &weights, extent.candidates)
     }
 }

@@ -2,13 +2,13 @@
 
 use anyhow::{Result, bail};
 
-use super::FrameRecording;
+use super::frame::{DeviceForm, FrameRecording};
 use crate::gpu::{Buffer, Groups, Memory};
 use crate::search::kinds::{Rates, generations};
 use crate::search::shaders::{
     SEARCH_GROUP, begin_comp, choose_comp, follow_comp, rank_comp, sample_comp, settle_comp, turn_comp,
 };
-use crate::search::{MatrixSettings, SearchSettings};
+use crate::search::{MatrixSettings, SearchSpace};
 
 /// What an evolution keeps between its stages.
 struct Evolution {
@@ -26,13 +26,13 @@ struct Evolution {
     rates: Vec<(u32, u32, Rates)>,
 }
 
-impl FrameRecording<'_> {
+impl DeviceForm for MatrixSettings {
     /// Records a frame of the evolution: its generations, then the mean of the last and its own evaluation.
-    pub(super) fn evolution(&mut self, settings: &SearchSettings) -> Result<()> {
-        let (extent, memory) = (self.extent, self.memory);
+    fn record(&self, frame: &mut FrameRecording, _: &SearchSpace, iterations: usize) -> Result<()> {
+        let (extent, memory) = (frame.extent, frame.memory);
         let dofs = extent.dofs;
-        let MatrixSettings { sigma, generation } = settings.matrix;
-        let evolution = self.evolution_memory(settings)?;
+        let MatrixSettings { sigma, generation } = *self;
+        let evolution = frame.evolution_memory(generation)?;
         let each = Groups::Count([dofs.div_ceil(SEARCH_GROUP), dofs, 1]);
         let bindings = begin_comp::Bindings {
             frame: &memory.frame.buffer,
@@ -40,11 +40,11 @@ impl FrameRecording<'_> {
             evolution: &evolution.state,
             matrix: &evolution.matrix[0],
         };
-        self.recorder.run(bindings.dispatch(begin_comp::Push { dofs, sigma }, each))?;
+        frame.recorder.run(bindings.dispatch(begin_comp::Push { dofs, sigma }, each))?;
         let mut done = 0;
-        for iteration in 0..settings.iterations as u32 {
-            for range in generations(settings.particles, generation) {
-                self.generation(&evolution, iteration, [range.start as u32, range.len() as u32], done)?;
+        for iteration in 0..iterations as u32 {
+            for range in generations(extent.candidates as usize, generation) {
+                frame.generation(&evolution, iteration, [range.start as u32, range.len() as u32], done)?;
                 done += 1;
             }
         }
@@ -56,17 +56,19 @@ impl FrameRecording<'_> {
             matrix,
         };
         let groups = Groups::Count([dofs.div_ceil(SEARCH_GROUP), 1, 1]);
-        self.recorder.run(bindings.dispatch(settle_comp::Push { dofs }, groups))?;
-        self.evaluate_mean()?;
-        let (fitness, sums) = (self.evaluator.fitness().clone(), self.evaluator.sums().clone());
+        frame.recorder.run(bindings.dispatch(settle_comp::Push { dofs }, groups))?;
+        frame.evaluate_mean()?;
+        let (fitness, sums) = (frame.evaluator.fitness().clone(), frame.evaluator.sums().clone());
         let bindings =
             choose_comp::Bindings { fitness: &fitness, outcome: &memory.outcome, sums: &sums, best_sums: &memory.sums };
-        let push = choose_comp::Push { dofs, views: self.evaluator.views() as u32 };
-        self.recorder.run(bindings.dispatch(push, Groups::Count([1; 3])))?;
-        self.recorder.fill("no estimate", &memory.fitness, 0)?;
-        self.recorder.fill("no history", &memory.history, 0)
+        let push = choose_comp::Push { dofs, views: frame.evaluator.views() as u32 };
+        frame.recorder.run(bindings.dispatch(push, Groups::Count([1; 3])))?;
+        frame.recorder.fill("no estimate", &memory.fitness, 0)?;
+        frame.recorder.fill("no history", &memory.history, 0)
     }
+}
 
+impl FrameRecording<'_> {
     /// Records the samples `first..first + samples` of an iteration after `done` generations of the frame.
     fn generation(
         &mut self,
@@ -116,11 +118,11 @@ impl FrameRecording<'_> {
         self.recorder.run(bindings.dispatch(push, Groups::Count([dofs.div_ceil(SEARCH_GROUP), dofs, 1])))
     }
 
-    fn evolution_memory(&self, settings: &SearchSettings) -> Result<Evolution> {
+    fn evolution_memory(&self, generation: usize) -> Result<Evolution> {
         let (extent, device) = (self.extent, self.evaluator.device());
         let mut rates: Vec<(u32, u32, Rates)> = Vec::new();
         let mut ranked = Vec::new();
-        for range in generations(settings.particles, settings.matrix.generation) {
+        for range in generations(extent.candidates as usize, generation) {
             let count = range.len() as u32;
             if rates.iter().any(|(known, ..)| *known == count) {
                 continue;

@@ -1,26 +1,30 @@
 //! The search on a Vulkan device: all iterations of a frame in one submission, and only its result read back.
 //!
 //! It is the search of [`super::Pso`], [`super::HierarchicalPso`], [`super::ParticleFilter`], [`super::AnnealedFilter`] and MA-ES with
-//! the same random numbers and, operation by operation, the same arithmetic: given the same fitness it finds the same poses to the bit. What it does is recorded once; a frame
-//! writes its centre and spread, submits the recording and waits.
+//! the same random numbers and, operation by operation, the same arithmetic: given the same fitness it finds the same poses to the bit.
+//! What it does is recorded once; a frame writes its centre and spread, submits the recording and waits.
 
 mod annealed;
 mod evolution;
 mod filter;
+mod frame;
 mod swarm;
 #[cfg(test)]
 mod tests;
 
 use std::time::Instant;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 
-use super::kinds::{Answer, SwarmLevel};
-use super::shaders::{SEARCH_GROUP, layout, spread_comp};
-use super::{Estimate, SearchKind, SearchSettings, SearchSpace, check_start};
+pub(super) use frame::{DeviceForm, FrameRecording};
+use frame::{Extent, FrameMemory};
+
+use super::kinds::Answer;
+use super::shaders::layout;
+use super::{Estimate, SearchSettings, SearchSpace, check_start};
 use crate::evaluate::DeviceEvaluator;
 use crate::evaluate::Objective;
-use crate::gpu::{Buffer, Device, DevicePass, Groups, Memory, PassTiming, Recorder, Recording, StagedBuffer, Timing};
+use crate::gpu::{DevicePass, PassTiming, Recording, Timing};
 
 /// What a search on a device found in a frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,17 +78,7 @@ impl DeviceSearch {
         memory.frame.record_upload(&mut recorder)?;
         evaluator.record_upload(&mut recorder)?;
         let mut recording = FrameRecording { recorder: &mut recorder, evaluator, objective, extent, memory: &memory };
-        match settings.kind {
-            SearchKind::Pso => recording.swarm(settings, &[SwarmLevel::whole(space, settings.iterations)]),
-            SearchKind::Hierarchical => {
-                recording.swarm(settings, &settings.hierarchy.levels(space, settings.iterations))
-            }
-            SearchKind::ParticleFilter => recording.filter(settings),
-            SearchKind::Annealed => recording.annealed(settings),
-            SearchKind::MaEs => recording.evolution(settings),
-            kind => bail!("the search {:?} has no form for devices", kind.name()),
-        }
-        .with_context(|| {
+        settings.record(&mut recording, space).with_context(|| {
             let SearchSettings { particles, iterations, .. } = settings;
             format!("cannot record a search of {particles} particles and {iterations} iterations for the device")
         })?;
@@ -187,137 +181,4 @@ impl DeviceSearch {
 /// The number whose order `best.comp` keeps.
 fn value_of(key: u32) -> f32 {
     f32::from_bits(if key & 0x8000_0000 != 0 { key & 0x7FFF_FFFF } else { !key })
-}
-
-/// What goes to the device and comes back in every frame.
-struct FrameMemory {
-    device: Device,
-    frame: StagedBuffer,
-    outcome: Buffer,
-    /// Order of the best fitness after each iteration.
-    history: Buffer,
-    /// The fitness of a filter's estimate.
-    fitness: Buffer,
-    sums: Buffer,
-    readback: Buffer,
-    places: Places,
-}
-
-/// Where things begin in the readback, words. The outcome's header begins it.
-struct Places {
-    values: usize,
-    history: usize,
-    fitness: usize,
-    sums: usize,
-}
-
-impl FrameMemory {
-    fn new(device: &Device, dofs: usize, iterations: usize, views: usize) -> Result<Self> {
-        let frame = size_of::<layout::FrameHeader>() / 4 + 4 * dofs;
-        let header = size_of::<layout::OutcomeHeader>() / 4;
-        let outcome = header + 3 * dofs;
-        let places =
-            Places { values: header, history: outcome, fitness: outcome + iterations, sums: outcome + iterations + 1 };
-        let words = |name: &str, count: usize, memory| device.buffer::<u32>(name, count, memory);
-        Ok(Self {
-            device: device.clone(),
-            frame: StagedBuffer::new::<u32>(device, "search frame", frame)?,
-            outcome: words("search outcome", outcome, Memory::Device)?,
-            history: words("best of each iteration", iterations, Memory::Device)?,
-            fitness: words("estimate's fitness", 1, Memory::Device)?,
-            sums: words("estimate's sums", 4 * views, Memory::Device)?,
-            readback: words("search result", places.sums + 4 * views, Memory::Readback)?,
-            places,
-        })
-    }
-
-    fn record_readback(&self, recorder: &mut Recorder) -> Result<()> {
-        let Places { history, fitness, sums, .. } = self.places;
-        for (from, place) in
-            [(&self.outcome, 0), (&self.history, history), (&self.fitness, fitness), (&self.sums, sums)]
-        {
-            recorder.copy("readback", (from, 0), (&self.readback, 4 * place as u64), from.size())?;
-        }
-        Ok(())
-    }
-}
-
-/// How many candidates of how many values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Extent {
-    candidates: u32,
-    dofs: u32,
-}
-
-impl Extent {
-    /// Workgroups for one invocation a block of random numbers of every candidate: as many candidates in x as the device
-    /// allows and stacked in z, the dimensions in y.
-    fn block_groups(self, device: &Device) -> Groups<'static> {
-        /// Dimensions that [`BLOCKS`] blocks of random numbers serve.
-        const DIMENSIONS: u32 = 32;
-        const BLOCKS: u32 = 8;
-        let groups = self.candidates.div_ceil(SEARCH_GROUP / BLOCKS).max(1);
-        let row = groups.min(device.capabilities().max_groups);
-        Groups::Count([row, self.dofs.div_ceil(DIMENSIONS), groups.div_ceil(row)])
-    }
-}
-
-/// A frame being recorded.
-struct FrameRecording<'a> {
-    recorder: &'a mut Recorder,
-    evaluator: &'a mut dyn DeviceEvaluator,
-    objective: &'a Objective,
-    extent: Extent,
-    memory: &'a FrameMemory,
-}
-
-impl FrameRecording<'_> {
-    fn evaluate(&mut self, candidates: u32) -> Result<()> {
-        self.evaluator.record(self.recorder, self.objective, candidates)
-    }
-
-    /// As many ones.
-    fn ones(&mut self, name: &str, count: u32) -> Result<Buffer> {
-        let ones = self.values(name, count, 1)?;
-        self.recorder.fill("ones", &ones, 1.0_f32.to_bits())?;
-        Ok(ones)
-    }
-
-    /// The weighted mean of `count` rows, and its own evaluation.
-    fn estimate_mean(&mut self, rows: &Buffer, weights: &Buffer, count: u32) -> Result<()> {
-        let (extent, memory) = (self.extent, self.memory);
-        let factors = self.ones("everything moves", extent.dofs)?;
-        let bindings = spread_comp::Bindings {
-            frame: &memory.frame.buffer,
-            outcome: &memory.outcome,
-            rows,
-            weights,
-            factors: &factors,
-        };
-        let push = spread_comp::Push { count, dofs: extent.dofs, level: 0 };
-        self.recorder.run(bindings.dispatch(push, Groups::Count([extent.dofs, 1, 1])))?;
-        self.evaluate_mean()?;
-        let (fitness, sums) = (self.evaluator.fitness().clone(), self.evaluator.sums().clone());
-        self.recorder.copy("gather", (&fitness, 0), (&memory.fitness, 0), 4)?;
-        self.recorder.copy("gather", (&sums, 0), (&memory.sums, 0), memory.sums.size())?;
-        self.recorder.fill("no history", &memory.history, 0)
-    }
-
-    /// The evaluation of the mean that has been found.
-    fn evaluate_mean(&mut self) -> Result<()> {
-        let row = 4 * u64::from(self.extent.dofs);
-        let mean = 4 * self.memory.places.values as u64 + 2 * row;
-        let positions = self.evaluator.poses().clone();
-        self.recorder.copy("estimate", (&self.memory.outcome, mean), (&positions, 0), row)?;
-        self.evaluate(1)
-    }
-
-    /// A buffer of `count` values a particle.
-    fn values(&self, name: &str, particles: u32, count: u32) -> Result<Buffer> {
-        let len = usize::try_from(u64::from(particles) * u64::from(count))?;
-        let device = self.evaluator.device();
-        let (bytes, limit) = (4 * len as u64, device.capabilities().max_storage);
-        ensure!(bytes <= limit, "{name} take {bytes} bytes, and this device binds at most {limit} at once");
-        device.buffer::<f32>(name, len, Memory::Device)
-    }
 }

@@ -2,15 +2,27 @@
 
 use anyhow::Result;
 
-use super::{Extent, FrameRecording};
+use super::frame::{DeviceForm, Extent, FrameRecording};
 use crate::gpu::{Groups, Memory};
-use crate::search::SearchSettings;
-use crate::search::kinds::SwarmLevel;
+use crate::search::kinds::{SwarmHierarchy, SwarmLevel};
 use crate::search::shaders::{best_comp, move_comp, scatter_comp, spread_comp};
+use crate::search::{PsoSettings, SearchSpace};
+
+impl DeviceForm for PsoSettings {
+    fn record(&self, frame: &mut FrameRecording, space: &SearchSpace, iterations: usize) -> Result<()> {
+        frame.swarms(self, &[SwarmLevel::whole(space, iterations)])
+    }
+}
+
+impl DeviceForm for SwarmHierarchy {
+    fn record(&self, frame: &mut FrameRecording, space: &SearchSpace, iterations: usize) -> Result<()> {
+        frame.swarms(&self.swarm, &self.hierarchy.levels(space, iterations))
+    }
+}
 
 impl FrameRecording<'_> {
     /// Records a swarm after the other, each around the best pose of those before.
-    pub(super) fn swarm(&mut self, settings: &SearchSettings, levels: &[SwarmLevel]) -> Result<()> {
+    fn swarms(&mut self, settings: &PsoSettings, levels: &[SwarmLevel]) -> Result<()> {
         let (extent, memory) = (self.extent, self.memory);
         let Extent { candidates: particles, dofs } = extent;
         let device = self.evaluator.device().clone();
@@ -58,8 +70,8 @@ impl FrameRecording<'_> {
                 let mut push =
                     move_comp::Push { particles, dofs, iteration: 0, inertia: 0.0, cognitive: 0.0, social: 0.0 };
                 if done + 1 < level.iterations {
-                    let inertia = settings.pso.inertia_of(done + 1, level.iterations);
-                    let (cognitive, social) = (settings.pso.cognitive, settings.pso.social);
+                    let inertia = settings.inertia_of(done + 1, level.iterations);
+                    let (cognitive, social) = (settings.cognitive, settings.social);
                     push = move_comp::Push { iteration, inertia, cognitive, social, ..push };
                 }
                 let bindings = move_comp::Bindings {

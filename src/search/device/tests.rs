@@ -10,9 +10,9 @@ use std::time::Instant;
 
 use super::*;
 use crate::gpu::test_device::{device, device_under};
-use crate::gpu::{DeviceSettings, Groups, StagedBuffer, Validation, by_name};
+use crate::gpu::{Buffer, Device, DeviceSettings, Groups, Memory, Recorder, StagedBuffer, Validation, by_name};
 use crate::search::arithmetic::box_muller;
-use crate::search::{FilterSettings, Search, philox4x32};
+use crate::search::{FilterSettings, Search, SearchKind, philox4x32};
 
 #[allow(
     dead_code,

@@ -7,6 +7,7 @@ use toml::Table;
 use super::form::{Answer, Budget, SearchForm};
 use crate::files::table_of;
 use crate::search::arithmetic::Statistics;
+use crate::search::device::DeviceForm;
 use crate::search::weights::Weights;
 use crate::search::{Draw, Estimate, Fitness, Random, Search, SearchSpace, Stream, check_start};
 
@@ -53,8 +54,8 @@ impl SearchForm for AnnealingSettings {
         Answer::Mean
     }
 
-    fn has_device_form(&self) -> bool {
-        true
+    fn on_device(&self) -> Option<&dyn DeviceForm> {
+        Some(self)
     }
 }
 

@@ -3,6 +3,7 @@
 use anyhow::Result;
 use toml::Table;
 
+use crate::search::device::DeviceForm;
 use crate::search::{Search, SearchSpace};
 
 /// What a search of any kind is given.
@@ -48,8 +49,8 @@ pub(super) trait SearchForm {
         Answer::Best
     }
 
-    /// It has a form that runs whole on a device.
-    fn has_device_form(&self) -> bool {
-        false
+    /// Its form that runs whole on a device; one without is driven from the host.
+    fn on_device(&self) -> Option<&dyn DeviceForm> {
+        None
     }
 }

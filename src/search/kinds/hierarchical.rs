@@ -8,6 +8,7 @@ use toml::Table;
 use super::form::{Budget, SearchForm};
 use super::{Pso, PsoSettings};
 use crate::files::table_of;
+use crate::search::device::DeviceForm;
 use crate::search::{Estimate, Fitness, Search, SearchSpace, check_start};
 
 /// Constants of the hierarchy.
@@ -85,11 +86,11 @@ impl SwarmLevel {
 
 /// The hierarchical swarm by its constants and those of its swarms.
 #[derive(Serialize)]
-pub(super) struct SwarmHierarchy {
+pub(crate) struct SwarmHierarchy {
     #[serde(flatten)]
-    pub(super) swarm: PsoSettings,
+    pub(crate) swarm: PsoSettings,
     #[serde(flatten)]
-    pub(super) hierarchy: HierarchySettings,
+    pub(crate) hierarchy: HierarchySettings,
 }
 
 impl SearchForm for SwarmHierarchy {
@@ -110,8 +111,8 @@ impl SearchForm for SwarmHierarchy {
         table_of(self)
     }
 
-    fn has_device_form(&self) -> bool {
-        true
+    fn on_device(&self) -> Option<&dyn DeviceForm> {
+        Some(self)
     }
 }
 

@@ -12,6 +12,7 @@ use super::evolution::{Distribution, Evolution, generations};
 use super::form::{Answer, Budget, SearchForm};
 use crate::files::table_of;
 use crate::search::arithmetic::{exp_of_negative, reciprocal, root, sum_of_squares};
+use crate::search::device::DeviceForm;
 use crate::search::shaders::{LEAST_SIGMA, MOST_SIGMA};
 use crate::search::{Search, SearchSpace};
 
@@ -52,8 +53,8 @@ impl SearchForm for MatrixSettings {
         Answer::Better
     }
 
-    fn has_device_form(&self) -> bool {
-        true
+    fn on_device(&self) -> Option<&dyn DeviceForm> {
+        Some(self)
     }
 }
 

@@ -9,7 +9,7 @@ mod ma_es;
 mod particle_filter;
 mod pso;
 
-use anyhow::{Result, ensure};
+use anyhow::{Context as _, Result, ensure};
 use toml::Table;
 
 pub use annealed::{AnnealedFilter, AnnealingSettings};
@@ -17,14 +17,14 @@ pub use cma_es::CmaSettings;
 pub(super) use evolution::generations;
 pub(super) use form::Answer;
 use form::{Budget, SearchForm};
-use hierarchical::SwarmHierarchy;
-pub(super) use hierarchical::SwarmLevel;
+pub(super) use hierarchical::{SwarmHierarchy, SwarmLevel};
 pub use hierarchical::{HierarchicalPso, HierarchySettings};
 pub use ma_es::MatrixSettings;
 pub(super) use ma_es::Rates;
 pub use particle_filter::{FilterSettings, ParticleFilter};
 pub use pso::{Pso, PsoSettings};
 
+use super::device::FrameRecording;
 use super::refinement::{Refined, Refinement};
 use super::{Search, SearchSpace};
 use crate::files::choices;
@@ -79,7 +79,7 @@ impl SearchKind {
 
     /// Whether it has a form that runs whole on a device; the others are driven from the host.
     pub fn has_device_form(self) -> bool {
-        self.form_by_default().has_device_form()
+        self.form_by_default().on_device().is_some()
     }
 }
 
@@ -165,6 +165,16 @@ impl SearchSettings {
     /// When it cannot be a table.
     pub fn constants(&self) -> Result<Table> {
         self.kind.form()(self).constants()
+    }
+
+    /// Records a frame's iterations for a device.
+    ///
+    /// # Errors
+    /// When the search has no form for devices, and as [`DeviceForm::record`](super::device::DeviceForm::record).
+    pub(super) fn record(&self, frame: &mut FrameRecording, space: &SearchSpace) -> Result<()> {
+        let form = self.kind.form()(self);
+        let form = form.on_device().with_context(|| format!("the search {} has no form for devices", self.kind.name()))?;
+        form.record(frame, space, self.iterations)
     }
 
     /// Makes the search.

@@ -7,6 +7,7 @@ use toml::Table;
 use super::form::{Budget, SearchForm};
 use crate::files::table_of;
 use crate::search::arithmetic::Statistics;
+use crate::search::device::DeviceForm;
 use crate::search::philox::GROUP;
 use crate::search::{Draw, Estimate, Fitness, Random, Search, SearchSpace, Stream, check_start};
 
@@ -59,8 +60,8 @@ impl SearchForm for PsoSettings {
         table_of(self)
     }
 
-    fn has_device_form(&self) -> bool {
-        true
+    fn on_device(&self) -> Option<&dyn DeviceForm> {
+        Some(self)
     }
 }
 
