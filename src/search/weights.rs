@@ -1,8 +1,10 @@
 //! The weights of a filter's particles: from their fitness, as shares of the largest, and resampling by them.
 
-use super::arithmetic::exp_of_negative;
+use anyhow::{Result, bail, ensure};
+
+use super::arithmetic::{Statistics, exp_of_negative};
 use super::shaders::{ANNEAL_LANES, HALVINGS, LEAST_SHARPNESS, MOST_SHARPNESS};
-use super::{Random, Stream};
+use super::{Estimate, Fitness, Random, SearchSpace, Stream};
 
 /// What a share of 1 counts in the integer sums that resampling goes by.
 const WHOLE: f32 = 2_147_483_648.0;
@@ -18,10 +20,6 @@ pub(super) struct Weights {
 impl Weights {
     pub(super) fn new(count: usize) -> Self {
         Self { shares: vec![0.0; count], cumulated: vec![0; count] }
-    }
-
-    pub(super) fn shares(&self) -> &[f32] {
-        &self.shares
     }
 
     /// Sets the weights from the fitness of the first particles; those that were not scored get none. The common factor of
@@ -83,6 +81,30 @@ impl Weights {
             }
             row.copy_from_slice(&particles[chosen * dofs..(chosen + 1) * dofs]);
         }
+    }
+
+    /// The weighted mean of the particles, about the one with the largest weight, as [`Self::weigh`] gave it; scored as one pose more
+    /// than the `scored` ones of the frame.
+    ///
+    /// # Errors
+    /// When no particle, or the mean, has a finite fitness, or the scoring fails.
+    pub(super) fn estimate(
+        &self,
+        particles: &[f32],
+        nearest: Option<usize>,
+        space: &SearchSpace,
+        (frame, scored): (u32, usize),
+        fitness: &mut Fitness<'_>,
+    ) -> Result<Estimate> {
+        let Some(nearest) = nearest else { bail!("none of the {scored} poses of frame {frame} has a finite fitness") };
+        let dofs = space.dof_count();
+        let reference = &particles[nearest * dofs..(nearest + 1) * dofs];
+        let Statistics { mean: mut pose, deviation: spread } = Statistics::of(particles, &self.shares, reference);
+        space.clamp(&mut pose);
+        let mut score = [f32::NAN];
+        fitness(&pose, &mut score)?;
+        ensure!(score[0].is_finite(), "the estimate of frame {frame} has a fitness of {}", score[0]);
+        Ok(Estimate { pose, fitness: score[0], spread, evaluations: scored + 1 })
     }
 }
 

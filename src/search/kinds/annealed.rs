@@ -2,11 +2,8 @@
 
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
-use toml::Table;
 
 use super::form::{Answer, Budget, SearchForm};
-use crate::files::table_of;
-use crate::search::arithmetic::Statistics;
 use crate::search::device::DeviceForm;
 use crate::search::weights::Weights;
 use crate::search::{Draw, Estimate, Fitness, Random, Search, SearchSpace, Stream, check_start};
@@ -44,10 +41,6 @@ impl SearchForm for AnnealingSettings {
             ensure!((0.001..=1.0).contains(&value), "the annealing's {name} is {value}, expected 0.001 to 1");
         }
         Ok(())
-    }
-
-    fn constants(&self) -> Result<Table> {
-        table_of(self)
     }
 
     fn answer(&self) -> Answer {
@@ -166,19 +159,9 @@ impl Search for AnnealedFilter {
     }
 
     fn estimate(&mut self, fitness: &mut Fitness<'_>) -> Result<Estimate> {
-        let dofs = self.space.dof_count();
         let scored = self.done.unwrap_or(0) * self.fitness.len();
         ensure!(scored > 0, "the search has scored no pose yet, so there is nothing to estimate");
-        let Some(nearest) = self.weigh() else {
-            bail!("none of the {scored} poses of frame {} has a finite fitness", self.frame)
-        };
-        let reference = &self.particles[nearest * dofs..(nearest + 1) * dofs];
-        let shares = self.weights.shares();
-        let Statistics { mean: mut pose, deviation: spread } = Statistics::of(&self.particles, shares, reference);
-        self.space.clamp(&mut pose);
-        let mut score = [f32::NAN];
-        fitness(&pose, &mut score)?;
-        ensure!(score[0].is_finite(), "the estimate of frame {} has a fitness of {}", self.frame, score[0]);
-        Ok(Estimate { pose, fitness: score[0], spread, evaluations: scored + 1 })
+        let nearest = self.weigh();
+        self.weights.estimate(&self.particles, nearest, &self.space, (self.frame, scored), fitness)
     }
 }

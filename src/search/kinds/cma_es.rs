@@ -6,11 +6,9 @@ use std::ops::Range;
 
 use anyhow::{Result, ensure};
 use serde::Serialize;
-use toml::Table;
 
 use super::evolution::{Distribution, Evolution};
 use super::form::{Answer, Budget, SearchForm};
-use crate::files::table_of;
 use crate::search::{Search, SearchSpace};
 
 /// Least pivot of the factorisation, relative to the first distribution's variance: below it a dimension stands still.
@@ -43,10 +41,6 @@ impl SearchForm for CmaSettings {
         let generation = self.generation;
         ensure!((4..=1 << 20).contains(&generation), "CMA-ES's generation is {generation}, expected 4 to 1048576");
         Ok(())
-    }
-
-    fn constants(&self) -> Result<Table> {
-        table_of(self)
     }
 
     fn answer(&self) -> Answer {

@@ -1,8 +1,10 @@
 //! What the settings know of a kind of search.
 
 use anyhow::Result;
+use serde::Serialize;
 use toml::Table;
 
+use crate::files::table_of;
 use crate::search::device::DeviceForm;
 use crate::search::{Search, SearchSpace};
 
@@ -28,16 +30,25 @@ pub(crate) enum Answer {
     Better,
 }
 
+/// Constants of a kind of search.
+pub(super) trait Constants {
+    /// As the record of a run has them.
+    fn constants(&self) -> Result<Table>;
+}
+
+impl<T: Serialize> Constants for T {
+    fn constants(&self) -> Result<Table> {
+        table_of(self)
+    }
+}
+
 /// A kind of search by the constants that it alone uses.
-pub(super) trait SearchForm {
+pub(super) trait SearchForm: Constants {
     /// Makes it from checked constants.
     fn build(&self, budget: &Budget, space: &SearchSpace) -> Box<dyn Search>;
 
     /// Holds the constants to their ranges.
     fn check(&self) -> Result<()>;
-
-    /// The constants as the record of a run has them.
-    fn constants(&self) -> Result<Table>;
 
     /// It depends on the frames before by more than its centre: by all samples of the last one, which it holds.
     fn carries_on(&self) -> bool {

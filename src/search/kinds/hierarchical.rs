@@ -3,11 +3,9 @@
 
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
-use toml::Table;
 
 use super::form::{Budget, SearchForm};
 use super::{Pso, PsoSettings};
-use crate::files::table_of;
 use crate::search::device::DeviceForm;
 use crate::search::{Estimate, Fitness, Search, SearchSpace, check_start};
 
@@ -105,10 +103,6 @@ impl SearchForm for SwarmHierarchy {
             ensure!((0.0..=1.0).contains(&value), "the hierarchy's {name} is {value}, expected 0 to 1");
         }
         Ok(())
-    }
-
-    fn constants(&self) -> Result<Table> {
-        table_of(self)
     }
 
     fn on_device(&self) -> Option<&dyn DeviceForm> {

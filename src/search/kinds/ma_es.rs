@@ -6,11 +6,9 @@ use std::ops::Range;
 
 use anyhow::{Result, ensure};
 use serde::Serialize;
-use toml::Table;
 
 use super::evolution::{Distribution, Evolution, generations};
 use super::form::{Answer, Budget, SearchForm};
-use crate::files::table_of;
 use crate::search::arithmetic::{exp_of_negative, reciprocal, root, sum_of_squares};
 use crate::search::device::DeviceForm;
 use crate::search::shaders::{LEAST_SIGMA, MOST_SIGMA};
@@ -43,10 +41,6 @@ impl SearchForm for MatrixSettings {
         let generation = self.generation;
         ensure!((4..=1 << 20).contains(&generation), "MA-ES's generation is {generation}, expected 4 to 1048576");
         Ok(())
-    }
-
-    fn constants(&self) -> Result<Table> {
-        table_of(self)
     }
 
     fn answer(&self) -> Answer {

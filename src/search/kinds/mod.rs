@@ -17,8 +17,8 @@ pub use cma_es::CmaSettings;
 pub(super) use evolution::generations;
 pub(super) use form::Answer;
 use form::{Budget, SearchForm};
-pub(super) use hierarchical::{SwarmHierarchy, SwarmLevel};
 pub use hierarchical::{HierarchicalPso, HierarchySettings};
+pub(super) use hierarchical::{SwarmHierarchy, SwarmLevel};
 pub use ma_es::MatrixSettings;
 pub(super) use ma_es::Rates;
 pub use particle_filter::{FilterSettings, ParticleFilter};
@@ -173,7 +173,8 @@ impl SearchSettings {
     /// When the search has no form for devices, and as [`DeviceForm::record`](super::device::DeviceForm::record).
     pub(super) fn record(&self, frame: &mut FrameRecording, space: &SearchSpace) -> Result<()> {
         let form = self.kind.form()(self);
-        let form = form.on_device().with_context(|| format!("the search {} has no form for devices", self.kind.name()))?;
+        let form =
+            form.on_device().with_context(|| format!("the search {} has no form for devices", self.kind.name()))?;
         form.record(frame, space, self.iterations)
     }
 

@@ -2,11 +2,8 @@
 
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
-use toml::Table;
 
 use super::form::{Answer, Budget, SearchForm};
-use crate::files::table_of;
-use crate::search::arithmetic::Statistics;
 use crate::search::device::DeviceForm;
 use crate::search::weights::Weights;
 use crate::search::{Draw, Estimate, Fitness, Random, Search, SearchSpace, Stream, check_start};
@@ -40,10 +37,6 @@ impl SearchForm for FilterSettings {
     fn check(&self) -> Result<()> {
         ensure!((1e-4..=10.0).contains(&self.sigma), "the filter's sigma is {}, expected 0.0001 to 10", self.sigma);
         Ok(())
-    }
-
-    fn constants(&self) -> Result<Table> {
-        table_of(self)
     }
 
     fn carries_on(&self) -> bool {
@@ -157,22 +150,11 @@ impl Search for ParticleFilter {
     }
 
     fn estimate(&mut self, fitness: &mut Fitness<'_>) -> Result<Estimate> {
-        let dofs = self.space.dof_count();
         let scored = self.done.unwrap_or(0) * self.batch;
         ensure!(scored > 0, "the search has scored no pose yet, so there is nothing to estimate");
-        let fitness_of_all = &self.fitness[..scored];
-        let Some(nearest) = self.weights.weigh(fitness_of_all, self.sharpness) else {
-            bail!("none of the {scored} poses of frame {} has a finite fitness", self.frame)
-        };
-        let reference = &self.particles[nearest * dofs..(nearest + 1) * dofs];
-        let shares = self.weights.shares();
-        let Statistics { mean: mut pose, deviation: spread } = Statistics::of(&self.particles, shares, reference);
-        self.space.clamp(&mut pose);
-        let mut score = [f32::NAN];
-        fitness(&pose, &mut score)?;
-        let evaluations = scored + 1;
-        ensure!(score[0].is_finite(), "the estimate of frame {} has a fitness of {}", self.frame, score[0]);
-        self.estimated.clone_from(&pose);
-        Ok(Estimate { pose, fitness: score[0], spread, evaluations })
+        let nearest = self.weights.weigh(&self.fitness[..scored], self.sharpness);
+        let estimate = self.weights.estimate(&self.particles, nearest, &self.space, (self.frame, scored), fitness)?;
+        self.estimated.clone_from(&estimate.pose);
+        Ok(estimate)
     }
 }

@@ -2,10 +2,8 @@
 
 use anyhow::{Result, bail, ensure};
 use serde::Serialize;
-use toml::Table;
 
 use super::form::{Budget, SearchForm};
-use crate::files::table_of;
 use crate::search::arithmetic::Statistics;
 use crate::search::device::DeviceForm;
 use crate::search::philox::GROUP;
@@ -54,10 +52,6 @@ impl SearchForm for PsoSettings {
             ensure!((0.0..=4.0).contains(&value), "the swarm's {name} weight is {value}, expected 0 to 4");
         }
         Ok(())
-    }
-
-    fn constants(&self) -> Result<Table> {
-        table_of(self)
     }
 
     fn on_device(&self) -> Option<&dyn DeviceForm> {
