@@ -6,16 +6,23 @@
     reason = "a test or benchmark stops at the first surprise, and prints"
 )]
 
+mod device;
 #[allow(dead_code, reason = "components are compared elsewhere")]
 mod scene;
 
 use std::sync::Arc;
 
-use pantin::body::Body;
+use device::device;
+use pantin::body::{Body, Mesh};
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
+use pantin::evaluate::device::{
+    Comparison, Compute, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
+};
 use pantin::evaluate::{Components, Evaluator, EvidenceSum, Objective, ObjectiveKind, Reference, SegmentSums};
 use pantin::features::{Evidence, Observation, PartClasses, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;
+use pantin::gpu::{Capabilities, DeviceSettings, Timing};
+use pantin::search::{DeviceSearch, SearchKind, SearchSettings, SearchSpace};
 use scene::{Random, cameras, poses};
 
 /// The adult's sixteen parts in `count` classes.
@@ -90,6 +97,17 @@ fn sabotaged(body: &Body, cameras: &[Camera], seen: &[Observation], poses: &[f32
     changed
 }
 
+/// Every backend.
+fn one_of_each(test: &str, body: &Body, cameras: &[Camera]) -> Vec<Box<dyn Evaluator>> {
+    let mut all: Vec<Box<dyn Evaluator>> =
+        vec![Box::new(Reference::new(body, cameras)), Box::new(Cpu::new(body, cameras).unwrap())];
+    if let Some((device, _)) = device(test, DeviceSettings::default()) {
+        all.push(Box::new(Compute::on(&device, body, cameras).unwrap()));
+        all.push(Box::new(Graphics::on(&device, body, cameras, GraphicsSettings::default()).unwrap()));
+    }
+    all
+}
+
 /// Body, cameras, observations in so many classes, poses from calm to wild.
 fn case(class_count: u8, pose_count: usize, seed: u64) -> (Body, Vec<Camera>, Vec<Observation>, Vec<f32>) {
     let (body, cameras, mut random) = (Body::adult(1750.0).unwrap(), cameras(), Random(seed));
@@ -136,6 +154,139 @@ fn every_instruction_set_gives_the_reference_s_evidence() {
     }
 }
 
+/// In one batch and in many: on lavapipe fitness too is the processor's to the bit.
+#[test]
+fn compute_gives_the_reference_s_evidence() {
+    let lowered = |lower| DeviceSettings { lower: Some(lower), ..DeviceSettings::default() };
+    let few: fn(&mut Capabilities) = |capabilities| capabilities.max_groups = 100;
+    for (class_count, settings) in [(5, DeviceSettings::default()), (8, lowered(few))] {
+        let (body, cameras, seen, poses) = case(class_count, 200, 47);
+        let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
+        let Some((device, log)) = device("compute_gives_the_reference_s_evidence", settings) else { return };
+        let mut compute = Compute::on(&device, &body, &cameras).unwrap();
+        for round in 0..2 {
+            assert_eq!(difference(&expected, &found(&mut compute, &seen, &poses)), None, "round {round}");
+        }
+        let changed = sabotaged(&body, &cameras, &seen, &poses);
+        assert!(found(&mut compute, &changed, &poses).sums[2] != expected.sums[2], "a changed code passed");
+        drop((compute, device));
+        assert_eq!(log.messages(), Vec::<String>::new());
+    }
+}
+
+/// With every packing, and every way to compare, on the device and on the host.
+#[test]
+fn graphics_gives_the_reference_s_evidence() {
+    const NAME: &str = "graphics_gives_the_reference_s_evidence";
+    let Some((device, log)) = device(NAME, DeviceSettings::default()) else { return };
+    let (body, cameras, seen, poses) = case(5, 100, 48);
+    let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
+    let changed = sabotaged(&body, &cameras, &seen, &poses);
+    let usual = GraphicsSettings::default();
+    for settings in [
+        usual,
+        GraphicsSettings { comparison: Comparison::Device(Gathering::Subgroup), ..usual },
+        GraphicsSettings { comparison: Comparison::Device(Gathering::Shared), ..usual },
+        GraphicsSettings { packing: Packing::Depth, projection: Projection::Feedback, ..usual },
+        GraphicsSettings { tiling: Tiling::Pictures, ..usual },
+        GraphicsSettings { comparison: Comparison::Host(HostComparison::Scalar), packing: Packing::Depth, ..usual },
+        GraphicsSettings { comparison: Comparison::Host(HostComparison::Simd), ..usual },
+    ] {
+        let mut graphics = Graphics::on(&device, &body, &cameras, settings).unwrap();
+        for tiles in ["guessed", "fitted"] {
+            let found = found(&mut graphics, &seen, &poses);
+            assert_eq!(difference(&expected, &found), None, "{settings:?}, {tiles} tiles");
+        }
+        assert!(
+            found(&mut graphics, &changed, &poses).sums[2] != expected.sums[2],
+            "{settings:?}: a changed code passed"
+        );
+    }
+    drop(device);
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+/// A mesh has a depth at every pixel, and its pixels are the device's own: what it draws is what it sums over.
+#[test]
+fn a_mesh_s_evidence_is_that_of_the_pictures_it_draws() {
+    const NAME: &str = "a_mesh_s_evidence_is_that_of_the_pictures_it_draws";
+    let Some((device, log)) = device(NAME, DeviceSettings::default()) else { return };
+    let (body, cameras, seen, poses) = case(5, 6, 49);
+    let mesh = Mesh::of_body(&body).unwrap();
+    for comparison in [Comparison::Device(Gathering::Texels), Comparison::Host(HostComparison::Scalar)] {
+        let settings = GraphicsSettings { comparison, tiling: Tiling::Pictures, ..GraphicsSettings::default() };
+        let mut graphics = Graphics::of_mesh(&device, &body, mesh.clone(), &cameras, settings).unwrap();
+        let found = found(&mut graphics, &seen, &poses);
+        let mut met = 0;
+        for (image, sum) in found.sums.iter().enumerate() {
+            let pose = &poses[image / 4 * body.dof_count()..][..body.dof_count()];
+            let drawn = graphics.drawn(pose, image % 4).unwrap().unwrap();
+            let evidence = seen[image % 4].evidence.as_ref().unwrap();
+            let expected: i32 = (drawn.bytes.iter().zip(evidence.words()))
+                .filter(|(byte, _)| **byte != 0)
+                .map(|(byte, word)| (word >> (4 * u32::from(evidence.classes().of_label(*byte))) & 15) as i32 - 7)
+                .sum();
+            assert_eq!(*sum, expected, "{comparison:?}, image {image}");
+            met += usize::from(expected != 0);
+        }
+        assert!(met > 6, "only {met} images show anything");
+    }
+    drop(device);
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+/// A frame in one submission, however candidates are drawn, finds what the host finds over the processor: pose and fitness to the
+/// bit.
+#[test]
+fn a_search_on_the_device_finds_what_the_host_finds() {
+    const NAME: &str = "a_search_on_the_device_finds_what_the_host_finds";
+    let Some((device, log)) = device(NAME, DeviceSettings::default()) else { return };
+    let (body, cameras, seen, _) = case(5, 1, 50);
+    let frames = [seen, self::seen(&cameras, &classes(5), &mut Random(51))];
+    let space = SearchSpace::of(&body).unwrap();
+    let spread = space.spread(0.04).unwrap();
+    let standing: Vec<f32> = body.standing_pose().iter().map(|value| *value as f32).collect();
+    let objective = Objective::of(ObjectiveKind::Evidence);
+    let settings =
+        SearchSettings { kind: SearchKind::Pso, particles: 23, iterations: 3, seed: 3, ..SearchSettings::default() };
+    let mut cpu = Cpu::new(&body, &cameras).unwrap();
+    let mut search = settings.build(&space).unwrap();
+    let mut centre = standing.clone();
+    let mut expected = Vec::new();
+    for (frame, seen) in (0..).zip(&frames) {
+        cpu.observe(seen).unwrap();
+        let fitness = &mut |poses: &[f32], fitness: &mut [f32]| cpu.fitness(poses, &objective, fitness);
+        let estimate = search.search_frame(frame, &centre, &spread, fitness).unwrap();
+        let views = cpu.view_counts(&estimate.pose, &objective).unwrap();
+        assert!(estimate.fitness > 0.0 && views.iter().all(|view| view.evidence.is_some()));
+        centre.clone_from(&estimate.pose);
+        expected.push((estimate, views));
+    }
+    let usual = GraphicsSettings::default();
+    let graphics = |settings| Box::new(Graphics::on(&device, &body, &cameras, settings).unwrap());
+    let evaluators: [(&str, Box<dyn Evaluator>); 3] = [
+        ("compute", Box::new(Compute::on(&device, &body, &cameras).unwrap())),
+        ("graphics", graphics(usual)),
+        ("graphics, depth", graphics(GraphicsSettings { packing: Packing::Depth, ..usual })),
+    ];
+    for (name, mut evaluator) in evaluators {
+        // As the tracker does: recorded when the first observations are there.
+        evaluator.observe(&frames[0]).unwrap();
+        let on_device = evaluator.on_device().unwrap();
+        let mut search = DeviceSearch::new(on_device, &objective, &settings, &space, Timing::Off).unwrap();
+        let mut centre = &standing;
+        for (frame, (seen, (estimate, views))) in (0..).zip(frames.iter().zip(&expected)) {
+            evaluator.observe(seen).unwrap();
+            let found = search.search_frame(frame, centre, &spread).unwrap();
+            assert_eq!(found.estimate, *estimate, "{name}, frame {frame}");
+            assert_eq!(evaluator.view_counts(&found.estimate.pose, &objective).unwrap(), *views, "{name}");
+            centre = &estimate.pose;
+        }
+    }
+    drop(device);
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
+
 /// Evidence comes, changes its classes, stands beside segments, and goes again.
 #[test]
 fn evidence_and_segments_do_not_disturb_each_other() {
@@ -164,16 +315,19 @@ fn evidence_and_segments_do_not_disturb_each_other() {
     let other = self::seen(&cameras, &classes(3), &mut Random(44));
     let of_other = found(&mut Reference::new(&body, &cameras), &other, &poses);
     assert_ne!(of_other.sums, expected.sums);
-    let evaluators: Vec<Box<dyn Evaluator>> =
-        vec![Box::new(Reference::new(&body, &cameras)), Box::new(Cpu::new(&body, &cameras).unwrap())];
-    for mut evaluator in evaluators {
+    for mut evaluator in one_of_each("evidence_and_segments_do_not_disturb_each_other", &body, &cameras) {
         let evaluator = evaluator.as_mut();
         for round in 0..2 {
             let what = format!("{}, round {round}", evaluator.name());
             assert_eq!(difference(&expected, &found(evaluator, &seen, &poses)), None, "{what}");
             assert_eq!(difference(&expected, &found(evaluator, &both, &poses)), None, "{what}, in segments");
-            assert!(segment_sums(evaluator, &both) == in_segments, "{what}: sums of segments");
-            assert!(segment_sums(evaluator, &segments_alone) == in_segments, "{what}: sums of segments alone");
+            for seen in [&both, &segments_alone] {
+                let (sums, fitness) = segment_sums(evaluator, seen);
+                assert!(sums == in_segments.0, "{what}: sums of segments");
+                // Weights of segments add up in any order on a device.
+                let close = |(a, b): (&f32, &f32)| (a - b).abs() < 1e-5;
+                assert!(fitness.iter().zip(&in_segments.1).all(close), "{what}: fitness in segments");
+            }
             let error = evaluator.evidence_sums(&poses, &mut [0; 160]).unwrap_err().to_string();
             assert_eq!(error, "the observations carry no evidence: there is nothing to sum over what is drawn");
             let objective = Objective::of(ObjectiveKind::Evidence);
@@ -200,9 +354,7 @@ fn a_body_that_changes_keeps_its_classes() {
 #[test]
 fn wrong_evidence_says_so() {
     let (body, cameras, seen, poses) = case(5, 3, 46);
-    let evaluators: Vec<Box<dyn Evaluator>> =
-        vec![Box::new(Reference::new(&body, &cameras)), Box::new(Cpu::new(&body, &cameras).unwrap())];
-    for mut evaluator in evaluators {
+    for mut evaluator in one_of_each("wrong_evidence_says_so", &body, &cameras) {
         let mut mixed = seen.clone();
         mixed[2].evidence = None;
         let error = evaluator.observe(&mixed).unwrap_err().to_string();

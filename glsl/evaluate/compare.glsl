@@ -30,16 +30,45 @@ layout(std430, set = 0, binding = 6) readonly buffer SegmentTable {
     uint numbers[LABELS]; // of each label, 0 for none
     uint areas[];
 } table;
-// Read where codes are ranks.
-layout(std430, set = 0, binding = 7) readonly buffer Quads { Quad quads[]; };
 // The number of every observed pixel's segment, packed and placed as `pixels`.
 layout(std430, set = 0, binding = 8) readonly buffer SegmentPixels { uint segment_pixels[]; };
 // [candidate][view][segment]
 layout(std430, set = 0, binding = 9) buffer AllSegmentSums { SegmentSum segment_sums[]; };
 
+layout(constant_id = 2) const uint SEGMENTS = 8u;
+
+uint number_of_label(uint label) {
+    return table.numbers[label];
+}
+
+uint largest_number() {
+    return SEGMENTS;
+}
+#endif
+
+#ifdef EVIDENCE
+layout(std430, set = 0, binding = 6) readonly buffer EvidenceTable {
+    uint classes[LABELS]; // of each label
+    uint count;
+    uint best[]; // [view]
+} table;
+
+uint number_of_label(uint label) {
+    return table.classes[label];
+}
+
+uint largest_number() {
+    return 7u;
+}
+#endif
+
+#if defined(SEGMENTED) || defined(EVIDENCE)
+#define NUMBERED
+// Read where codes are ranks.
+layout(std430, set = 0, binding = 7) readonly buffer Quads { Quad quads[]; };
+
 // Codes that there may be: SHORT_CODES or LABELS.
 layout(constant_id = 1) const uint CODES = 128u;
-layout(constant_id = 2) const uint SEGMENTS = 8u;
 
 // The number of each code of each channel; of short codes as one word of bits for each bit of the number.
 shared uint code_numbers[CANDIDATES_A_TILE * LABELS];
@@ -61,7 +90,7 @@ struct Total {
 // Whose pixels an invocation compares.
 struct Source {
     int from; // where the observation begins for the tile's origin, in words
-#ifdef SEGMENTED
+#ifdef NUMBERED
     uint channel;
     uvec4 bits; // of `code_bits`
 #endif
@@ -152,7 +181,7 @@ uint observed(int place) {
     return pixels[clamp(place, 0, int(pixels.length()) - 1)];
 }
 
-#ifdef SEGMENTED
+#ifdef NUMBERED
 // Finds the number of every code in the tile; all invocations call it.
 void load_numbers(Tile tile) {
     uint codes = CODES;
@@ -164,10 +193,10 @@ void load_numbers(Tile tile) {
         uint code = i % codes;
         uint number = 0u;
         if (edge_bit != 0u) {
-            number = code == 0u ? 0u : table.numbers[code];
+            number = code == 0u ? 0u : number_of_label(code);
         } else if (code > 0u && code <= batch.parts && channel < tile.candidates) {
             uint image = (tile.first_candidate + channel) * batch.views + tile.view;
-            number = table.numbers[quads[image * batch.parts + batch.parts - code].label & (LABELS - 1u)];
+            number = number_of_label(quads[image * batch.parts + batch.parts - code].label & (LABELS - 1u));
         }
         if (codes > SHORT_CODES) {
             code_numbers[i] = number;
@@ -180,6 +209,25 @@ void load_numbers(Tile tile) {
     barrier();
 }
 
+// The numbers of four drawn bytes.
+uvec4 numbers_of(uvec4 drawn, Source source) {
+    uint codes = CODES;
+    uint edge_bit = EDGE_BIT;
+    uvec4 code = (drawn >> (edge_bit == 0u ? 1u : 0u)) & (codes - 1u);
+    if (codes > SHORT_CODES) {
+        uvec4 at = source.channel * codes + code;
+        return uvec4(code_numbers[at.x], code_numbers[at.y], code_numbers[at.z], code_numbers[at.w]);
+    }
+    uint largest = largest_number();
+    uvec4 number = (uvec4(source.bits.x) >> code) & 1u;
+    number |= ((uvec4(source.bits.y) >> code) & 1u) << 1;
+    if (largest > 3u) number |= ((uvec4(source.bits.z) >> code) & 1u) << 2;
+    if (largest > 7u) number |= ((uvec4(source.bits.w) >> code) & 1u) << 3;
+    return number;
+}
+#endif
+
+#ifdef SEGMENTED
 // 0x80 in every byte that is 0, of bytes below 0x80.
 uint zero_bytes(uint word) {
     return ~(word + 0x7f7f7f7fu) & 0x80808080u;
@@ -191,22 +239,8 @@ uvec4 zero_bytes(uvec4 words) {
 
 // Adds four pixels of one candidate segment by segment: their drawn bytes and the observed numbers.
 void add_segments(uint drawn, uint seen, Source source, inout Total total) {
-    uint codes = CODES;
     uint segments = SEGMENTS;
-    uint edge_bit = EDGE_BIT;
-    uvec4 code = (uvec4(drawn) >> (uvec4(0u, 8u, 16u, 24u) + (edge_bit == 0u ? 1u : 0u))) & (codes - 1u);
-    uvec4 number;
-    if (codes > SHORT_CODES) {
-        uvec4 at = source.channel * codes + code;
-        number = uvec4(code_numbers[at.x], code_numbers[at.y], code_numbers[at.z], code_numbers[at.w]);
-    } else {
-        number = (uvec4(source.bits.x) >> code) & 1u;
-        number |= ((uvec4(source.bits.y) >> code) & 1u) << 1;
-        if (segments > 3u) {
-            number |= ((uvec4(source.bits.z) >> code) & 1u) << 2;
-            number |= ((uvec4(source.bits.w) >> code) & 1u) << 3;
-        }
-    }
+    uvec4 number = numbers_of(uvec4(drawn) >> uvec4(0u, 8u, 16u, 24u), source);
     uint shown = number.x | number.y << 8 | number.z << 16 | number.w << 24;
     uint same = zero_bytes(shown ^ seen);
     uvec4 own = zero_bytes(uvec4(shown) ^ uvec4(0x01010101u, 0x02020202u, 0x03030303u, 0x04040404u));
@@ -220,11 +254,11 @@ void add_segments(uint drawn, uint seen, Source source, inout Total total) {
 }
 #endif
 
-// Channel `channel` of the tile; with segments after `load_numbers`.
+// Channel `channel` of the tile; with numbers after `load_numbers`.
 Source source_of(Tile tile, uint channel) {
     Source source;
     source.from = observed_from(tile, channel);
-#ifdef SEGMENTED
+#ifdef NUMBERED
     uint first = 4u * channel;
     source.channel = channel;
     source.bits = uvec4(code_bits[first], code_bits[first + 1u], code_bits[first + 2u], code_bits[first + 3u]);

@@ -25,6 +25,8 @@ const uint RASTER_WORDS = 3u;
 
 // Most segments that observations tell apart.
 const uint MOST_SEGMENTS = 8u;
+// The code of evidence that says nothing.
+const uint EVIDENCE_NEUTRAL = 7u;
 // Labels of parts, 0 for nothing.
 const uint LABELS = 128u;
 // Codes of a framebuffer's parts that the comparison by segments keeps in registers: a word holds a bit of each.

@@ -36,6 +36,18 @@ layout(std430, set = 0, binding = 3) readonly buffer SegmentTable {
 layout(std430, set = 0, binding = 4) readonly buffer AllSegmentSums { SegmentSum segment_sums[]; };
 #endif
 
+#ifdef EVIDENCE
+layout(std430, set = 0, binding = 3) readonly buffer EvidenceTable {
+    uint classes[LABELS];
+    uint count;
+    uint best[]; // [view]
+} table;
+layout(std430, set = 0, binding = 4) readonly buffer AllEvidence { int evidence[]; };
+
+// What the term of evidence never falls below.
+const float LEAST_EVIDENCE = 1e-6;
+#endif
+
 // Sums of one or more views, in floating point: exact to 2^24 pixels, and never past its end.
 struct Terms {
     float area_obs;
@@ -49,9 +61,21 @@ float ratio(float numerator, float denominator) {
     return denominator > 0.0 ? numerator / denominator : 0.0;
 }
 
-// The base is 0 or more; what GLSL leaves undefined at 0 is what the processor computes there.
+// The base is 0 or more; what GLSL leaves undefined at 0 is what the processor computes there. Exponents in eighths are products of
+// square roots, in the order of the processor.
 float power(float base, float exponent) {
-    if (exponent == 0.5) return sqrt(base);
+    float eighths = 8.0 * exponent;
+    if (eighths == floor(eighths) && eighths >= 1.0 && eighths <= 8.0) {
+        uint bits = uint(eighths);
+        float half_power = sqrt(base);
+        float quarter = sqrt(half_power);
+        float product = 1.0;
+        if ((bits & 8u) != 0u) product *= base;
+        if ((bits & 4u) != 0u) product *= half_power;
+        if ((bits & 2u) != 0u) product *= quarter;
+        if ((bits & 1u) != 0u) product *= sqrt(quarter);
+        return product;
+    }
     if (base <= 0.0) return exponent == 0.0 ? 1.0 : 0.0;
     return pow(base, exponent);
 }
@@ -60,8 +84,24 @@ float silhouette(float overlap, float area_obs, float area_model) {
     return push.beta * ratio(overlap, area_obs) + (1.0 - push.beta) * ratio(overlap, area_model);
 }
 
-// The silhouette term of some views of a candidate.
-float views_silhouette(Terms t, uint candidate, uint first_view, uint end_view) {
+bool is_nothing(Terms t) {
+    return t.area_obs == 0.0 || t.area_model == 0.0;
+}
+
+// The first term of some views of a candidate; negative where they score 0.
+float views_area(Terms t, uint candidate, uint first_view, uint end_view) {
+#ifdef EVIDENCE
+    // The sums of all views fit 32 bits, the library sees to it.
+    int sum = 0;
+    uint best = 0u;
+    for (uint view = first_view; view < end_view; view++) {
+        sum += evidence[candidate * push.views + view];
+        best += table.best[view];
+    }
+    if (t.area_model == 0.0 || best == 0u) return -1.0;
+    return max(ratio(float(max(sum, 0)), float(best)), LEAST_EVIDENCE);
+#else
+    if (is_nothing(t)) return -1.0;
 #ifdef SEGMENTED
     float term = 0.0;
     for (uint segment = 0u; segment < MOST_SEGMENTS; segment++) {
@@ -80,18 +120,15 @@ float views_silhouette(Terms t, uint candidate, uint first_view, uint end_view) 
 #else
     return silhouette(t.overlap, t.area_obs, t.area_model);
 #endif
+#endif
 }
 
 float edge(Terms t) {
     return ratio(t.proximity, 127.0 * t.edges);
 }
 
-bool is_nothing(Terms t) {
-    return t.area_obs == 0.0 || t.area_model == 0.0;
-}
-
 float score(Terms t, float f1) {
-    if (is_nothing(t)) return 0.0;
+    if (f1 < 0.0) return 0.0;
     if (push.terms == TERMS_SUM) return push.w1 * f1 + push.w2 * edge(t);
     return power(f1, push.w1) * power(edge(t), push.w2);
 }
@@ -111,12 +148,12 @@ void main() {
         all.overlap += own.overlap;
         all.edges += own.edges;
         all.proximity += own.proximity;
-        float f1 = views_silhouette(own, candidate, view, view + 1u);
+        float f1 = views_area(own, candidate, view, view + 1u);
         float value = score(own, f1);
         sum += value;
         products *= value;
     }
-    float together = score(all, views_silhouette(all, candidate, 0u, push.views));
+    float together = score(all, views_area(all, candidate, 0u, push.views));
     float value = 0.0;
     if (push.over == OVER_TOGETHER) value = together;
     else if (push.over == OVER_MEAN) value = sum / float(push.views);

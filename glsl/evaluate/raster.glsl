@@ -45,6 +45,21 @@ uvec4 number_bits(uint number) {
 }
 #endif
 
+#ifdef EVIDENCE
+layout(std430, set = 0, binding = 6) readonly buffer EvidenceTable {
+    uint classes[LABELS]; // of each label
+    uint count;           // classes
+    uint best[];          // [view]
+} table;
+// The bits of the codes of 32 pixels of a row, [group][class].
+layout(std430, set = 0, binding = 7) readonly buffer EvidencePlanes { uvec4 evidence_planes[]; };
+// [candidate][view]
+layout(std430, set = 0, binding = 8) writeonly buffer AllEvidence { int evidence[]; };
+
+// The codes of what the invocation's rows show, added up.
+uint codes = 0u;
+#endif
+
 // Parts that are kept at once.
 const uint TILE = 32u;
 // Chunks of the widest picture.
@@ -57,7 +72,8 @@ shared ivec4 part_y[TILE];
 // reaches into it.
 shared uvec4 part_rows[TILE / 4u];
 shared uint part_columns[TILE];
-#ifdef SEGMENTED
+#if defined(SEGMENTED) || defined(EVIDENCE)
+// The segment, or the class.
 shared uint part_numbers[TILE];
 #endif
 shared uint chunk_parts[MOST_CHUNKS];
@@ -149,6 +165,9 @@ void load_tile(uint image, uint tile, ivec2 size, uint chunks) {
             part_x[slot] = x;
 #ifdef SEGMENTED
             part_numbers[slot] = table.numbers[quads[image * batch.parts + part].label & (LABELS - 1u)];
+#endif
+#ifdef EVIDENCE
+            part_numbers[slot] = table.classes[quads[image * batch.parts + part].label & (LABELS - 1u)];
 #endif
             part_y[slot] = y;
             if (quads[image * batch.parts + part].drawn != 0u) {
@@ -246,6 +265,16 @@ uvec4 rasterise(uint image) {
 #ifdef SEGMENTED
                         uint nearest = (lines | inner) & ~(filled[word] | edges[word]);
                         shown[word] |= number_bits(part_numbers[part]) & nearest;
+#endif
+#ifdef EVIDENCE
+                        // Parts come from the nearest on: what one shows is its own for good.
+                        uint own = (lines | inner) & ~(filled[word] | edges[word]) & below(size.x - start);
+                        if (own != 0u) {
+                            uint group = camera.first_plane_word + uint(y) * camera.words + chunk * RASTER_WORDS + word;
+                            uvec4 bits = evidence_planes[group * table.count + part_numbers[part]];
+                            uvec4 counts = uvec4(1u, 2u, 4u, 8u) * uvec4(bitCount(bits & own));
+                            codes += counts.x + counts.y + counts.z + counts.w;
+                        }
 #endif
                         edges[word] |= lines & ~filled[word];
                         filled[word] |= inner;

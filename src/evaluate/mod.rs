@@ -2,6 +2,7 @@
 //! (METHOD A6, A7).
 
 mod batch;
+mod besides;
 mod bit_planes;
 mod components;
 pub mod cpu;

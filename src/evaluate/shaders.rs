@@ -11,6 +11,7 @@ include!(concat!(env!("OUT_DIR"), "/evaluate_stages.rs"));
 
 const _: () = assert!(LARGEST_SIDE == crate::geometry::LARGEST_SIDE, "pictures are as large as stages count");
 const _: () = assert!(FARTHEST_PIXEL == LARGEST_SIDE as f32, "corners go as far as pictures do");
+const _: () = assert!(crate::features::Evidence::NEUTRAL == EVIDENCE_NEUTRAL, "codes mean the same to the stages");
 const _: () = assert!(
     crate::features::Segments::MOST == MOST_SEGMENTS as usize,
     "the stages have as many segments as observations may"

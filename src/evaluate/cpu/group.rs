@@ -1,5 +1,6 @@
 //! Up to sixteen candidates at a time in every view, from poses to components.
 
+use crate::evaluate::besides::Besides;
 use crate::evaluate::components::Components;
 use crate::evaluate::projection::Projector;
 use crate::evaluate::segments::SegmentSums;
@@ -22,16 +23,6 @@ pub(super) struct Scratch {
     pub(super) segment_sums: Vec<SegmentSums>,
     /// `[candidate][view]`.
     pub(super) evidence: Vec<i32>,
-}
-
-/// What is summed besides the components.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Besides {
-    Nothing,
-    /// Where there are segments.
-    Segments,
-    /// Where there is evidence.
-    Evidence,
 }
 
 /// Evaluates them with the operations of `simd`; inlined into a function that is compiled for these.

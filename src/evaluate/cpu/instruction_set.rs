@@ -3,10 +3,11 @@
 #[cfg(target_arch = "x86_64")]
 use std::arch::is_x86_feature_detected;
 
+use crate::evaluate::besides::Besides;
 use crate::evaluate::projection::Projector;
 use crate::files::choices;
 
-use super::group::{Besides, Scratch, evaluate_group};
+use super::group::{Scratch, evaluate_group};
 use super::planes::Planes;
 use super::portable::Portable;
 

@@ -27,6 +27,7 @@ use crate::features::{Observation, PartClasses, Segments};
 use crate::geometry::Camera;
 
 use super::batch::{check_batch, check_observations, check_pictures};
+use super::besides::Besides;
 use super::components::Components;
 use super::evaluator::{Evaluator, Footprint, check_evidence_batch, check_segment_batch};
 use super::evidence::{best_sums, evidence_of, no_evidence};
@@ -36,7 +37,7 @@ use super::rig::Rig;
 use super::segments::{SegmentSums, segments_of};
 
 use front::{Front, LANES, QuadChunk};
-use group::{Besides, Scratch};
+use group::Scratch;
 use instruction_set::Code;
 pub use instruction_set::InstructionSet;
 use kernel::Canvas;

@@ -5,23 +5,26 @@ use std::sync::Arc;
 
 use anyhow::{Result, ensure};
 
+use super::evidence::DeviceEvidence;
 use super::host_buffers::{HostBuffers, HostCounts};
 use super::passes;
 use super::rasteriser::Rasteriser;
-use super::resources::Resources;
-use super::runs::Runs;
+use super::resources::{Resources, Summed};
+use super::runs::{Asked, Runs};
 use super::scene::DeviceScene;
 use super::segments::DeviceSegments;
 use super::workspace::Workspace;
 use crate::body::Body;
 use crate::evaluate::batch::check_batch;
+use crate::evaluate::besides::Besides;
 use crate::evaluate::components::Components;
 use crate::evaluate::device_evaluator::DeviceEvaluator;
-use crate::evaluate::evaluator::{Evaluator, Footprint, check_segment_batch};
+use crate::evaluate::evaluator::{Evaluator, Footprint, check_evidence_batch, check_segment_batch};
+use crate::evaluate::evidence::{evidence_of, no_evidence};
 use crate::evaluate::objective::{AreaSums, Objective};
 use crate::evaluate::raster::CandidateImage;
 use crate::evaluate::segments::{SegmentSums, segments_of};
-use crate::features::{Observation, Segments};
+use crate::features::{Observation, PartClasses, Segments};
 use crate::gpu::{Buffer, Device, DeviceFacts, DevicePass, OutOfMemory, PassTiming, Recorder, Recording, Timing};
 
 /// An evaluator on a Vulkan device that draws by `R`.
@@ -79,8 +82,9 @@ impl<R: Rasteriser> DeviceBackend<R> {
     }
 
     /// Host to host: the poses, all stages, fitness or sums. One recording, or with the comparison on the host one a batch.
-    fn record_run(&self, objective: Option<&Objective>, candidates: u32) -> Result<Vec<Recording>> {
-        let Resources { scene, workspace, host, segments } = &self.resources;
+    fn record_run(&self, asked: Asked, candidates: u32) -> Result<Vec<Recording>> {
+        let Resources { scene, workspace, host, .. } = &self.resources;
+        let summed = self.resources.summed(asked.besides())?;
         let on_host = self.rasteriser.compares_on_host();
         let mut recorder = scene.device.recorder(self.runs.timing())?;
         host.record_poses(&mut recorder, (scene, workspace), candidates)?;
@@ -91,16 +95,20 @@ impl<R: Rasteriser> DeviceBackend<R> {
                 recorded.push(std::mem::replace(&mut recorder, next));
             }
             passes::pose(&mut recorder, scene, workspace, share)?;
-            self.rasteriser.record_host_share(&mut recorder, &self.resources, share)?;
+            self.rasteriser.record_host_share(&mut recorder, &self.resources, summed, share)?;
         }
-        match objective.filter(|_| !on_host) {
-            Some(objective) => {
-                self.resources.record_objective(&mut recorder, objective, candidates)?;
+        match asked {
+            Asked::Fitness(objective) if !on_host => {
+                self.resources.record_objective(&mut recorder, &objective, candidates)?;
                 host.record_fitness(&mut recorder, candidates)?;
             }
-            None => {
+            _ => {
                 host.record_sums(&mut recorder, (scene, workspace), candidates)?;
-                segments.as_ref().map_or(Ok(()), |segments| segments.record_readback(&mut recorder))?;
+                match summed {
+                    Summed::Nothing => (),
+                    Summed::Segments(segments) => segments.record_readback(&mut recorder)?,
+                    Summed::Evidence(evidence) => evidence.record_readback(&mut recorder)?,
+                }
             }
         }
         recorded.push(recorder);
@@ -109,7 +117,7 @@ impl<R: Rasteriser> DeviceBackend<R> {
 
     /// Room for runs of so many candidates.
     fn make_room(&mut self, candidates: u32) -> Result<()> {
-        let Resources { scene, workspace, host, segments } = &mut self.resources;
+        let Resources { scene, workspace, host, segments, evidence } = &mut self.resources;
         if candidates > workspace.candidates {
             // Recordings hold the old memory; without them it is free before the new one is taken.
             self.runs.clear();
@@ -119,6 +127,7 @@ impl<R: Rasteriser> DeviceBackend<R> {
             *workspace = Workspace::new(&scene.device, scene.counts, candidates)?;
             self.rasteriser.set_workspace(scene, workspace)?;
             segments.as_mut().map_or(Ok(()), |segments| segments.reserve(scene, candidates))?;
+            evidence.as_mut().map_or(Ok(()), |evidence| evidence.reserve(scene, candidates))?;
         }
         Ok(())
     }
@@ -148,27 +157,49 @@ impl<R: Rasteriser> DeviceBackend<R> {
         Ok(())
     }
 
+    /// Has room for the evidence of these classes from now on.
+    fn set_evidence(&mut self, classes: Option<&PartClasses>) -> Result<()> {
+        let count = classes.map(PartClasses::count);
+        if self.resources.evidence.as_ref().map(DeviceEvidence::classes) == count {
+            return Ok(());
+        }
+        // As with segments.
+        self.runs.clear();
+        let Resources { scene, workspace, evidence, .. } = &mut self.resources;
+        *evidence = count.map(|count| DeviceEvidence::new(scene, count, workspace.candidates)).transpose()?;
+        self.rasteriser.set_evidence(scene, workspace, evidence.as_ref())?;
+        self.runs.set_upload(record_upload(&self.resources, &self.rasteriser)?);
+        self.is_outgrown = self.is_recorded;
+        Ok(())
+    }
+
     /// Runs poses through the device. The results then lie in the host's buffers; what the host itself compared comes back.
-    fn run(&mut self, poses: &[f32], objective: Option<&Objective>) -> Result<HostCounts> {
+    fn run(&mut self, poses: &[f32], asked: Asked) -> Result<HostCounts> {
         let candidates = u32::try_from(poses.len() / self.dof_count())?;
         self.make_room(candidates)?;
         self.resources.host.poses_in.write(0, poses)?;
-        let key = (candidates, objective.copied());
+        let key = (candidates, asked);
         if !self.runs.select(key) {
-            let mut recorded = self.record_run(objective, candidates);
+            let mut recorded = self.record_run(asked, candidates);
             // Other runs may hold the memory that it wants.
             if recorded.as_ref().is_err_and(|error| error.is::<OutOfMemory>()) && self.runs.clear() {
-                recorded = self.record_run(objective, candidates);
+                recorded = self.record_run(asked, candidates);
             }
             self.runs.add(key, recorded?);
         }
         let Self { resources, rasteriser, runs, .. } = self;
         let shares = resources.shares(candidates, rasteriser.batch(&resources.workspace))?;
         let mut counts = HostCounts::default();
-        runs.run(&resources.scene, |batch| rasteriser.count(resources, shares[batch], &mut counts))?;
+        let summed = resources.summed(asked.besides())?;
+        runs.run(&resources.scene, |batch| rasteriser.count(resources, summed, shares[batch], &mut counts))?;
         let again = rasteriser.learn(&resources.scene, candidates)?;
         self.refit()?;
-        if again { self.run(poses, objective) } else { Ok(counts) }
+        if again { self.run(poses, asked) } else { Ok(counts) }
+    }
+
+    /// The evidence of a finished run.
+    fn read_evidence(&self, counts: &HostCounts, sums: &mut [i32]) -> Result<()> {
+        self.resources.evidence.as_ref().ok_or_else(no_evidence)?.read(counts, sums)
     }
 
     /// The sums of the segments of a finished run.
@@ -203,11 +234,13 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
     }
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
-        let segments = segments_of(observations)?;
+        let (segments, classes) = (segments_of(observations)?, evidence_of(observations)?);
         self.resources.scene.observe(observations)?;
         self.set_segments(segments.as_ref())?;
-        let Resources { scene, segments, .. } = &mut self.resources;
+        self.set_evidence(classes.as_deref())?;
+        let Resources { scene, segments, evidence, .. } = &mut self.resources;
         segments.as_mut().map_or(Ok(()), |segments| segments.observe(scene, observations))?;
+        evidence.as_mut().map_or(Ok(()), |evidence| evidence.observe(scene, observations))?;
         self.rasteriser.observe(scene, observations, self.is_recorded)?;
         self.runs.outdate_upload();
         let is_refitted = self.refit()?;
@@ -220,7 +253,7 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
         if components.is_empty() {
             return Ok(());
         }
-        let counts = self.run(poses, None)?;
+        let counts = self.run(poses, Asked::Sums(Besides::Segments))?;
         self.resources.host.read_components(&self.resources.scene, &counts, components)
     }
 
@@ -233,8 +266,21 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
         if sums.is_empty() {
             return Ok(());
         }
-        let counts = self.run(poses, None)?;
+        let counts = self.run(poses, Asked::Sums(Besides::Segments))?;
         self.read_segments(&counts, sums)
+    }
+
+    fn best_evidence(&self) -> Option<&[u32]> {
+        self.resources.evidence.as_ref().and_then(DeviceEvidence::best)
+    }
+
+    fn evidence_sums(&mut self, poses: &[f32], sums: &mut [i32]) -> Result<()> {
+        check_evidence_batch(self, poses, sums.len())?;
+        if sums.is_empty() {
+            return Ok(());
+        }
+        let counts = self.run(poses, Asked::Sums(Besides::Evidence))?;
+        self.read_evidence(&counts, sums)
     }
 
     fn fitness(&mut self, poses: &[f32], objective: &Objective, fitness: &mut [f32]) -> Result<()> {
@@ -243,14 +289,20 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
             return Ok(());
         }
         if !self.rasteriser.compares_on_host() {
-            self.run(poses, Some(objective))?;
+            self.run(poses, Asked::Fitness(*objective))?;
             return self.resources.host.fitness_out.read(0, fitness);
         }
-        ensure!(!objective.weighs_evidence(), "devices do not weigh evidence yet: the backends reference and cpu do");
-        let counts = self.run(poses, None)?;
+        let counts = self.run(poses, Asked::Sums(Besides::of(objective)))?;
         let views = self.view_count();
         let mut components = vec![Components::default(); fitness.len() * views];
         self.resources.host.read_components(&self.resources.scene, &counts, &mut components)?;
+        if objective.weighs_evidence() {
+            let mut sums = vec![0; components.len()];
+            self.read_evidence(&counts, &mut sums)?;
+            let best = self.best_evidence().ok_or_else(no_evidence)?;
+            objective.score(views, &components, AreaSums::Evidence(best, &sums), fitness);
+            return Ok(());
+        }
         let segments = self.segments();
         let count = segments.map_or(0, |segments| segments.as_slice().len());
         let mut sums = vec![SegmentSums::default(); components.len() * count];
@@ -324,9 +376,10 @@ impl<R: Rasteriser> DeviceEvaluator for DeviceBackend<R> {
 
     fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
         let Resources { scene, workspace, .. } = &self.resources;
+        let summed = self.resources.summed(Besides::of(objective))?;
         for share in self.resources.shares(candidates, self.rasteriser.batch(workspace))? {
             passes::pose(recorder, scene, workspace, share)?;
-            self.rasteriser.record_share(recorder, &self.resources, share)?;
+            self.rasteriser.record_share(recorder, &self.resources, summed, share)?;
         }
         self.resources.record_objective(recorder, objective, candidates)
     }

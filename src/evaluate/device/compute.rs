@@ -4,17 +4,19 @@
 use anyhow::Result;
 
 use super::backend::DeviceBackend;
+use super::evidence::DeviceEvidence;
 use super::open::open_device;
 use super::passes::{self, Images, RASTER_TILE, raster_stage};
 use super::rasteriser::Rasteriser;
-use super::resources::Resources;
+use super::resources::{Resources, Summed};
 use super::scene::{DeviceScene, Share};
 use super::segments::DeviceSegments;
 use super::workspace::Workspace;
 use crate::body::Body;
 use crate::evaluate::evaluator::Footprint;
 use crate::evaluate::shaders::{
-    objective_comp, objective_segments_comp, pose_comp, project_comp, raster_segments_comp,
+    objective_comp, objective_evidence_comp, objective_segments_comp, pose_comp, project_comp, raster_evidence_comp,
+    raster_segments_comp,
 };
 use crate::geometry::Camera;
 use crate::gpu::{Device, Recorder};
@@ -75,9 +77,28 @@ impl Rasteriser for ComputeRasteriser {
         Ok(())
     }
 
-    fn record_share(&self, recorder: &mut Recorder, resources: &Resources, share: Share) -> Result<()> {
-        let Resources { scene, workspace, segments, .. } = resources;
+    fn set_evidence(
+        &mut self,
+        scene: &DeviceScene,
+        _workspace: &Workspace,
+        evidence: Option<&DeviceEvidence>,
+    ) -> Result<()> {
+        if evidence.is_some() {
+            let raster = raster_evidence_comp::stage(raster_evidence_comp::Constants { listed: false });
+            scene.device.compile(&[raster, objective_evidence_comp::stage()])?;
+        }
+        Ok(())
+    }
+
+    fn record_share(
+        &self,
+        recorder: &mut Recorder,
+        resources: &Resources,
+        summed: Summed<'_>,
+        share: Share,
+    ) -> Result<()> {
+        let Resources { scene, workspace, .. } = resources;
         passes::project(recorder, scene, workspace, share)?;
-        passes::raster(recorder, (scene, workspace), segments.as_ref(), Images::All, share)
+        passes::raster(recorder, (scene, workspace), summed, Images::All, share)
     }
 }

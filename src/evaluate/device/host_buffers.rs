@@ -15,6 +15,8 @@ pub(crate) struct HostCounts {
     pub(super) sums: Vec<Option<layout::Sums>>,
     /// `[candidate][view][segment]`, where there are segments.
     pub(super) segments: Vec<SegmentSums>,
+    /// `[candidate][view]`, where evidence was asked for.
+    pub(super) evidence: Vec<i32>,
 }
 
 /// The fitness of a number of candidates, and the host's buffers for poses, fitness and sums.

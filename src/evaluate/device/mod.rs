@@ -3,6 +3,7 @@
 
 mod backend;
 mod compute;
+mod evidence;
 mod graphics;
 mod host_buffers;
 mod open;

@@ -1,14 +1,15 @@
 //! The passes that both ways to draw are made of: poses to parts in every camera, drawing without a framebuffer, sums to fitness.
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 
+use super::resources::Summed;
 use super::scene::{DeviceScene, Share};
-use super::segments::DeviceSegments;
 use super::workspace::Workspace;
-use crate::evaluate::objective::{Area, Objective};
+use crate::evaluate::objective::Objective;
 use crate::evaluate::shaders::{
-    PROJECT_GROUP, RASTER_GROUP, RASTER_WORDS, layout, objective_comp, objective_segments_comp, pose_comp,
-    project_comp, raster_comp, raster_segments_comp, raster_shared_comp,
+    PROJECT_GROUP, RASTER_GROUP, RASTER_WORDS, layout, objective_comp, objective_evidence_comp,
+    objective_segments_comp, pose_comp, project_comp, raster_comp, raster_evidence_comp, raster_segments_comp,
+    raster_shared_comp,
 };
 use crate::gpu::{Buffer, Device, Groups, Recorder, ShaderStage};
 
@@ -59,11 +60,11 @@ pub(super) fn raster_stage(device: &Device, listed: bool) -> ShaderStage {
 }
 
 /// Records drawing and comparison without a framebuffer, in the reference's integers (docs/RASTER.md, METHOD A6): `workspace.quads`
-/// and `bounds` to `workspace.sums`, and to the segments' sums where there are segments.
+/// and `bounds` to `workspace.sums`, and to what is summed besides.
 pub(super) fn raster(
     recorder: &mut Recorder,
     (scene, workspace): (&DeviceScene, &Workspace),
-    segments: Option<&DeviceSegments>,
+    summed: Summed<'_>,
     images: Images<'_>,
     share: Share,
 ) -> Result<()> {
@@ -80,36 +81,53 @@ pub(super) fn raster(
         list,
         all_sums: &workspace.sums,
     };
-    let Some(segments) = segments else {
-        let dispatch = whole.dispatch(raster_comp::Constants { listed }, scene.batch(share), groups);
-        return recorder.compute("raster", &[dispatch.by(raster_stage(&scene.device, listed).shader)]);
-    };
     let raster_comp::Bindings { cameras, quads, all_bounds, planes, list, all_sums } = whole;
-    let bindings = raster_segments_comp::Bindings {
-        cameras,
-        quads,
-        all_bounds,
-        planes,
-        list,
-        all_sums,
-        table: &segments.table.buffer,
-        segment_planes: &segments.planes.buffer,
-        all_segment_sums: &segments.sums,
-    };
-    recorder.run(bindings.dispatch(raster_segments_comp::Constants { listed }, scene.batch(share), groups))
+    match summed {
+        Summed::Nothing => {
+            let dispatch = whole.dispatch(raster_comp::Constants { listed }, scene.batch(share), groups);
+            recorder.compute("raster", &[dispatch.by(raster_stage(&scene.device, listed).shader)])
+        }
+        Summed::Segments(segments) => {
+            let bindings = raster_segments_comp::Bindings {
+                cameras,
+                quads,
+                all_bounds,
+                planes,
+                list,
+                all_sums,
+                table: &segments.table.buffer,
+                segment_planes: &segments.planes.buffer,
+                all_segment_sums: &segments.sums,
+            };
+            recorder.run(bindings.dispatch(raster_segments_comp::Constants { listed }, scene.batch(share), groups))
+        }
+        Summed::Evidence(own) => {
+            let bindings = raster_evidence_comp::Bindings {
+                cameras,
+                quads,
+                all_bounds,
+                planes,
+                list,
+                all_sums,
+                table: &own.table.buffer,
+                evidence_planes: &own.planes.buffer,
+                all_evidence: &own.sums,
+            };
+            recorder.run(bindings.dispatch(raster_evidence_comp::Constants { listed }, scene.batch(share), groups))
+        }
+    }
 }
 
 /// Records the objective (METHOD A7) of the first `candidates` of a run, in one go however many batches they took: `workspace.sums`,
-/// and the segments' sums where there are segments, to `fitness`, single precision, one a candidate.
+/// and what is summed besides, to `fitness`, single precision, one a candidate.
 pub(super) fn objective(
     recorder: &mut Recorder,
     (scene, workspace): (&DeviceScene, &Workspace),
-    segments: Option<&DeviceSegments>,
+    summed: Summed<'_>,
     (objective, candidates): (&Objective, u32),
     fitness: &Buffer,
 ) -> Result<()> {
-    let (area, terms, over) = objective.kind.formula();
-    ensure!(area == Area::Silhouette, "devices do not weigh evidence yet: the backends reference and cpu do");
+    let (_, terms, over) = objective.kind.formula();
     let push = layout::Scoring {
         candidates,
         views: scene.counts.views,
@@ -121,16 +139,16 @@ pub(super) fn objective(
     };
     let groups = Groups::Over([candidates, 1, 1]);
     let (cameras, all_sums) = (&scene.cameras.buffer, &workspace.sums);
-    match segments {
-        None => recorder.run(objective_comp::Bindings { cameras, all_sums, fitness }.dispatch(push, groups)),
-        Some(DeviceSegments { table, sums, .. }) => {
-            let bindings = objective_segments_comp::Bindings {
-                cameras,
-                all_sums,
-                fitness,
-                table: &table.buffer,
-                all_segment_sums: sums,
-            };
+    match summed {
+        Summed::Nothing => recorder.run(objective_comp::Bindings { cameras, all_sums, fitness }.dispatch(push, groups)),
+        Summed::Segments(segments) => {
+            let (table, all_segment_sums) = (&segments.table.buffer, &segments.sums);
+            let bindings = objective_segments_comp::Bindings { cameras, all_sums, fitness, table, all_segment_sums };
+            recorder.run(bindings.dispatch(push, groups))
+        }
+        Summed::Evidence(own) => {
+            let (table, all_evidence) = (&own.table.buffer, &own.sums);
+            let bindings = objective_evidence_comp::Bindings { all_sums, fitness, table, all_evidence };
             recorder.run(bindings.dispatch(push, groups))
         }
     }

@@ -7,6 +7,7 @@
 )]
 
 use super::passes::{Images, raster, raster_stage};
+use super::resources::Summed;
 use super::scene::{DeviceScene, Share};
 use super::tests::{cameras, device, fetch, set_up_with};
 use super::workspace::Workspace;
@@ -189,7 +190,7 @@ fn check(name: &str, settings: &DeviceSettings, parts: usize, candidates: usize)
     let shader = raster_stage(&device, false).shader;
     assert_eq!(shader.label(), if device.capabilities().subgroup_arithmetic { "raster" } else { "raster_shared" });
     let mut recorder = device.recorder(Timing::Off).unwrap();
-    raster(&mut recorder, (&scene, &workspace), None, Images::All, share).unwrap();
+    raster(&mut recorder, (&scene, &workspace), Summed::Nothing, Images::All, share).unwrap();
     recorder.finish().unwrap().run().unwrap();
     let expected = expected(&images, &seen);
     let sums = found(&fetch::<layout::Sums>(&device, &workspace.sums, images.len()));
@@ -208,7 +209,7 @@ fn check(name: &str, settings: &DeviceSettings, parts: usize, candidates: usize)
     let mut recorder = device.recorder(Timing::Off).unwrap();
     recorder.fill("clear", &workspace.sums, 0xffff_ffff).unwrap();
     let share = Share { first: 0, candidates: 1 };
-    raster(&mut recorder, (&scene, &workspace), None, Images::Listed(&buffer), share).unwrap();
+    raster(&mut recorder, (&scene, &workspace), Summed::Nothing, Images::Listed(&buffer), share).unwrap();
     recorder.finish().unwrap().run().unwrap();
     let sums = found(&fetch::<layout::Sums>(&device, &workspace.sums, images.len()));
     for (image, (expected, found)) in expected.iter().zip(&sums).enumerate() {

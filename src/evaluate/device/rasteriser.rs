@@ -2,8 +2,9 @@
 
 use anyhow::Result;
 
+use super::evidence::DeviceEvidence;
 use super::host_buffers::HostCounts;
-use super::resources::Resources;
+use super::resources::{Resources, Summed};
 use super::scene::{DeviceScene, Share};
 use super::segments::DeviceSegments;
 use super::workspace::Workspace;
@@ -46,6 +47,14 @@ pub(crate) trait Rasteriser: Send {
         segments: Option<&DeviceSegments>,
     ) -> Result<()>;
 
+    /// Sums evidence from now on, or no longer.
+    fn set_evidence(
+        &mut self,
+        scene: &DeviceScene,
+        workspace: &Workspace,
+        evidence: Option<&DeviceEvidence>,
+    ) -> Result<()>;
+
     /// Takes the observations of a frame; `is_recorded` says whether a search has recorded itself with what is there.
     fn observe(&mut self, _scene: &DeviceScene, _observations: &[Observation], _is_recorded: bool) -> Result<()> {
         Ok(())
@@ -57,12 +66,24 @@ pub(crate) trait Rasteriser: Send {
     }
 
     /// Records everything from `resources.workspace.world` to the sums of a share.
-    fn record_share(&self, recorder: &mut Recorder, resources: &Resources, share: Share) -> Result<()>;
+    fn record_share(
+        &self,
+        recorder: &mut Recorder,
+        resources: &Resources,
+        summed: Summed<'_>,
+        share: Share,
+    ) -> Result<()>;
 
     /// Records the same for a run that the host waits for: with the comparison on the host, to what it compares, and the sums of the
     /// images that the device scores all the same.
-    fn record_host_share(&self, recorder: &mut Recorder, resources: &Resources, share: Share) -> Result<()> {
-        self.record_share(recorder, resources, share)
+    fn record_host_share(
+        &self,
+        recorder: &mut Recorder,
+        resources: &Resources,
+        summed: Summed<'_>,
+        share: Share,
+    ) -> Result<()> {
+        self.record_share(recorder, resources, summed, share)
     }
 
     /// Whether the host compares, after every batch.
@@ -71,7 +92,13 @@ pub(crate) trait Rasteriser: Send {
     }
 
     /// Compares what a batch has left for the host, and adds it to `counts`.
-    fn count(&self, _resources: &Resources, _share: Share, _counts: &mut HostCounts) -> Result<()> {
+    fn count(
+        &self,
+        _resources: &Resources,
+        _summed: Summed<'_>,
+        _share: Share,
+        _counts: &mut HostCounts,
+    ) -> Result<()> {
         Ok(())
     }
 

@@ -2,11 +2,14 @@
 
 use anyhow::{Result, ensure};
 
+use super::evidence::DeviceEvidence;
 use super::host_buffers::HostBuffers;
 use super::passes;
 use super::scene::{DeviceScene, Share};
 use super::segments::DeviceSegments;
 use super::workspace::Workspace;
+use crate::evaluate::besides::Besides;
+use crate::evaluate::evidence::no_evidence;
 use crate::evaluate::objective::Objective;
 use crate::gpu::Recorder;
 
@@ -18,6 +21,16 @@ pub(crate) struct Resources {
     pub(super) host: HostBuffers,
     /// Where the newest observations have them.
     pub(super) segments: Option<DeviceSegments>,
+    /// Where the newest observations carry it.
+    pub(super) evidence: Option<DeviceEvidence>,
+}
+
+/// What a run sums besides the components, with the memory for it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Summed<'a> {
+    Nothing,
+    Segments(&'a DeviceSegments),
+    Evidence(&'a DeviceEvidence),
 }
 
 impl Resources {
@@ -27,14 +40,25 @@ impl Resources {
             workspace: Workspace::new(&scene.device, scene.counts, 1)?,
             host: HostBuffers::new(&scene, 1)?,
             segments: None,
+            evidence: None,
             scene,
+        })
+    }
+
+    /// What is summed besides the components where that is asked for.
+    pub(super) fn summed(&self, besides: Besides) -> Result<Summed<'_>> {
+        Ok(match besides {
+            Besides::Nothing => Summed::Nothing,
+            Besides::Segments => self.segments.as_ref().map_or(Summed::Nothing, Summed::Segments),
+            Besides::Evidence => Summed::Evidence(self.evidence.as_ref().ok_or_else(no_evidence)?),
         })
     }
 
     /// Records the copies that bring body, cameras and observations to the device.
     pub(super) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
         self.scene.record_upload(recorder)?;
-        self.segments.as_ref().map_or(Ok(()), |segments| segments.record_upload(recorder))
+        self.segments.as_ref().map_or(Ok(()), |segments| segments.record_upload(recorder))?;
+        self.evidence.as_ref().map_or(Ok(()), |evidence| evidence.record_upload(recorder))
     }
 
     /// Records the fitness of a run from its sums.
@@ -44,9 +68,9 @@ impl Resources {
         objective: &Objective,
         candidates: u32,
     ) -> Result<()> {
-        let Self { scene, workspace, host, segments } = self;
-        let run = (objective, candidates);
-        passes::objective(recorder, (scene, workspace), segments.as_ref(), run, &host.fitness)
+        let Self { scene, workspace, host, .. } = self;
+        let (run, summed) = ((objective, candidates), self.summed(Besides::of(objective))?);
+        passes::objective(recorder, (scene, workspace), summed, run, &host.fitness)
     }
 
     /// The batches of at most `batch` candidates of a run.

@@ -5,12 +5,31 @@ use std::time::Instant;
 use anyhow::Result;
 
 use crate::evaluate::Objective;
+use crate::evaluate::besides::Besides;
 use crate::gpu::{DevicePass, PassTiming, Recording, Timing};
 
 use super::scene::DeviceScene;
 
-/// What a run is recorded for: a number of candidates, and an objective or the components.
-pub(super) type RunKey = (u32, Option<Objective>);
+/// What a run ends in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Asked {
+    /// What is summed of the candidates, on the host.
+    Sums(Besides),
+    Fitness(Objective),
+}
+
+impl Asked {
+    /// What is summed besides the components.
+    pub(super) fn besides(self) -> Besides {
+        match self {
+            Self::Sums(besides) => besides,
+            Self::Fitness(objective) => Besides::of(&objective),
+        }
+    }
+}
+
+/// What a run is recorded for: a number of candidates, and what is asked of them.
+pub(super) type RunKey = (u32, Asked);
 
 /// Runs kept: a search asks for a few numbers of candidates over and over.
 const MOST_RUNS: usize = 16;

@@ -53,6 +53,11 @@ impl Gathering {
 }
 
 impl Comparing {
+    /// The workgroups of a stage that takes the tiles of a share.
+    pub(super) fn groups(self, scene: &DeviceScene, share: Share) -> Groups<'static> {
+        Groups::Count([share.candidates.div_ceil(4) * scene.counts.views, self.bands, 1])
+    }
+
     fn constants(self) -> compare_texels_comp::Constants {
         compare_texels_comp::Constants { edge_bit: self.packing.edge_bit() }
     }
@@ -84,7 +89,7 @@ impl Comparing {
         share: Share,
     ) -> Result<()> {
         let push = scene.batch(share);
-        let groups = Groups::Count([share.candidates.div_ceil(4) * scene.counts.views, self.bands, 1]);
+        let groups = self.groups(scene, share);
         let (placements, tiles, framebuffer) = (&framebuffer.placements, &framebuffer.tiles, &framebuffer.words);
         let (cameras, pixels, all_sums) = (&scene.cameras.buffer, &scene.pixels.buffer, &workspace.sums);
         let Some(ObservedSegments { segments, numbers, codes }) = observed else {

@@ -10,10 +10,10 @@ use super::passes::{place, project_by_feedback, skin, skin_stages};
 use super::settings::{Coverage, Packing};
 use crate::evaluate::MeshProjector;
 use crate::evaluate::device::passes::{Images, project, raster, raster_stage};
+use crate::evaluate::device::resources::Summed;
 use crate::evaluate::device::scene::{DeviceScene, Share};
-use crate::evaluate::device::segments::DeviceSegments;
 use crate::evaluate::device::workspace::Workspace;
-use crate::evaluate::shaders::{outline_comp, project_comp};
+use crate::evaluate::shaders::{LABELS, SHORT_CODES, outline_comp, project_comp};
 use crate::gpu::{Buffer, Device, Recorder};
 
 /// The stages of one model, and the memory that it alone needs.
@@ -70,12 +70,14 @@ impl Drawn {
         matches!(self, Self::Flat(_))
     }
 
-    /// The largest label of what is drawn.
-    pub(super) fn largest_label(&self, scene: &DeviceScene) -> u32 {
-        match self {
-            Self::Flat(_) => scene.labels.iter().copied().max().map_or(0, u32::from),
-            Self::Mesh(drawn) => drawn.mesh.largest_label,
-        }
+    /// How many codes of parts, ranks or labels, a picture may hold, as stages tell them apart: few in registers, many in memory.
+    pub(super) fn codes(&self, scene: &DeviceScene, packing: Packing) -> u32 {
+        let largest = match (packing, self) {
+            (Packing::Max, _) => scene.counts.parts,
+            (Packing::Depth, Self::Flat(_)) => scene.labels.iter().copied().max().map_or(0, u32::from),
+            (Packing::Depth, Self::Mesh(drawn)) => drawn.mesh.largest_label,
+        };
+        if largest < SHORT_CODES { SHORT_CODES } else { LABELS }
     }
 
     /// Records the copies that bring what is drawn to the device.
@@ -119,12 +121,12 @@ impl Drawn {
         &self,
         recorder: &mut Recorder,
         scene: (&DeviceScene, &Workspace),
-        segments: Option<&DeviceSegments>,
+        summed: Summed<'_>,
         framebuffer: &Framebuffer,
         share: Share,
     ) -> Result<()> {
         match self {
-            Self::Flat(_) => raster(recorder, scene, segments, Images::Listed(&framebuffer.listed), share),
+            Self::Flat(_) => raster(recorder, scene, summed, Images::Listed(&framebuffer.listed), share),
             Self::Mesh(_) => Ok(()),
         }
     }

@@ -1,10 +1,12 @@
 //! The backend that draws with the graphics pipeline: four candidates of a view a tile of one large framebuffer, compared there
 //! with the observations (METHOD A9).
 
+mod byte_numbers;
 mod compare;
 mod draw;
 mod draw_mesh;
 mod drawn;
+mod evidence;
 mod framebuffer;
 mod mesh;
 #[cfg(test)]

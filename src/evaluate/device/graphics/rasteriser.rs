@@ -4,6 +4,7 @@ use anyhow::{Result, ensure};
 
 use super::compare::Comparing;
 use super::drawn::Drawn;
+use super::evidence::GraphicsEvidence;
 use super::passes::{feedback_pipeline, feedback_room};
 use super::readback::FramebufferCopy;
 use super::segments::GraphicsSegments;
@@ -12,11 +13,12 @@ use super::target::Target;
 use super::tiles::{first_tiles, fitted_tiles};
 use crate::body::{Body, Mesh};
 use crate::evaluate::device::backend::DeviceBackend;
+use crate::evaluate::device::evidence::DeviceEvidence;
 use crate::evaluate::device::host_buffers::HostCounts;
 use crate::evaluate::device::open::open_device;
 use crate::evaluate::device::passes;
 use crate::evaluate::device::rasteriser::Rasteriser;
-use crate::evaluate::device::resources::Resources;
+use crate::evaluate::device::resources::{Resources, Summed};
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::segments::DeviceSegments;
 use crate::evaluate::device::workspace::Workspace;
@@ -39,6 +41,8 @@ pub struct GraphicsRasteriser {
     comparing: Comparing,
     /// What segments are compared with, where the newest observations have them.
     segments: Option<GraphicsSegments>,
+    /// What evidence is looked up in, where the newest observations carry it.
+    evidence: Option<GraphicsEvidence>,
     /// Where transform feedback projects to, if it does.
     captured: Option<Buffer>,
     target: Target,
@@ -158,6 +162,7 @@ impl GraphicsRasteriser {
             drawn,
             comparing,
             segments: None,
+            evidence: None,
             captured: None,
             target: Target::new(scene, &settings, &tiles, 1)?,
             better_tiles: tiles.clone(),
@@ -174,29 +179,42 @@ impl GraphicsRasteriser {
         &self,
         recorder: &mut Recorder,
         resources: &Resources,
-        share: Share,
+        (summed, share): (Summed<'_>, Share),
         copy: Option<&FramebufferCopy>,
     ) -> Result<()> {
         let scene = (&resources.scene, &resources.workspace);
         let framebuffer = &self.target.framebuffer;
-        let segments = resources.segments.as_ref();
-        if let Some(segments) = segments.filter(|_| share.first == 0) {
-            // Batches add to it.
-            recorder.fill("clear segments", &segments.sums, 0)?;
+        // Batches add to it.
+        match summed {
+            Summed::Segments(segments) if share.first == 0 => recorder.fill("clear segments", &segments.sums, 0)?,
+            Summed::Evidence(evidence) if share.first == 0 => recorder.fill("clear evidence", &evidence.sums, 0)?,
+            _ => (),
         }
         self.drawn.record(recorder, scene, self.captured.as_ref(), framebuffer, share)?;
+        let segments = match summed {
+            Summed::Segments(segments) => self.segments.as_ref().map(|own| (own, segments)),
+            _ => None,
+        };
+        let evidence = match summed {
+            Summed::Evidence(evidence) => self.evidence.as_ref().map(|own| (own, evidence)),
+            _ => None,
+        };
         match copy {
             None => {
-                let observed = self.segments.as_ref().zip(segments).map(|(own, segments)| own.observed(segments));
+                let observed = segments.map(|(own, segments)| own.observed(segments));
                 self.comparing.record(recorder, scene, framebuffer, observed, share)?;
+                if let Some((own, evidence)) = evidence {
+                    own.record(recorder, scene, (framebuffer, evidence), share)?;
+                }
             }
             Some(copy) => {
                 copy.record(recorder, framebuffer)?;
-                self.segments.as_ref().map_or(Ok(()), |own| own.record_orders(recorder, scene, share))?;
+                let orders = segments.map(|(own, _)| &own.orders).or(evidence.map(|(own, _)| &own.orders));
+                orders.map_or(Ok(()), |orders| orders.record(recorder, scene, share))?;
             }
         }
         // What fits no tile is scored without a framebuffer.
-        self.drawn.record_unplaced(recorder, scene, segments, framebuffer, share)
+        self.drawn.record_unplaced(recorder, scene, summed, framebuffer, share)
     }
 }
 
@@ -224,7 +242,9 @@ impl Rasteriser for GraphicsRasteriser {
         if self.settings.projection == Projection::Feedback {
             self.captured = Some(feedback_room(&scene.device, scene.counts, workspace.batch)?);
         }
-        self.segments.as_mut().map_or(Ok(()), |segments| segments.reserve(scene, workspace))
+        let segments = self.segments.as_mut().map(|segments| &mut segments.orders);
+        let orders = segments.into_iter().chain(self.evidence.as_mut().map(|evidence| &mut evidence.orders));
+        orders.into_iter().try_for_each(|orders| orders.reserve(scene, workspace))
     }
 
     fn batch(&self, workspace: &Workspace) -> u32 {
@@ -244,9 +264,24 @@ impl Rasteriser for GraphicsRasteriser {
         Ok(())
     }
 
+    fn set_evidence(
+        &mut self,
+        scene: &DeviceScene,
+        workspace: &Workspace,
+        evidence: Option<&DeviceEvidence>,
+    ) -> Result<()> {
+        let how = (self.comparing, self.compares_on_host());
+        let scene = (scene, workspace);
+        self.evidence = evidence.map(|_| GraphicsEvidence::new(scene, &self.drawn, how)).transpose()?;
+        Ok(())
+    }
+
     fn observe(&mut self, scene: &DeviceScene, observations: &[Observation], is_recorded: bool) -> Result<()> {
         if let Some(segments) = &mut self.segments {
             segments.observe(scene, observations)?;
+        }
+        if let Some(evidence) = &self.evidence {
+            evidence.observe(scene, observations)?;
         }
         if self.compares_on_host() {
             self.observations = observations.to_vec();
@@ -260,17 +295,30 @@ impl Rasteriser for GraphicsRasteriser {
 
     fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
         self.segments.as_ref().map_or(Ok(()), |segments| segments.record_upload(recorder))?;
+        self.evidence.as_ref().map_or(Ok(()), |evidence| evidence.record_upload(recorder))?;
         self.drawn.record_upload(recorder)
     }
 
     /// With tiles of the size that the newest observations or candidates told; images that outgrow them later are still scored,
     /// the slower way. The comparison is on the device, whatever the settings say.
-    fn record_share(&self, recorder: &mut Recorder, resources: &Resources, share: Share) -> Result<()> {
-        self.record_comparison(recorder, resources, share, None)
+    fn record_share(
+        &self,
+        recorder: &mut Recorder,
+        resources: &Resources,
+        summed: Summed<'_>,
+        share: Share,
+    ) -> Result<()> {
+        self.record_comparison(recorder, resources, (summed, share), None)
     }
 
-    fn record_host_share(&self, recorder: &mut Recorder, resources: &Resources, share: Share) -> Result<()> {
-        self.record_comparison(recorder, resources, share, self.target.copy.as_ref())?;
+    fn record_host_share(
+        &self,
+        recorder: &mut Recorder,
+        resources: &Resources,
+        summed: Summed<'_>,
+        share: Share,
+    ) -> Result<()> {
+        self.record_comparison(recorder, resources, (summed, share), self.target.copy.as_ref())?;
         let a_candidate = u64::from(resources.scene.counts.views) * size_of::<layout::Bounds>() as u64;
         let (from, bytes) = (u64::from(share.first) * a_candidate, u64::from(share.candidates) * a_candidate);
         recorder.copy("read bounds", (&resources.workspace.bounds, 0), (&self.target.bounds_out, from), bytes)
@@ -280,13 +328,19 @@ impl Rasteriser for GraphicsRasteriser {
         matches!(self.settings.comparison, Comparison::Host(_))
     }
 
-    fn count(&self, resources: &Resources, share: Share, counts: &mut HostCounts) -> Result<()> {
+    fn count(&self, resources: &Resources, summed: Summed<'_>, share: Share, counts: &mut HostCounts) -> Result<()> {
         let (Some(copy), Comparison::Host(how)) = (&self.target.copy, self.settings.comparison) else { return Ok(()) };
         let pictures = copy.read(&self.target.framebuffer, share.candidates)?;
         counts.sums.extend(pictures.compare(&self.observations, self.settings.packing.edge_bit(), how));
-        if let Some((scored, segments)) = resources.segments.as_ref().zip(self.segments.as_ref()) {
-            let parts = resources.scene.counts.parts as usize;
-            counts.segments.extend(segments.count(scored.segments(), parts, &pictures, &self.observations, how)?);
+        let parts = resources.scene.counts.parts as usize;
+        match (summed, &self.segments, &self.evidence) {
+            (Summed::Segments(scored), Some(segments), _) => {
+                counts.segments.extend(segments.count(scored.segments(), parts, &pictures, &self.observations, how)?);
+            }
+            (Summed::Evidence(_), _, Some(evidence)) => {
+                counts.evidence.extend(evidence.sum(parts, &pictures, &self.observations)?);
+            }
+            _ => (),
         }
         Ok(())
     }

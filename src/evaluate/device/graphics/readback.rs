@@ -3,12 +3,14 @@
 
 use anyhow::Result;
 
+use super::byte_numbers::ByteNumbers;
 use super::framebuffer::Framebuffer;
 use super::settings::HostComparison;
 use super::tiles::{CANDIDATES_A_TILE, TileLayout};
 use crate::evaluate::SegmentSums;
 use crate::evaluate::shaders::layout;
-use crate::features::{Observation, Segments};
+use crate::features::evidence::code;
+use crate::features::{Evidence, Observation, PartClasses, Segments};
 use crate::gpu::{Buffer, Device, Memory, Recorder};
 
 /// Where the device copies a framebuffer and its placements to, for the host to read.
@@ -60,15 +62,12 @@ impl FramebufferCopy {
     }
 }
 
-/// The segment number of each byte that a picture may hold.
-pub(crate) type ByteNumbers = [u8; 256];
-
 /// Rows of one candidate's picture and of the observation behind them.
-struct Window<'a> {
+struct Window<'a, T> {
     texels: &'a [u32],
     /// Texels from a row to the next.
     pitch: usize,
-    seen: &'a [u8],
+    seen: &'a [T],
     seen_pitch: usize,
     width: usize,
     height: usize,
@@ -127,8 +126,23 @@ impl Pictures<'_> {
         all
     }
 
+    /// The evidence of every image, `[candidate][view]`; 0 of one that is not drawn here. `numbers` tells the class of an image's
+    /// bytes.
+    pub(crate) fn sum_evidence(
+        &self,
+        observations: &[Observation],
+        numbers: impl Fn(usize, &PartClasses) -> ByteNumbers,
+    ) -> Vec<i32> {
+        let sum = |image: usize| {
+            let seen = observations[image % self.layout.views.len()].evidence.as_ref()?;
+            let window = self.window(image, seen.words(), seen.dimensions().0 as usize)?;
+            Some(sum_codes(&window, &numbers(image, seen.classes())))
+        };
+        (0..self.placements.len()).map(|image| sum(image).unwrap_or(0)).collect()
+    }
+
     /// An image and the rows of `seen_pitch` values a pixel that were observed behind it; none of an image that is not drawn here.
-    fn window<'a>(&'a self, image: usize, seen: &'a [u8], seen_pitch: usize) -> Option<Window<'a>> {
+    fn window<'a, T>(&'a self, image: usize, seen: &'a [T], seen_pitch: usize) -> Option<Window<'a, T>> {
         let placement = &self.placements[image];
         if placement.low == placement.high {
             return None;
@@ -175,7 +189,7 @@ fn place(word: u32) -> [usize; 2] {
 }
 
 /// A pixel after the other, branch by branch.
-fn compare_scalar(window: &Window<'_>, edge_bit: u32) -> [u32; 4] {
+fn compare_scalar(window: &Window<'_, u8>, edge_bit: u32) -> [u32; 4] {
     let mut sums = [0; 4];
     for y in 0..window.height {
         for x in 0..window.width {
@@ -198,7 +212,7 @@ fn compare_scalar(window: &Window<'_>, edge_bit: u32) -> [u32; 4] {
 
 /// The same without branches, in words for the compiler to take many at a time.
 #[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
-fn compare_simd(window: &Window<'_>, edge_bit: u32) -> [u32; 4] {
+fn compare_simd(window: &Window<'_, u8>, edge_bit: u32) -> [u32; 4] {
     let mut sums = [0; 4];
     let shift = window.shift;
     for y in 0..window.height {
@@ -222,7 +236,7 @@ fn compare_simd(window: &Window<'_>, edge_bit: u32) -> [u32; 4] {
 }
 
 /// Drawn pixels and common pixels of each segment, a pixel after the other.
-fn count_segments(window: &Window<'_>, numbers: &ByteNumbers) -> [[u32; 2]; Segments::MOST] {
+fn count_segments(window: &Window<'_, u8>, numbers: &ByteNumbers) -> [[u32; 2]; Segments::MOST] {
     let mut sums = [[0; 2]; Segments::MOST];
     for y in 0..window.height {
         for x in 0..window.width {
@@ -240,7 +254,7 @@ fn count_segments(window: &Window<'_>, numbers: &ByteNumbers) -> [[u32; 2]; Segm
 
 /// The same, the counts of a row without branches, for the compiler to take many pixels at a time.
 #[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
-fn count_segments_simd(window: &Window<'_>, numbers: &ByteNumbers, segments: usize) -> [[u32; 2]; Segments::MOST] {
+fn count_segments_simd(window: &Window<'_, u8>, numbers: &ByteNumbers, segments: usize) -> [[u32; 2]; Segments::MOST] {
     let mut sums = [[0; 2]; Segments::MOST];
     let mut shown = vec![0_u8; window.width];
     for y in 0..window.height {
@@ -260,11 +274,26 @@ fn count_segments_simd(window: &Window<'_>, numbers: &ByteNumbers, segments: usi
     sums
 }
 
+/// The evidence of what is drawn, a pixel after the other.
+fn sum_codes(window: &Window<'_, u32>, classes: &ByteNumbers) -> i32 {
+    let mut sum = 0;
+    for y in 0..window.height {
+        for x in 0..window.width {
+            let drawn = (window.texels[y * window.pitch + x] >> window.shift) as u8;
+            if drawn != 0 {
+                let word = window.seen[y * window.seen_pitch + x];
+                sum += code(word, usize::from(classes[usize::from(drawn)])) as i32 - Evidence::NEUTRAL as i32;
+            }
+        }
+    }
+    sum
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn window<'a>(texels: &'a [u32], seen: &'a [u8], [width, height]: [usize; 2], shift: u32) -> Window<'a> {
+    fn window<'a>(texels: &'a [u32], seen: &'a [u8], [width, height]: [usize; 2], shift: u32) -> Window<'a, u8> {
         Window { texels, pitch: 200, seen, seen_pitch: 150, width, height, shift }
     }
 

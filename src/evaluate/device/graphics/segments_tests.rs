@@ -134,7 +134,7 @@ fn segments_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
                         recorder.fill("clear segments", &scored.sums, 0).unwrap();
                         let observed = Some(compared.observed(&scored));
                         comparing.record(&mut recorder, scene, &framebuffer, observed, share).unwrap();
-                        compared.record_orders(&mut recorder, scene, share).unwrap();
+                        compared.orders.record(&mut recorder, scene, share).unwrap();
                         scored.record_readback(&mut recorder).unwrap();
                         copy.record(&mut recorder, &framebuffer).unwrap();
                         recorder.finish().unwrap().run().unwrap();
