@@ -5,6 +5,7 @@
 //! earlier call stopped, and writes a tidy row a run, tables and plots.
 
 mod axes;
+mod lottery;
 mod outcome;
 mod plan;
 mod plots;
@@ -15,8 +16,10 @@ mod scenes;
 mod settings;
 mod summary;
 mod tables;
+mod taken;
 
 pub use axes::{Axis, Value};
+pub use lottery::{LotteryManifest, LotteryTable};
 pub use outcome::{Outcome, Row, StageShare};
 pub use run::Run;
 pub use runner::{Progress, StudySummary, run};

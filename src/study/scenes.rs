@@ -5,6 +5,7 @@ use std::fs;
 use anyhow::{Context, Result};
 
 use super::settings::SequenceSettings;
+use super::taken::{taken, taken_truth};
 use crate::body::{Body, Model};
 use crate::files::{OutputFolder, Overwrite};
 use crate::motion::{PointTrajectory, TrajectoryError, read_points};
@@ -49,13 +50,21 @@ impl Prepared {
                 Sequence::open(folder.path())?
             }
             (None, Some(path)) => Sequence::open(path)?,
-            (None, None) => anyhow::bail!("sequence {name:?} has neither `path` nor `preset`"),
+            (None, None) => match &settings.drawn {
+                Some(drawn) => drawn.open(output, progress).with_context(|| format!("sequence {name:?}"))?,
+                None => anyhow::bail!("sequence {name:?} has neither `path` nor `preset`"),
+            },
         };
+        let whole = (sequence.truth.clone(), sequence.frame_count);
+        let sequence = taken(sequence, settings, output).with_context(|| format!("sequence {name:?}"))?;
         let body = Body::load(&sequence.body)?;
         let is_paired = settings.truth.is_some() || !settings.map.is_empty() || !settings.exclude.is_empty();
-        let path = settings.truth.as_ref().or(sequence.truth.as_ref()).filter(|_| is_paired || settings.truth_y_up);
-        let truth = path.map(|path| read_points(path)).transpose()?;
+        let is_other = settings.reversed || settings.every.is_some_and(|every| every > 1);
+        let path = settings.truth.as_ref().or(whole.0.as_ref());
+        let truth =
+            path.filter(|_| is_paired || is_other || settings.truth_y_up).map(|path| read_points(path)).transpose()?;
         let truth = truth.map(|points| if settings.truth_y_up { points.y_up_to_z_up() } else { points });
+        let truth = truth.map(|points| if is_other { taken_truth(&points, settings, whole.1) } else { points });
         Ok(Self { settings: settings.clone(), sequence, body, truth })
     }
 

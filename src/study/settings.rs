@@ -7,6 +7,7 @@ use anyhow::{Context, Result, bail, ensure};
 use serde::Deserialize;
 
 use super::axes::{Axis, Value};
+use super::lottery::{Drawn, LotteryTable};
 use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
 use crate::files::{parse_toml, read_toml};
@@ -45,9 +46,11 @@ pub struct Study {
     /// Factor on the width of the search round the previous pose.
     #[serde(default = "default_spread")]
     pub spread: f64,
-    /// What is tracked.
-    #[serde(rename = "sequence")]
+    /// What is tracked; with a lottery also its scenes, behind these.
+    #[serde(default, rename = "sequence")]
     pub sequences: Vec<SequenceSettings>,
+    /// Scenes drawn from seeds.
+    pub lottery: Option<LotteryTable>,
     /// The tables; without any, one of the errors and one of the frame rates.
     #[serde(default, rename = "table")]
     pub tables: Vec<TableSettings>,
@@ -67,6 +70,21 @@ pub struct SequenceSettings {
     pub path: Option<PathBuf>,
     /// A preset of `pantin synth`, instead of a path.
     pub preset: Option<String>,
+    /// A scene of the study's lottery, instead of a path: no key of a file.
+    #[serde(skip)]
+    pub drawn: Option<Drawn>,
+    /// The cameras whose views are tracked, if not all.
+    #[serde(default)]
+    pub cameras: Vec<String>,
+    /// Every which frame is tracked.
+    pub every: Option<usize>,
+    /// Backwards, from the last frame.
+    #[serde(default)]
+    pub reversed: bool,
+    /// The first pose of a reversed sequence, seen from the study's file; it is searched without.
+    pub start: Option<PathBuf>,
+    /// Where the person faces there, degrees; found out without.
+    pub heading: Option<f64>,
     /// How many frames of the preset are made, if not all.
     pub length: Option<usize>,
     /// Its name in rows and tables, if not that of the preset or the sequence's folder.
@@ -170,7 +188,7 @@ impl SequenceSettings {
 
     fn check(&self) -> Result<()> {
         ensure!(
-            self.path.is_some() != self.preset.is_some(),
+            self.drawn.is_some() || self.path.is_some() != self.preset.is_some(),
             "it has {}, expected one of them",
             if self.path.is_some() { "both `path` and `preset`" } else { "neither `path` nor `preset`" }
         );
@@ -180,6 +198,7 @@ impl SequenceSettings {
         );
         ensure!(self.length != Some(0), "length is 0, expected at least 1 frame");
         self.frames().context("frames")?;
+        self.check_taken()?;
         file_name(&self.name())
     }
 }
@@ -193,10 +212,16 @@ impl Study {
         let mut study: Self = read_toml(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         for sequence in &mut study.sequences {
-            for path in [&mut sequence.path, &mut sequence.truth].into_iter().flatten() {
+            for path in [&mut sequence.path, &mut sequence.truth, &mut sequence.start].into_iter().flatten() {
                 *path = folder.join(&*path);
             }
         }
+        if let Some(lottery) = &mut study.lottery {
+            for path in [&mut lottery.motions, &mut lottery.people, &mut lottery.scenes].into_iter().flatten() {
+                *path = folder.join(&*path);
+            }
+        }
+        study.draw();
         study.check().with_context(|| path.display().to_string())?;
         Ok(study)
     }
@@ -206,9 +231,17 @@ impl Study {
     /// # Errors
     /// As [`Study::load`].
     pub fn parse(text: &str, name: &str) -> Result<Self> {
-        let study: Self = parse_toml(text, name)?;
+        let mut study: Self = parse_toml(text, name)?;
+        study.draw();
         study.check().with_context(|| name.to_string())?;
         Ok(study)
+    }
+
+    /// Puts the scenes of the lottery behind the other sequences.
+    fn draw(&mut self) {
+        if let Some(lottery) = &self.lottery {
+            self.sequences.extend(lottery.sequences());
+        }
     }
 
     /// Whether the study makes sense by itself.
@@ -223,7 +256,12 @@ impl Study {
         several("searches", &self.searches)?;
         several("models", &self.models)?;
         several("backends", &self.backends)?;
-        ensure!(!self.sequences.is_empty(), "there is no [[sequence]], expected at least one");
+        if let Some(lottery) = &self.lottery {
+            several("[lottery] seeds", &lottery.seeds)?;
+            several("[lottery] manifests", &lottery.manifests)?;
+            ensure!(lottery.frames != Some(0), "[lottery] frames is 0, expected at least 1");
+        }
+        ensure!(!self.sequences.is_empty(), "there is no [[sequence]] and no [lottery], expected one of them");
         let mut names = HashSet::new();
         for sequence in &self.sequences {
             let name = sequence.name();
