@@ -21,7 +21,7 @@ use pantin::study::{Axis, Value};
 use pantin::synth::{Gait, Garment, LensKind, MotionUnit, PictureForm, RigKind, ScenePreset};
 use pantin::texture::materials::MaterialKind;
 use pantin::texture::noise::Sum;
-use pantin::track::{Backend, Prediction};
+use pantin::track::{Backend, Prediction, Width};
 
 /// What a document calls a list, and its table.
 type List = (&'static str, String);
@@ -38,6 +38,7 @@ fn lists() -> Vec<List> {
         list::<ObjectiveKind>(),
         list::<SearchKind>(),
         list::<Prediction>(),
+        list::<Width>(),
         list::<Operator>(),
         list::<Magnitude>(),
         list::<Metric>(),

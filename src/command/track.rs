@@ -15,7 +15,8 @@ use crate::files::{OutputFolder, Overwrite};
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::{STALL_TIMEOUT, Sequence};
 use crate::track::{
-    Backend, FrameDone, FrameRange, Prediction, Progress, RealtimeSummary, RunStart, TrackSettings, TrackSummary, track,
+    Backend, FrameDone, FrameRange, Prediction, Progress, RealtimeSummary, RunStart, TrackSettings, TrackSummary,
+    Width, track,
 };
 
 /// Tracks a person through a sequence: poses, joints and markers over time (CSV, TRC, C3D, BVH), how far they can be
@@ -49,9 +50,12 @@ pub(super) struct TrackArgs {
     /// Poses scored to refine each frame's winner, beyond those N x K.
     #[arg(long, value_name = "N", default_value_t = 0)]
     refine: usize,
-    /// Where a frame's search starts.
-    #[arg(long, value_name = "NAME", default_value_t)]
-    predict: Prediction,
+    /// Where a frame's search starts. Without: learnt with the search maes, none with the others.
+    #[arg(long, value_name = "NAME")]
+    predict: Option<Prediction>,
+    /// How wide it starts. Without: learnt with the search maes, steps with the others.
+    #[arg(long, value_name = "NAME")]
+    width: Option<Width>,
     /// Search wider for a person who is lost, and leave frames without a find as gaps in the results: yes or no.
     #[arg(long, value_name = "yes|no", default_value = "yes", value_parser = yes_or_no, action = ArgAction::Set)]
     recover: bool,
@@ -116,6 +120,7 @@ impl TrackArgs {
             },
             spread: self.spread,
             predict: self.predict,
+            width: self.width,
             recover: self.recover,
             frames: self.frames,
             start: self.start.clone(),

@@ -9,6 +9,7 @@ use super::appearance::RunAppearance;
 use super::confidence::{Confidence, LossRule, seen_joints};
 use super::feed::Prepared;
 use super::journal::{Extent, FrameResult, Journal};
+use super::motion::LearntMotion;
 use super::overlay::Overlay;
 use super::pace::{Finished, Offline, Pace};
 use super::plan::Plan;
@@ -22,7 +23,7 @@ use super::summary::{TrackSummary, lost_sentence, mean};
 use super::timings::{Span, Thread, Timings};
 use super::truth::Truth;
 use super::unaided::with_start;
-use super::{Backend, TrackSettings, folder, results, run_record};
+use super::{Backend, Prediction, TrackSettings, Width, folder, results, run_record};
 use crate::evaluate::ViewCounts;
 use crate::files::OutputFolder;
 use crate::gpu::DeviceLost;
@@ -105,6 +106,7 @@ pub fn track(
     let recovery = settings.may_recover().then_some(recovery);
     let is_learnt = plan.features.likelihoods;
     let appearance = is_learnt.then(|| RunAppearance::new(&plan.body, &sequence.cameras));
+    let motion = LearntMotion::new(plan.space.spread(1.0 / sequence.fps)?, settings.prediction() == Prediction::Learnt);
     let mut run = Run {
         appearance,
         lost: Vec::new(),
@@ -120,6 +122,7 @@ pub fn track(
         confidence,
         recovery,
         pace,
+        motion,
     };
     run.take_over(done)?;
     let searched = run.search_all(progress);
@@ -155,6 +158,8 @@ struct Run<'a> {
     appearance: Option<RunAppearance>,
     /// The frames that are lost.
     lost: Vec<usize>,
+    /// How the person moves, where a search starts by that.
+    motion: LearntMotion,
 }
 
 impl Run<'_> {
@@ -176,6 +181,8 @@ impl Run<'_> {
         if confidence.is_lost {
             self.lost.push(result.frame);
         }
+        let follows = self.motion.last_frame().is_some_and(|before| self.pace.follows(before, result.frame));
+        self.motion.note(result, follows && !confidence.is_lost);
         let mut is_gap = false;
         if let Some(recovery) = &mut self.recovery {
             recovery.note(&result.pose, confidence.is_lost);
@@ -284,14 +291,24 @@ impl Run<'_> {
         let turn = self.pace.turn(prepared, before, self.sequence.fps);
         let mut spread = self.plan.spread(turn.starts_anew)?;
         spread.iter_mut().for_each(|deviation| *deviation *= turn.widen);
+        // Whoever is lost is searched for by the body's steps.
+        let steps = spread.clone();
+        if self.settings.width() == Width::Learnt && !turn.starts_anew {
+            spread.iter_mut().zip(self.motion.widths()).for_each(|(deviation, width)| *deviation *= width);
+        }
         let [particles, iterations] = turn.size;
         self.plan.resize(particles, iterations)?;
         let Plan { start, objective, backend, search, space, body, .. } = &mut self.plan;
         let predicted = match &*self.frames {
             _ if turn.starts_anew => start.clone(),
             [] => start.clone(),
+            [.., last] if self.settings.prediction() == Prediction::Learnt => {
+                let mut pose = self.motion.start(&last.pose, turn.widen);
+                space.clamp(&mut pose);
+                pose
+            }
             [only] => only.pose.clone(),
-            [.., earlier, last] => self.settings.predict.start(space, &last.pose, Some(&earlier.pose)),
+            [.., earlier, last] => self.settings.prediction().start(space, &last.pose, Some(&earlier.pose)),
         };
         let evaluator = backend.evaluator.as_mut();
         let counter =
@@ -318,7 +335,7 @@ impl Run<'_> {
                 let views = views.iter().map(|view| objective.view_terms(view)).collect();
                 !self.confidence.is_loss_at(&FrameResult { views, ..found.clone() })
             };
-            let lost = LostFrame { evaluator, objective, observations, number: counter, spread: &spread };
+            let lost = LostFrame { evaluator, objective, observations, number: counter, spread: &steps };
             recovery.search(lost, &mut searched, &is_sure).with_context(in_frame)?;
             searched.evaluations.push(Span::since(begin));
             found = result(&searched);

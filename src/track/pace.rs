@@ -59,6 +59,11 @@ pub(super) trait Pace {
     /// How to search a frame after the frame `before`.
     fn turn(&self, prepared: &Prepared, before: Option<usize>, fps: f64) -> Turn;
 
+    /// Whether a frame goes on from the frame `before`.
+    fn follows(&self, _before: usize, _frame: usize) -> bool {
+        true
+    }
+
     /// Takes note of a search.
     fn searched(&mut self, _evaluations: usize, _whole: Span) {}
 

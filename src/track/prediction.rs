@@ -5,13 +5,14 @@ use crate::search::SearchSpace;
 
 choices! {
     /// How the pose of a frame is predicted.
-    #[derive(Default)]
     "prediction" pub enum Prediction {
-        /// It is the pose before (the default).
-        "none" #[default] None,
+        /// It is the pose before.
+        "none" None,
         /// It goes on from the pose before as that came from the one before it: constant velocity of every degree of freedom,
         /// within the limits.
         "velocity" Velocity,
+        /// It goes on as velocity, by the share of a velocity that has gone on so far, learnt for every degree of freedom.
+        "learnt" Learnt,
     }
 }
 
@@ -41,6 +42,6 @@ mod tests {
         assert_eq!(Prediction::Velocity.start(&space, &last, None), last);
         assert_eq!(Prediction::None.start(&space, &last, Some(&earlier)), last);
         let error = Prediction::from_name("linear").unwrap_err().to_string();
-        assert_eq!(error, "unknown prediction `linear`, the nearest is `none` (known: none, velocity)");
+        assert_eq!(error, "unknown prediction `linear`, the nearest is `none` (known: none, velocity, learnt)");
     }
 }

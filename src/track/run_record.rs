@@ -11,7 +11,7 @@ use toml::{Table, Value};
 
 use super::journal::checksum;
 use super::plan::Plan;
-use super::{Backend, RealtimeSettings, TrackSettings};
+use super::{Backend, RealtimeSettings, TrackSettings, Width};
 use crate::body::{MeshSource, Model};
 use crate::evaluate::Objective;
 use crate::files::{OutputFolder, read_toml, table_of};
@@ -125,7 +125,7 @@ impl Run {
         let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
         let command = format!(
             "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-             --refine {} --predict {} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}{}",
+             --refine {} --predict {}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}{}",
             sequence.path.display(),
             plan.range.start,
             plan.range.end,
@@ -135,7 +135,8 @@ impl Run {
             search.seed,
             settings.spread,
             search.refine,
-            settings.predict.name(),
+            settings.prediction().name(),
+            learnt_width(settings).map(|width| format!(" --width {width}")).unwrap_or_default(),
             yes_or_no(settings.recover),
             kind.name(),
             plan.backend.evaluator.name(),
@@ -153,6 +154,12 @@ impl Run {
     }
 }
 
+/// How wide the start is where that is not the body's steps, which runs had before there was a choice.
+fn learnt_width(settings: &TrackSettings) -> Option<&'static str> {
+    let width = settings.width();
+    (width != Width::Steps).then(|| width.name())
+}
+
 #[derive(Serialize)]
 struct Settings<'a> {
     frames: String,
@@ -164,6 +171,8 @@ struct Settings<'a> {
     spread: f64,
     refine: usize,
     predict: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    width: Option<&'static str>,
     recover: &'static str,
     #[serde(flatten)]
     constants: Table,
@@ -203,7 +212,8 @@ impl<'a> Settings<'a> {
             seed: search.seed,
             spread: settings.spread,
             refine: search.refine,
-            predict: settings.predict.name(),
+            predict: settings.prediction().name(),
+            width: learnt_width(settings),
             recover: yes_or_no(settings.recover),
             constants: search.constants()?,
             objective: kind.name(),

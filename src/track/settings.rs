@@ -6,7 +6,7 @@ use std::time::Duration;
 use anyhow::{Result, ensure};
 
 use super::journal::Numbering;
-use super::{Backend, FrameRange, ObjectiveChoice, Prediction, RealtimeSettings};
+use super::{Backend, FrameRange, ObjectiveChoice, Prediction, RealtimeSettings, Width};
 use crate::body::Model;
 use crate::report::check_recordings_are_built;
 use crate::search::{SearchKind, SearchSettings};
@@ -26,8 +26,10 @@ pub struct TrackSettings {
     /// Factor on the standard deviation with which a frame's search starts round the previous pose: the body's steps,
     /// scaled to the time between frames.
     pub spread: f64,
-    /// Where a frame's search starts.
-    pub predict: Prediction,
+    /// Where a frame's search starts; without, as it suits the search ([`Self::prediction`]).
+    pub predict: Option<Prediction>,
+    /// How wide it starts; without, as it suits the search ([`Self::width`]).
+    pub width: Option<Width>,
     /// Whether a lost person is searched for wider, and frames without a find are gaps in the results.
     pub recover: bool,
     /// Which frames.
@@ -56,7 +58,8 @@ impl Default for TrackSettings {
             objective: ObjectiveChoice::default(),
             search: SearchSettings::default(),
             spread: 1.0,
-            predict: Prediction::default(),
+            predict: None,
+            width: None,
             recover: true,
             frames: FrameRange::default(),
             start: None,
@@ -71,6 +74,18 @@ impl Default for TrackSettings {
 }
 
 impl TrackSettings {
+    /// Where a frame's search starts. What the track taught suits `maes`; the other searches start as they did before it.
+    pub fn prediction(&self) -> Prediction {
+        let usual = if self.search.kind == SearchKind::MaEs { Prediction::Learnt } else { Prediction::None };
+        self.predict.unwrap_or(usual)
+    }
+
+    /// How wide a frame's search starts, chosen likewise.
+    pub fn width(&self) -> Width {
+        let usual = if self.search.kind == SearchKind::MaEs { Width::Learnt } else { Width::Steps };
+        self.width.unwrap_or(usual)
+    }
+
     /// Whether a lost person is searched for wider: that takes the time that real time has not.
     pub(super) fn may_recover(&self) -> bool {
         self.recover && self.realtime.is_none()
@@ -88,7 +103,7 @@ impl TrackSettings {
     pub fn check(&self) -> Result<()> {
         ensure!((0.01..=100.0).contains(&self.spread), "spread is {}, expected 0.01 to 100", self.spread);
         ensure!(
-            self.predict == Prediction::None || !self.search.kind.carries_on(),
+            self.prediction() == Prediction::None || !self.search.kind.carries_on(),
             "the search {} carries its samples from frame to frame and starts from no predicted pose, expected --predict none",
             self.search.kind.name()
         );
@@ -123,7 +138,7 @@ mod tests {
         TrackSettings::default().check().unwrap();
         let error = TrackSettings { spread: f64::NAN, ..TrackSettings::default() }.check().unwrap_err().to_string();
         assert!(error.contains("spread is NaN"), "{error}");
-        let mut settings = TrackSettings { predict: Prediction::Velocity, ..TrackSettings::default() };
+        let mut settings = TrackSettings { predict: Some(Prediction::Velocity), ..TrackSettings::default() };
         settings.check().unwrap();
         settings.search.kind = SearchKind::ParticleFilter;
         let error = settings.check().unwrap_err().to_string();

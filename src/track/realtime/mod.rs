@@ -149,6 +149,10 @@ impl Pace for Realtime {
         }
     }
 
+    fn follows(&self, before: usize, frame: usize) -> bool {
+        self.rounds.are_together(before, frame)
+    }
+
     fn searched(&mut self, evaluations: usize, whole: Span) {
         self.budget.searched(evaluations, whole.time);
         self.tally.searched(evaluations);
