@@ -45,8 +45,7 @@ test: export CARGO_INCREMENTAL = 0
 # have the feature rerun too: 185 crates more, but no library is built a second time.
 test: toolchain shaderc ffmpeg vulkan
 	$(CARGO) fmt --check
-	$(CARGO) clippy --locked --features rerun --all-targets -- -D warnings
-	$(CARGO) clippy --locked --features reload --lib -- -D warnings
+	$(CARGO) clippy --locked --features rerun,reload --all-targets -- -D warnings
 	env $(NEEDS_VULKAN) $(CARGO) test --locked --lib
 	env $(NEEDS_VULKAN) $(CARGO) test --locked --features rerun --test '*' --bench '*'
 	$(CARGO) test --locked --features rerun --doc
