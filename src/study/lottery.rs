@@ -6,7 +6,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use anyhow::{Context, Result};
 use serde::Deserialize;
 
-use super::settings::SequenceSettings;
 use crate::files::{OutputFolder, choices};
 use crate::sequence::Sequence;
 use crate::synth::{Lottery, LotterySettings};
@@ -58,23 +57,17 @@ pub struct Drawn {
 }
 
 impl LotteryTable {
-    /// The sequences of all scenes: `lottery07`, `lottery07_exact`.
-    pub(super) fn sequences(&self) -> Vec<SequenceSettings> {
-        let sequence = |seed: u64, manifest: LotteryManifest| {
+    /// All scenes by name: `lottery07`, `lottery07_exact`.
+    pub(super) fn scenes(&self) -> Vec<(String, Drawn)> {
+        let scene = |seed: u64, manifest: LotteryManifest| {
             let suffix = if manifest == LotteryManifest::Sequence { String::new() } else { format!("_{manifest}") };
             let (motions, people) = (self.motions.clone(), self.people.clone());
-            SequenceSettings {
-                name: Some(format!("lottery{seed:02}{suffix}")),
-                drawn: Some(Drawn {
-                    settings: LotterySettings { seed, motions, people, frames: self.frames },
-                    manifest,
-                    scenes: self.scenes.clone(),
-                }),
-                ..SequenceSettings::default()
-            }
+            let settings = LotterySettings { seed, motions, people, frames: self.frames };
+            let drawn = Drawn { settings, manifest, scenes: self.scenes.clone() };
+            (format!("lottery{seed:02}{suffix}"), drawn)
         };
         let of_seed = |seed: &u64| self.manifests.iter().map(move |manifest| (*seed, *manifest)).collect::<Vec<_>>();
-        self.seeds.iter().flat_map(of_seed).map(|(seed, manifest)| sequence(seed, manifest)).collect()
+        self.seeds.iter().flat_map(of_seed).map(|(seed, manifest)| scene(seed, manifest)).collect()
     }
 }
 

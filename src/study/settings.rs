@@ -240,7 +240,11 @@ impl Study {
     /// Puts the scenes of the lottery behind the other sequences.
     fn draw(&mut self) {
         if let Some(lottery) = &self.lottery {
-            self.sequences.extend(lottery.sequences());
+            self.sequences.extend(lottery.scenes().into_iter().map(|(name, drawn)| SequenceSettings {
+                name: Some(name),
+                drawn: Some(drawn),
+                ..SequenceSettings::default()
+            }));
         }
     }
 

@@ -15,6 +15,7 @@ mod resources;
 mod runs;
 mod scene;
 mod segments;
+mod summed;
 #[cfg(test)]
 mod tests;
 mod workspace;

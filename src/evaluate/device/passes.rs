@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 
-use super::resources::Summed;
 use super::scene::{DeviceScene, Share};
+use super::summed::Summed;
 use super::workspace::Workspace;
 use crate::evaluate::objective::Objective;
 use crate::evaluate::shaders::{

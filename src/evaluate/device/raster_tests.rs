@@ -7,8 +7,8 @@
 )]
 
 use super::passes::{Images, raster, raster_stage};
-use super::resources::Summed;
 use super::scene::{DeviceScene, Share};
+use super::summed::Summed;
 use super::tests::{cameras, device, fetch, set_up_with};
 use super::workspace::Workspace;
 use crate::body::Body;

@@ -4,9 +4,10 @@ use anyhow::Result;
 
 use super::evidence::DeviceEvidence;
 use super::host_buffers::HostCounts;
-use super::resources::{Resources, Summed};
+use super::resources::Resources;
 use super::scene::{DeviceScene, Share};
 use super::segments::DeviceSegments;
+use super::summed::Summed;
 use super::workspace::Workspace;
 use crate::evaluate::evaluator::Footprint;
 use crate::evaluate::raster::CandidateImage;

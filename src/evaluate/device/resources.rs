@@ -7,6 +7,7 @@ use super::host_buffers::HostBuffers;
 use super::passes;
 use super::scene::{DeviceScene, Share};
 use super::segments::DeviceSegments;
+use super::summed::Summed;
 use super::workspace::Workspace;
 use crate::evaluate::besides::Besides;
 use crate::evaluate::evidence::no_evidence;
@@ -23,14 +24,6 @@ pub(crate) struct Resources {
     pub(super) segments: Option<DeviceSegments>,
     /// Where the newest observations carry it.
     pub(super) evidence: Option<DeviceEvidence>,
-}
-
-/// What a run sums besides the components, with the memory for it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Summed<'a> {
-    Nothing,
-    Segments(&'a DeviceSegments),
-    Evidence(&'a DeviceEvidence),
 }
 
 impl Resources {
