@@ -47,8 +47,6 @@ pub(super) struct DemoArgs {
 
 /// The picture of all views side by side.
 const PICTURE: &str = "demo.png";
-/// Factor on the body's steps, which leave room for sudden movements: a quiet walk needs half of that.
-const SPREAD: f64 = 0.5;
 /// The model is drawn over the pictures every so many frames.
 const OVERLAY_EVERY: usize = 10;
 
@@ -64,13 +62,8 @@ pub(super) fn run(args: &DemoArgs) -> Result<()> {
         seed: args.seed,
         ..SearchSettings::default()
     };
-    let settings = TrackSettings {
-        search,
-        spread: SPREAD,
-        overlay_every: OVERLAY_EVERY,
-        recording: args.rerun,
-        ..TrackSettings::default()
-    };
+    let settings =
+        TrackSettings { search, overlay_every: OVERLAY_EVERY, recording: args.rerun, ..TrackSettings::default() };
     settings.check()?;
     let synthetic = SyntheticSequence::new(&scene)?;
     let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;

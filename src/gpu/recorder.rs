@@ -19,7 +19,7 @@ use super::shader::Bound;
 use super::timing::Timing;
 
 /// Most passes of a recording: its queries and breadcrumbs are made for so many.
-pub(super) const MOST_PASSES: usize = 4096;
+pub(super) const MOST_PASSES: usize = 16_384;
 
 /// A sequence of passes being recorded.
 pub struct Recorder {

@@ -17,7 +17,7 @@ use crate::evaluate::{Components, Evaluator, Objective, ObjectiveKind};
 use crate::features::Observation;
 use crate::geometry::Camera;
 use crate::observe::{Observer, silhouette_settings, take_observations};
-use crate::search::{SearchSettings, SearchSpace};
+use crate::search::{SearchKind, SearchSettings, SearchSpace};
 use crate::sequence::Sequence;
 
 /// Headings a first pose is searched from, evenly round the circle.
@@ -139,7 +139,9 @@ pub fn fit(sequence: &Sequence, settings: &FitSettings) -> Result<Fit> {
         Some(height) => Body::adult(height).context("the height of the person")?,
         None => Body::load(&sequence.body)?,
     };
+    // Rounds that narrow by themselves; the swarm is what they were tried with.
     let search = SearchSettings {
+        kind: SearchKind::Pso,
         particles: settings.particles,
         iterations: settings.iterations,
         seed: settings.seed,

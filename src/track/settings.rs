@@ -119,8 +119,8 @@ impl TrackSettings {
                 "a run in real time writes no report, so there is none to record: leave out --rerun"
             );
             ensure!(
-                realtime.deadline.is_none() || self.search.kind == SearchKind::Pso,
-                "a deadline changes the number of poses from frame to frame, which --search {} cannot: expected pso",
+                realtime.deadline.is_none() || matches!(self.search.kind, SearchKind::Pso | SearchKind::MaEs),
+                "a deadline changes the number of poses from frame to frame, which --search {} cannot: expected maes or pso",
                 self.search.kind.name()
             );
         }

@@ -380,8 +380,8 @@ fn frames_repeat_and_misuse_has_its_sentence() {
         };
         let none = error(settings(kind, 0, 4), &mut make);
         assert!(none.contains("particles is 0"), "{none}");
-        let many = error(settings(kind, 3, 5000), &mut make);
-        assert!(many.contains("3 particles and 5000 iterations") && many.contains("4096 passes"), "{many}");
+        let many = error(settings(kind, 3, 9000), &mut make);
+        assert!(many.contains("3 particles and 9000 iterations") && many.contains("16384 passes"), "{many}");
         drop((search, other));
     }
     drop((scorer, device));

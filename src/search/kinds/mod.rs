@@ -39,8 +39,8 @@ choices! {
     /// Which search.
     #[derive(Default)]
     "search" pub enum SearchKind => form: fn(&SearchSettings) -> Box<dyn SearchForm> {
-        /// Particle swarm, global best (the default).
-        "pso" #[default] Pso => |settings| Box::new(settings.pso),
+        /// Particle swarm, global best.
+        "pso" Pso => |settings| Box::new(settings.pso),
         /// Bootstrap particle filter: N K samples once, which it carries on; a resumed run begins again.
         "pf" ParticleFilter => |settings| Box::new(settings.filter),
         /// Annealed particle filter: K layers of N samples.
@@ -51,8 +51,8 @@ choices! {
         },
         /// CMA-ES: evolution of a normal distribution, generations of 50 or more samples.
         "cmaes" CmaEs => |settings| Box::new(settings.cma),
-        /// MA-ES: the same by the matrix that makes the samples, products alone in single precision.
-        "maes" MaEs => |settings| Box::new(settings.matrix),
+        /// MA-ES: the same by the matrix that makes the samples, products alone in single precision (the default).
+        "maes" #[default] MaEs => |settings| Box::new(settings.matrix),
     }
 }
 

@@ -143,7 +143,7 @@ fn wrong_requests_are_sentences() {
     refused(&run(&["--realtime", "--deadline", "0.1"]), &["the deadline is 0.1 ms, expected 1 to 10000"]);
     refused(&run(&["--realtime", "--deadline=-5"]), &["the deadline, ms, is no length of time"]);
     refused(&run(&["--stall-timeout", "0"]), &["the stall time-out is 0 s"]);
-    refused(&run(&["--realtime", "--deadline", "40", "--search", "pf"]), &["--search pf cannot: expected pso"]);
+    refused(&run(&["--realtime", "--deadline", "40", "--search", "pf"]), &["--search pf cannot: expected maes or pso"]);
     refused(
         &run(&["--realtime", "--loop", "1000000", "--rate", "1", "--frames", "0..6", "--start", "none"]),
         &["none"],
