@@ -124,7 +124,7 @@ impl PackedCast {
             .zip(is_wanted)
             .flat_map(|(view, &is_wanted)| {
                 let tiles = if is_wanted { view.tiles(cast) } else { vec![Vec::new(); tile_count(view)] };
-                tiles.into_iter().map(|tile| tile.iter().map(candidate).collect())
+                tiles.into_iter().map(|tile| tile.iter().map(|(primitive, _)| candidate(primitive)).collect())
             })
             .collect();
         // A device has no empty buffers.

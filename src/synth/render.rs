@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use anyhow::{Result, anyhow};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec2};
 
 use super::actor::Material;
 use super::colour::Colour;
@@ -114,6 +114,22 @@ impl Member<'_> {
         let others: f32 = shadows.iter().map(|shadow| shadow.at(x, y)[0]).sum();
         let key = (first + others) / (1 + shadows.len()) as f32;
         KEY_SHARE * key + (1.0 - KEY_SHARE) * around
+    }
+}
+
+/// The pixels that a primitive may be seen in.
+#[derive(Clone, Copy)]
+pub(super) struct PixelBox {
+    low: Vec2,
+    high: Vec2,
+}
+
+impl PixelBox {
+    const EVERYWHERE: Self = Self { low: Vec2::NEG_INFINITY, high: Vec2::INFINITY };
+
+    fn holds(&self, x: usize, y: usize) -> bool {
+        let (x, y) = (x as f32, y as f32);
+        self.low.x <= x && x <= self.high.x && self.low.y <= y && y <= self.high.y
     }
 }
 
@@ -299,13 +315,17 @@ impl View {
             })
             .collect();
         let mut coverage = vec![0; light.len()];
+        let mut here = Vec::new();
         for (tile, candidates) in self.tiles(cast).iter().enumerate().filter(|(_, list)| !list.is_empty()) {
             let columns = width.div_ceil(TILE);
             let (left, top) = (tile % columns * TILE, tile / columns * TILE);
             for y in top..(top + TILE).min(height) {
                 for x in left..(left + TILE).min(width) {
-                    let hits =
-                        quarters(ACTOR_RAYS).filter_map(|(fx, fy)| cast.light(&self.ray(x, y, fx, fy), candidates));
+                    here.clear();
+                    here.extend(
+                        candidates.iter().filter(|(_, seen)| seen.holds(x, y)).map(|(primitive, _)| *primitive),
+                    );
+                    let hits = quarters(ACTOR_RAYS).filter_map(|(fx, fy)| cast.light(&self.ray(x, y, fx, fy), &here));
                     let (mut sum, mut count, mut first) = (Colour::ZERO, 0u8, 0u8);
                     for (member, hit) in hits {
                         sum += hit;
@@ -337,8 +357,8 @@ impl View {
         Ray { origin: self.centre, direction: upper.lerp(lower, fy).normalize_or(DVec3::Z) }
     }
 
-    /// What may be seen in each tile of the picture.
-    pub(super) fn tiles(&self, cast: &Cast) -> Vec<Vec<Candidate>> {
+    /// What may be seen in each tile of the picture, and where.
+    pub(super) fn tiles(&self, cast: &Cast) -> Vec<Vec<(Candidate, PixelBox)>> {
         let [width, height] = self.camera.size.map(|side| side as usize);
         let (columns, rows) = (width.div_ceil(TILE), height.div_ceil(TILE));
         let mut tiles = vec![Vec::new(); columns * rows];
@@ -360,9 +380,15 @@ impl View {
             if high.x < 0.0 || high.y < 0.0 || low.x >= width as f64 || low.y >= height as f64 {
                 continue;
             }
+            // A solid shades its neighbours, so all of its tile know of it.
+            let seen = if matches!(primitive, Primitive::Triangle(_)) {
+                PixelBox { low: low.as_vec2() - 1.0, high: high.as_vec2() + 1.0 }
+            } else {
+                PixelBox::EVERYWHERE
+            };
             for row in low.y as usize / TILE..=(high.y as usize / TILE).min(rows - 1) {
                 for column in low.x as usize / TILE..=(high.x as usize / TILE).min(columns - 1) {
-                    tiles[row * columns + column].push(candidate);
+                    tiles[row * columns + column].push((candidate, seen));
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! What the actor takes away from the light: shadows on himself and a soft one on the floor.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec2};
 
 use super::shaders::{SHADOW_CELL, SHADOW_SIDE};
 use super::solid::{BoundingBall, Ray};
@@ -21,6 +21,29 @@ pub(super) struct LightBins<'a> {
     pub(super) width: f64,
     pub(super) size: [usize; 2],
     pub(super) bins: Vec<Vec<u32>>,
+    /// Of every entry of the bins, what must be known before it is worth a ray.
+    boxes: Vec<Vec<ShadowBox>>,
+}
+
+/// Where a primitive may shade anything: across the light, and how far up towards it, mm.
+#[derive(Clone, Copy)]
+struct ShadowBox {
+    low: Vec2,
+    high: Vec2,
+    top: f32,
+}
+
+/// More than single precision loses in a room, mm.
+const SLACK: f32 = 0.05;
+
+impl ShadowBox {
+    fn holds(&self, flat: Vec2, height: f32) -> bool {
+        self.low.x <= flat.x
+            && flat.x <= self.high.x
+            && self.low.y <= flat.y
+            && flat.y <= self.high.y
+            && height <= self.top
+    }
 }
 
 impl<'a> LightBins<'a> {
@@ -29,39 +52,46 @@ impl<'a> LightBins<'a> {
         let across = to_light.any_orthonormal_pair();
         let across = [across.0, across.1];
         let flat = |p: DVec3| DVec2::new(p.dot(across[0]), p.dot(across[1]));
-        let boxes: Vec<(DVec2, DVec2)> = primitives
-            .iter()
-            .map(|primitive| {
-                let [(a, radius_a), (b, radius_b)] = primitive.bounding_balls();
-                let (a, b) = (flat(a), flat(b));
-                ((a - radius_a).min(b - radius_b), (a + radius_a).max(b + radius_b))
-            })
-            .collect();
+        let bounds = |primitive: &Primitive| {
+            let [(a, radius_a), (b, radius_b)] = primitive.bounding_balls();
+            let top = (a.dot(to_light) + radius_a).max(b.dot(to_light) + radius_b);
+            let (a, b) = (flat(a), flat(b));
+            ((a - radius_a).min(b - radius_b), (a + radius_a).max(b + radius_b), top)
+        };
+        let boxes: Vec<(DVec2, DVec2, f64)> = primitives.iter().map(bounds).collect();
         let origin = boxes.iter().map(|b| b.0).reduce(DVec2::min).unwrap_or_default();
         let end = boxes.iter().map(|b| b.1).reduce(DVec2::max).unwrap_or_default();
         let width = if matches!(primitives.first(), Some(Primitive::Triangle(_))) { MESH_BIN } else { BIN };
         let size = ((end - origin) / width).to_array().map(|extent| extent as usize + 1);
         let mut bins = vec![Vec::new(); size[0] * size[1]];
-        for (index, (low, high)) in boxes.iter().enumerate() {
+        let mut sorted = vec![Vec::new(); bins.len()];
+        for (index, (low, high, top)) in boxes.iter().enumerate() {
+            let shades =
+                ShadowBox { low: low.as_vec2() - SLACK, high: high.as_vec2() + SLACK, top: *top as f32 + SLACK };
             let (first, last) = ((*low - origin) / width, (*high - origin) / width);
             for y in first.y as usize..=(last.y as usize).min(size[1] - 1) {
                 for x in first.x as usize..=(last.x as usize).min(size[0] - 1) {
                     bins[y * size[0] + x].push(index as u32);
+                    sorted[y * size[0] + x].push(shades);
                 }
             }
         }
-        Self { primitives, to_light, across, origin, width, size, bins }
+        Self { primitives, to_light, across, origin, width, size, bins, boxes: sorted }
     }
 
     /// Whether something stands between the point and the light.
     pub(super) fn in_shadow(&self, point: DVec3) -> bool {
-        let at = (DVec2::new(point.dot(self.across[0]), point.dot(self.across[1])) - self.origin) / self.width;
+        let flat = DVec2::new(point.dot(self.across[0]), point.dot(self.across[1]));
+        let at = (flat - self.origin) / self.width;
         if at.x < 0.0 || at.y < 0.0 || at.x >= self.size[0] as f64 || at.y >= self.size[1] as f64 {
             return false;
         }
         let ray = Ray { origin: point, direction: self.to_light };
-        let bin = &self.bins[at.y as usize * self.size[0] + at.x as usize];
-        bin.iter().any(|&index| self.primitives[index as usize].first_hit(&ray).is_some())
+        let place = at.y as usize * self.size[0] + at.x as usize;
+        let (flat, height) = (flat.as_vec2(), point.dot(self.to_light) as f32);
+        let mut worth =
+            self.bins[place].iter().zip(&self.boxes[place]).filter(|(_, shades)| shades.holds(flat, height));
+        worth.any(|(&index, _)| self.primitives[index as usize].first_hit(&ray).is_some())
     }
 }
 

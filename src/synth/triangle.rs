@@ -30,9 +30,18 @@ impl Triangle {
             return None;
         }
         let from = ray.origin - self.corner;
-        let u = from.dot(p) / volume;
+        // Most rays pass it by, which is seen before the quotients: a share below 0, or surely above 1.
+        let passes = |share: f64| share * volume < 0.0 || share.abs() > 1.001 * volume.abs();
+        let of_second = from.dot(p);
+        if passes(of_second) {
+            return None;
+        }
         let q = from.cross(e);
-        let v = ray.direction.dot(q) / volume;
+        let of_third = ray.direction.dot(q);
+        if passes(of_third) {
+            return None;
+        }
+        let (u, v) = (of_second / volume, of_third / volume);
         let t = f.dot(q) / volume;
         (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0).then_some((t, u, v))
     }
