@@ -62,7 +62,7 @@ pub(super) fn rays(cameras: &[Camera], moments: &[Moment], rays: usize) -> Vec<R
             let moment = &moments[at];
             let border = moment[view].map(SignedDistance::border).unwrap_or_default();
             let every = border.len().div_ceil(rays.max(1)).max(1);
-            let chosen: Vec<DVec2> = border.into_iter().step_by(every).collect();
+            let chosen: Vec<DVec2> = border.iter().copied().step_by(every).collect();
             chosen.into_iter().filter_map(move |pixel| {
                 let (origin, direction) = cameras[view].ray(pixel)?;
                 let around = (middle - origin).dot(direction);

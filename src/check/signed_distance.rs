@@ -16,6 +16,7 @@ pub(super) struct SignedDistance {
     width: usize,
     height: usize,
     values: Vec<f32>,
+    border: Vec<DVec2>,
 }
 
 impl SignedDistance {
@@ -39,14 +40,17 @@ impl SignedDistance {
             let signed = if *out > 0.0 { out.sqrt() - 0.5 } else { 0.5 - into.sqrt() };
             (signed * f64::from(step)) as f32
         };
-        Some(Self {
+        let mut field = Self {
             picture: DVec2::new(f64::from(width), f64::from(height)),
             origin: DVec2::new(f64::from(x0), f64::from(y0)),
             step: f64::from(step),
             width: columns,
             height: rows,
             values: outward.iter().zip(&inward).map(value).collect(),
-        })
+            border: Vec::new(),
+        };
+        field.border = field.find_border();
+        Some(field)
     }
 
     /// The largest distance told apart, pixels.
@@ -76,7 +80,11 @@ impl SignedDistance {
     }
 
     /// The pixels just inside the border, but for those at the picture's edge, where the person is cut off.
-    pub(super) fn border(&self) -> Vec<DVec2> {
+    pub(super) fn border(&self) -> &[DVec2] {
+        &self.border
+    }
+
+    fn find_border(&self) -> Vec<DVec2> {
         let mut border = Vec::new();
         for y in 0..self.height {
             for x in 0..self.width {

@@ -16,7 +16,7 @@ use super::scene;
 use super::support::{has_ffmpeg, lay_out_beam, pantin, shared, stderr, stdout};
 
 const SIZE: [u32; 2] = [320, 400];
-const FRAMES: usize = 24;
+const FRAMES: usize = 20;
 
 /// Five cameras round a walk, no two of them opposite each other.
 fn cameras() -> Vec<Camera> {
