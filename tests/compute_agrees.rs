@@ -18,7 +18,7 @@ use pantin::body::Body;
 use pantin::evaluate::device::Compute;
 use pantin::evaluate::{Components, Evaluator, Objective, Reference};
 use pantin::gpu::{Capabilities, DeviceLost, DeviceSettings, Timing, ValidationLog, by_name};
-use scene::{Random, cameras, evaluate, first_difference, observations, poses, reference_in_parallel};
+use scene::{Random, cameras, evaluate, first_difference, ignoring, observations, poses, reference_in_parallel};
 
 fn assert_silent(log: &ValidationLog) {
     assert_eq!(log.messages(), Vec::<String>::new());
@@ -38,6 +38,12 @@ fn check(name: &str, settings: DeviceSettings, count: usize) -> Option<(&'static
     let poses = poses(&body, count, &mut random);
     let expected = reference_in_parallel(&body, &cameras, &seen, &poses);
     let mut compute = Compute::on(&device, &body, &cameras).unwrap();
+    let in_part = ignoring(&seen, &mut random);
+    let few = &poses[..poses.len().min(100 * body.dof_count())];
+    let expected_in_part = evaluate(&mut Reference::new(&body, &cameras), &in_part, few);
+    let found_in_part = evaluate(&mut compute, &in_part, few);
+    assert_eq!(first_difference(cameras.len(), &expected_in_part, &found_in_part), None, "in part");
+    assert!(expected_in_part != expected[..expected_in_part.len()]);
     println!("{}: subgroups of {}", device.facts().name, device.capabilities().subgroup_size);
     let found = evaluate(&mut compute, &seen, &poses);
     assert_eq!(first_difference(cameras.len(), &expected, &found), None);
@@ -103,7 +109,7 @@ fn lowered_limits_split_the_work_and_change_nothing() {
     let Some((device, _)) = device(name, DeviceSettings::default()) else { return };
     let is_counted = device.capabilities().timestamps;
     let split: [fn(&mut Capabilities); 3] =
-        [|c| c.max_storage = 200_000, |c| c.max_groups = 64, |c| c.memory = 700_000];
+        [|c| c.max_storage = 200_000, |c| c.max_groups = 64, |c| c.memory = 900_000];
     for lower in split {
         let (_, batches) = check(name, settings(lower), 150).unwrap();
         assert!(batches > 1 || !is_counted, "{batches} batches");

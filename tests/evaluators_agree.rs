@@ -7,10 +7,12 @@ mod scene;
 use glam::{DAffine3, DMat3, DVec3};
 use pantin::body::Body;
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
-use pantin::evaluate::{Evaluator as _, Objective, Reference};
+use pantin::evaluate::{Components, Evaluator as _, Objective, Reference};
 use pantin::features::Observation;
 use pantin::geometry::Camera;
-use scene::{Random, brown, camera, cameras, evaluate, first_difference, observations, poses, reference_in_parallel};
+use scene::{
+    Random, brown, camera, cameras, evaluate, first_difference, ignoring, observations, poses, reference_in_parallel,
+};
 
 #[test]
 fn ten_thousand_poses_give_identical_integers() {
@@ -60,6 +62,61 @@ fn a_changed_pixel_or_vertex_is_caught() {
     bent.parts[3].b.x += 15.0;
     let mut cpu = Cpu::new(&bent, &cameras).unwrap();
     assert!(first_difference(4, &expected, &evaluate(&mut cpu, &seen, &poses)).is_some(), "a moved vertex passed");
+}
+
+/// By the definition, on every instruction set, and back to pictures that count everywhere; one pixel more that counts shows.
+#[test]
+fn what_is_ignored_counts_neither_for_nor_against() {
+    let (body, cameras) = (Body::adult(1750.0).unwrap(), cameras());
+    let mut random = Random(13);
+    let all = observations(&cameras, &mut random);
+    let mut seen = ignoring(&all, &mut random);
+    let poses = poses(&body, 300, &mut random);
+    let mut reference = Reference::new(&body, &cameras);
+    let expected = evaluate(&mut reference, &seen, &poses);
+    let everywhere = evaluate(&mut reference, &all, &poses);
+    let mut fewer = 0;
+    for (image, sums) in expected.iter().enumerate() {
+        let (pose, view) = (&poses[image / 4 * body.dof_count()..][..body.dof_count()], image % 4);
+        let width = cameras[view].size[0];
+        let counts = |at: usize| {
+            let (x, y) = (at as u32 % width, at as u32 / width);
+            seen[view].ignored.as_ref().is_none_or(|ignored| !ignored.get(x, y))
+        };
+        let mut defined = Components::default();
+        let drawn = reference.draw(pose, view);
+        for at in (0..drawn.bytes.len()).filter(|&at| counts(at)) {
+            let (drawn, seen) = (drawn.bytes[at], all[view].bytes[at]);
+            defined.area_obs += u32::from(seen >> 7);
+            defined.area_model += u32::from(drawn != 0);
+            defined.overlap += u32::from(seen >> 7) * u32::from(drawn != 0);
+            defined.edges += u32::from(drawn >> 7);
+            defined.proximity += u32::from(drawn >> 7) * u32::from(seen & 0x7f);
+        }
+        assert_eq!(*sums, defined, "image {image}");
+        fewer += usize::from(sums.area_model < everywhere[image].area_model);
+    }
+    assert!(fewer > 100, "only {fewer} images reach what is ignored");
+    for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+        let mut cpu = Cpu::with(&body, &cameras, set, 2).unwrap();
+        for _ in 0..2 {
+            let difference = first_difference(4, &expected, &evaluate(&mut cpu, &seen, &poses));
+            assert_eq!(difference, None, "{}", set.name());
+            assert_eq!(first_difference(4, &everywhere, &evaluate(&mut cpu, &all, &poses)), None, "{}", set.name());
+        }
+    }
+    let drawn = (0..300).map(|pose| reference.draw(&poses[pose * body.dof_count()..][..body.dof_count()], 0));
+    let mut ignored = seen[0].ignored.take().unwrap();
+    let at = drawn
+        .flat_map(|image| image.bytes.into_iter().enumerate().collect::<Vec<_>>())
+        .filter(|(_, byte)| *byte != 0)
+        .map(|(at, _)| [at as u32 % cameras[0].size[0], at as u32 / cameras[0].size[0]])
+        .find(|&[x, y]| ignored.get(x, y));
+    let [x, y] = at.unwrap();
+    std::sync::Arc::make_mut(&mut ignored).set(x, y, false);
+    seen[0].ignored = Some(ignored);
+    let found = evaluate(&mut Cpu::new(&body, &cameras).unwrap(), &seen, &poses);
+    assert!(first_difference(4, &expected, &found).is_some(), "a pixel that counts again passed");
 }
 
 /// Pictures far larger than a cell, in which a limb is hundreds of pixels long: too long for single precision, and of more
@@ -167,6 +224,10 @@ fn misfits_are_named() {
     let error = cpu.observe(&[Observation::empty(131, 97)]).unwrap_err().to_string();
     assert!(error.contains("1 observations for 4 views"), "{error}");
     let mut wrong: Vec<_> = cameras.iter().map(|c| Observation::empty(c.size[0], c.size[1])).collect();
+    wrong[1].ignored = Some(std::sync::Arc::new(pantin::features::BitImage::new(48, 64)));
+    let error = cpu.observe(&wrong).unwrap_err().to_string();
+    assert_eq!(error, "the ignored pixels of view 1 are 48x64, its observation is 64x48");
+    wrong[1].ignored = None;
     wrong[2] = Observation::empty(10, 10);
     let error = cpu.observe(&wrong).unwrap_err().to_string();
     assert!(error.contains("view 2 is 10x10") && error.contains("141x105"), "{error}");

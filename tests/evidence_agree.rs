@@ -23,7 +23,7 @@ use pantin::features::{Evidence, Observation, PartClasses, Segment, Segmentation
 use pantin::geometry::Camera;
 use pantin::gpu::{Capabilities, DeviceSettings, Timing};
 use pantin::search::{DeviceSearch, SearchKind, SearchSettings, SearchSpace};
-use scene::{Random, cameras, poses};
+use scene::{Random, cameras, ignoring, poses};
 
 /// The adult's sixteen parts in `count` classes.
 fn classes(count: u8) -> Arc<PartClasses> {
@@ -139,12 +139,17 @@ fn every_instruction_set_gives_the_reference_s_evidence() {
     for (class_count, pose_count) in [(1, 100), (5, 400), (8, 100)] {
         let (body, cameras, seen, poses) = case(class_count, pose_count, 42);
         let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
+        let in_part = ignoring(&seen, &mut Random(3));
+        let expected_in_part = found(&mut Reference::new(&body, &cameras), &in_part, &poses);
+        assert!(expected_in_part.sums != expected.sums);
         let changed = sabotaged(&body, &cameras, &seen, &poses);
         for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
             for workers in [1, 2] {
                 let mut cpu = Cpu::with(&body, &cameras, set, workers).unwrap();
                 let what = format!("{class_count} classes, {}, {workers} workers", set.name());
                 assert_eq!(difference(&expected, &found(&mut cpu, &seen, &poses)), None, "{what}");
+                let found_in_part = found(&mut cpu, &in_part, &poses);
+                assert_eq!(difference(&expected_in_part, &found_in_part), None, "{what}, in part");
                 let other = found(&mut cpu, &changed, &poses);
                 let by_one = expected.sums.iter().zip(&other.sums).filter(|(a, b)| a.abs_diff(**b) == 1).count();
                 assert!(by_one > 0 && other.sums[2] != expected.sums[2], "{what}: a changed code passed");
@@ -164,8 +169,12 @@ fn compute_gives_the_reference_s_evidence() {
         let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
         let Some((device, log)) = device("compute_gives_the_reference_s_evidence", settings) else { return };
         let mut compute = Compute::on(&device, &body, &cameras).unwrap();
+        let in_part = ignoring(&seen, &mut Random(3));
+        let expected_in_part = found(&mut Reference::new(&body, &cameras), &in_part, &poses);
         for round in 0..2 {
             assert_eq!(difference(&expected, &found(&mut compute, &seen, &poses)), None, "round {round}");
+            let found_in_part = found(&mut compute, &in_part, &poses);
+            assert_eq!(difference(&expected_in_part, &found_in_part), None, "round {round}, in part");
         }
         let changed = sabotaged(&body, &cameras, &seen, &poses);
         assert!(found(&mut compute, &changed, &poses).sums[2] != expected.sums[2], "a changed code passed");
@@ -182,6 +191,8 @@ fn graphics_gives_the_reference_s_evidence() {
     let (body, cameras, seen, poses) = case(5, 100, 48);
     let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
     let changed = sabotaged(&body, &cameras, &seen, &poses);
+    let in_part = ignoring(&seen, &mut Random(3));
+    let expected_in_part = found(&mut Reference::new(&body, &cameras), &in_part, &poses);
     let usual = GraphicsSettings::default();
     for settings in [
         usual,
@@ -197,6 +208,8 @@ fn graphics_gives_the_reference_s_evidence() {
             let found = found(&mut graphics, &seen, &poses);
             assert_eq!(difference(&expected, &found), None, "{settings:?}, {tiles} tiles");
         }
+        let found_in_part = found(&mut graphics, &in_part, &poses);
+        assert_eq!(difference(&expected_in_part, &found_in_part), None, "{settings:?}, in part");
         assert!(
             found(&mut graphics, &changed, &poses).sums[2] != expected.sums[2],
             "{settings:?}: a changed code passed"
@@ -242,7 +255,8 @@ fn a_search_on_the_device_finds_what_the_host_finds() {
     const NAME: &str = "a_search_on_the_device_finds_what_the_host_finds";
     let Some((device, log)) = device(NAME, DeviceSettings::default()) else { return };
     let (body, cameras, seen, _) = case(5, 1, 50);
-    let frames = [seen, self::seen(&cameras, &classes(5), &mut Random(51))];
+    let next = self::seen(&cameras, &classes(5), &mut Random(51));
+    let frames = [seen, ignoring(&next, &mut Random(52))];
     let space = SearchSpace::of(&body).unwrap();
     let spread = space.spread(0.04).unwrap();
     let standing: Vec<f32> = body.standing_pose().iter().map(|value| *value as f32).collect();
@@ -277,6 +291,12 @@ fn a_search_on_the_device_finds_what_the_host_finds() {
         let mut centre = &standing;
         for (frame, (seen, (estimate, views))) in (0..).zip(frames.iter().zip(&expected)) {
             evaluator.observe(seen).unwrap();
+            // What is ignored for the first time is recorded anew.
+            let on_device = evaluator.on_device().unwrap();
+            assert_eq!(on_device.has_outgrown_its_recording(), frame == 1, "{name}");
+            if frame == 1 {
+                search = DeviceSearch::new(on_device, &objective, &settings, &space, Timing::Off).unwrap();
+            }
             let found = search.search_frame(frame, centre, &spread).unwrap();
             assert_eq!(found.estimate, *estimate, "{name}, frame {frame}");
             assert_eq!(evaluator.view_counts(&found.estimate.pose, &objective).unwrap(), *views, "{name}");

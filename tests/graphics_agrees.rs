@@ -13,12 +13,13 @@ mod scene;
 
 use device::device;
 use pantin::body::Body;
+use pantin::evaluate::Reference;
 use pantin::evaluate::device::{
     Comparison, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
 };
 use pantin::evaluate::{Evaluator as _, Objective};
 use pantin::gpu::DeviceSettings;
-use scene::{Random, cameras, evaluate, first_difference, observations, poses, reference_in_parallel};
+use scene::{Random, cameras, evaluate, first_difference, ignoring, observations, poses, reference_in_parallel};
 
 #[test]
 fn five_hundred_poses_give_identical_integers() {
@@ -30,6 +31,9 @@ fn five_hundred_poses_give_identical_integers() {
     let count = 500;
     let poses = poses(&body, count, &mut random);
     let expected = reference_in_parallel(&body, &cameras, &seen, &poses);
+    let in_part = ignoring(&seen, &mut random);
+    let expected_in_part = evaluate(&mut Reference::new(&body, &cameras), &in_part, &poses[..100 * body.dof_count()]);
+    assert!(expected_in_part != expected[..expected_in_part.len()]);
     let usual = GraphicsSettings::default();
     for settings in [
         usual,
@@ -52,6 +56,9 @@ fn five_hundred_poses_give_identical_integers() {
                 assert!((value - expected).abs() < 1e-5, "{}: {value} against {expected}", kind.name());
             }
         }
+        let few = &poses[..100 * body.dof_count()];
+        let found_in_part = evaluate(&mut graphics, &in_part, few);
+        assert_eq!(first_difference(cameras.len(), &expected_in_part, &found_in_part), None, "{settings:?}, in part");
         // A changed corner or pixel would show: another pose's components are not these.
         let mut moved = poses.clone();
         moved[0] += 40.0;

@@ -81,7 +81,7 @@ fn the_evaluator_counts_its_own_drawing_and_a_moved_vertex_is_noticed() {
         .map(|image| {
             let bytes =
                 image.bytes.iter().map(|b| u8::from(*b != 0) << 7 | if b & 0x80 != 0 { 127 } else { 3 }).collect();
-            Observation { width: image.width, height: image.height, bytes, segmentation: None, evidence: None }
+            Observation { bytes, ..Observation::empty(image.width, image.height) }
         })
         .collect();
     reference.observe(&seen).unwrap();

@@ -22,7 +22,7 @@ use pantin::evaluate::{Components, Evaluator, Objective, Reference, SegmentSums}
 use pantin::features::{Observation, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;
 use pantin::gpu::{Capabilities, DeviceSettings};
-use scene::{Random, cameras, poses};
+use scene::{Random, cameras, ignoring, poses};
 
 /// The adult's parts but for one, dealt out to three segments of different weights.
 fn three_segments() -> Arc<Segments> {
@@ -78,6 +78,15 @@ fn found(evaluator: &mut dyn Evaluator, seen: &[Observation], poses: &[f32]) -> 
     Found { components, sums, fitness: fitness.collect() }
 }
 
+/// Integers are the same; powers are rounded as a device rounds them.
+fn assert_same(expected: &Found, found: &Found, what: &str) {
+    assert!(expected.sums == found.sums, "{what}: sums");
+    assert!(expected.components == found.components, "{what}: components");
+    for (expected, found) in expected.fitness.iter().flatten().zip(found.fitness.iter().flatten()) {
+        assert!((expected - found).abs() <= 1e-5, "{what}: {found} is not {expected}");
+    }
+}
+
 fn processors() -> impl Iterator<Item = InstructionSet> {
     InstructionSet::ALL.into_iter().filter(|set| set.is_available())
 }
@@ -96,7 +105,11 @@ fn every_instruction_set_gives_the_reference_s_segments() {
     let images = expected.components.len();
     assert!((0..images).all(|image| expected.components[image].area_model >= in_segments(image)));
     assert!((0..images).any(|image| expected.components[image].area_model > in_segments(image)), "one part has none");
+    let in_part = ignoring(&seen, &mut Random(3));
+    let expected_in_part = found(&mut Reference::new(&body, &cameras), &in_part, &poses[..200 * body.dof_count()]);
     for set in processors() {
+        let mut cpu = Cpu::with(&body, &cameras, set, 1).unwrap();
+        assert_same(&expected_in_part, &found(&mut cpu, &in_part, &poses[..200 * body.dof_count()]), set.name());
         for workers in [1, 2] {
             let found = found(&mut Cpu::with(&body, &cameras, set, workers).unwrap(), &seen, &poses);
             let what = format!("{}, {workers} workers", set.name());
@@ -135,6 +148,9 @@ fn compute_gives_the_reference_s_segments() {
                 assert!((expected - found).abs() <= 1e-5, "{found} is not {expected}");
             }
         }
+        let in_part = ignoring(&seen, &mut Random(3));
+        let expected_in_part = found(&mut Reference::new(&body, &cameras), &in_part, &poses);
+        assert_same(&expected_in_part, &found(&mut compute, &in_part, &poses), "in part");
         let mut sabotaged = seen.clone();
         let mut numbers = seen[1].segmentation.as_ref().unwrap().numbers().to_vec();
         let at = numbers.iter().position(|&number| number == 1).unwrap();
@@ -157,6 +173,9 @@ fn graphics_gives_the_reference_s_segments() {
     let seen = seen(&body, &cameras, &segments, &mut random);
     let poses = poses(&body, 200, &mut random);
     let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
+    let in_part = ignoring(&seen, &mut Random(3));
+    let expected_in_part = found(&mut Reference::new(&body, &cameras), &in_part, &poses);
+    assert!(expected_in_part.sums != expected.sums);
     let usual = GraphicsSettings::default();
     for settings in [
         usual,
@@ -177,6 +196,8 @@ fn graphics_gives_the_reference_s_segments() {
                 assert!((expected - found).abs() <= 1e-5, "{settings:?}, {tiles} tiles: {found} is not {expected}");
             }
         }
+        let found_in_part = found(&mut graphics, &in_part, &poses);
+        assert_same(&expected_in_part, &found_in_part, &format!("{settings:?}, in part"));
         // A moved pose or another segment would show.
         let mut moved = poses.clone();
         moved[0] += 40.0;

@@ -22,6 +22,12 @@ layout(set = 0, binding = 5) uniform utexture2D framebuffer;
 // The bit of a drawn byte that says edge. Below or above it lies the code of the part: the rank, 1 the farthest, or the label.
 layout(constant_id = 0) const uint EDGE_BIT = 0u;
 
+#ifndef EVIDENCE
+// Whether there are pixels that do not count, and 0xff for each that does, placed as `pixels`.
+layout(constant_id = 3) const bool IGNORES = false;
+layout(std430, set = 0, binding = 10) readonly buffer Counted { uint counted[]; };
+#endif
+
 #ifdef SEGMENTED
 #include "evaluate/segments.glsl"
 
@@ -278,8 +284,10 @@ Total nothing() {
     return total;
 }
 
+#ifndef EVIDENCE
 // Adds four pixels of one candidate: their drawn bytes, and the word that they are of the tile as if it were the picture.
 void add_word(uint drawn, int place, Source source, inout Total total) {
+    if (IGNORES) drawn &= counted[clamp(source.from + place, 0, int(counted.length()) - 1)];
     uint seen = observed(source.from + place);
     uint edge_bit = EDGE_BIT;
     uint filled = (((drawn & 0x7f7f7f7fu) + 0x7f7f7f7fu) | drawn) & 0x80808080u;
@@ -297,6 +305,7 @@ void add_word(uint drawn, int place, Source source, inout Total total) {
     }
 #endif
 }
+#endif
 
 void add_to_sums(Tile tile, uint channel, Total total) {
     if (channel >= tile.candidates || total.whole.x == 0u) return;

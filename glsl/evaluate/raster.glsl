@@ -13,6 +13,8 @@ layout(local_size_x = RASTER_GROUP) in;
 
 // Whether the images are those of the list, not all of the batch.
 layout(constant_id = 0) const bool LISTED = false;
+// Whether there are pixels that do not count.
+layout(constant_id = 1) const bool IGNORES = false;
 
 layout(std430, set = 0, binding = 0) readonly buffer Cameras { Camera cameras[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Quads { Quad quads[]; };
@@ -22,6 +24,8 @@ layout(std430, set = 0, binding = 3) readonly buffer Planes { uvec4 planes[]; };
 // Three words of a dispatch, then image numbers.
 layout(std430, set = 0, binding = 4) readonly buffer List { uint list[]; };
 layout(std430, set = 0, binding = 5) writeonly buffer AllSums { Sums sums[]; };
+// A word for 32 pixels of a row: those that count.
+layout(std430, set = 0, binding = 9) readonly buffer Counted { uint counted[]; };
 
 #ifdef SEGMENTED
 #include "evaluate/segments.glsl"
@@ -284,10 +288,11 @@ uvec4 rasterise(uint image) {
             for (uint word = 0u; word < RASTER_WORDS; word++) {
                 // What lies right of the picture does not count.
                 uint inside = below(size.x - origin - int(32u * word));
+                uint group = camera.first_plane_word + uint(y) * camera.words + chunk * RASTER_WORDS + word;
+                if (IGNORES && inside != 0u) inside &= counted[group];
                 edges[word] &= inside;
                 uint drawn = (filled[word] & inside) | edges[word];
                 if (drawn != 0u) {
-                    uint group = camera.first_plane_word + uint(y) * camera.words + chunk * RASTER_WORDS + word;
                     uvec4 near = planes[2u * group];
                     uvec4 far = planes[2u * group + 1u];
                     uvec4 ones = uvec4(1u, 2u, 4u, 8u) * uvec4(bitCount(near & edges[word]));

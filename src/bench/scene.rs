@@ -89,13 +89,7 @@ pub fn seen_of(body: &Body, cameras: &[Camera], pose: &[f32]) -> Vec<Observation
                 let silhouette = if drawn != 0 { Observation::SILHOUETTE } else { 0 };
                 silhouette | (index as u32).wrapping_mul(2_654_435_761).to_be_bytes()[0] & Observation::PROXIMITY
             });
-            Observation {
-                width: image.width,
-                height: image.height,
-                bytes: bytes.collect(),
-                segmentation: None,
-                evidence: None,
-            }
+            Observation { bytes: bytes.collect(), ..Observation::empty(image.width, image.height) }
         })
         .collect()
 }

@@ -60,6 +60,12 @@ pub(crate) fn check_observations(
             observation.height,
             observation.bytes.len()
         );
+        if let Some([across, down]) = observation.ignored.as_ref().map(|ignored| [ignored.width(), ignored.height()]) {
+            ensure!(
+                [across, down] == [width, height],
+                "the ignored pixels of view {view} are {across}x{down}, its observation is {width}x{height}"
+            );
+        }
     }
     Ok(())
 }

@@ -73,10 +73,13 @@ impl Reference {
     }
 }
 
-/// Compares a drawn candidate with an observation of the same size.
+/// Compares a drawn candidate with an observation of the same size; what it ignores does not count.
 pub fn compare(image: &CandidateImage, observation: &Observation) -> Components {
     let mut sums = Components::default();
-    for (&drawn, &seen) in image.bytes.iter().zip(&observation.bytes) {
+    for (at, (&drawn, &seen)) in image.bytes.iter().zip(&observation.bytes).enumerate() {
+        if observation.ignores(at) {
+            continue;
+        }
         let is_seen = seen & Observation::SILHOUETTE != 0;
         sums.area_obs += u32::from(is_seen);
         sums.area_model += u32::from(drawn != 0);
@@ -135,8 +138,9 @@ impl Evaluator for Reference {
         let views = self.view_count();
         for (pose, row) in poses.chunks_exact(self.dof_count()).zip(sums.chunks_exact_mut(a_pose)) {
             for (view, sums) in row.chunks_exact_mut(a_pose / views).enumerate() {
-                if let Some(segmentation) = &self.observations[view].segmentation {
-                    compare_segments(&self.draw(pose, view), segmentation, sums);
+                let observation = &self.observations[view];
+                if let Some(segmentation) = &observation.segmentation {
+                    compare_segments(&counted(self.draw(pose, view), observation), segmentation, sums);
                 }
             }
         }
@@ -152,8 +156,9 @@ impl Evaluator for Reference {
         let rows = sums.chunks_exact_mut(self.view_count());
         for (pose, row) in poses.chunks_exact(self.dof_count()).zip(rows) {
             for (view, sum) in row.iter_mut().enumerate() {
-                if let Some(evidence) = &self.observations[view].evidence {
-                    *sum = evidence_under(&self.draw(pose, view), evidence);
+                let observation = &self.observations[view];
+                if let Some(evidence) = &observation.evidence {
+                    *sum = evidence_under(&counted(self.draw(pose, view), observation), evidence);
                 }
             }
         }
@@ -165,6 +170,16 @@ impl Evaluator for Reference {
         ensure!(view < self.view_count(), "there are {} views, and view {view} was asked for", self.view_count());
         Ok(Some(self.draw(pose, view)))
     }
+}
+
+/// What is drawn where an observation does not ignore it.
+fn counted(mut image: CandidateImage, observation: &Observation) -> CandidateImage {
+    for (at, byte) in image.bytes.iter_mut().enumerate() {
+        if observation.ignores(at) {
+            *byte = 0;
+        }
+    }
+    image
 }
 
 /// Counts a drawn candidate segment by segment: a pixel is of the segment that its label belongs to.

@@ -48,6 +48,13 @@ impl BitImage {
         }
     }
 
+    /// The pixels of a grey mask that are 128 or brighter.
+    pub fn of_gray(mask: &GrayImage) -> Self {
+        let mut image = Self::new(mask.width(), mask.height());
+        image.copy_from_gray(mask);
+        image
+    }
+
     /// White where set, black elsewhere.
     pub fn to_gray(&self) -> GrayImage {
         GrayImage::from_fn(self.width, self.height, |x, y| Luma([if self.get(x, y) { 255 } else { 0 }]))
@@ -76,6 +83,15 @@ impl BitImage {
         let word = &mut self.words[y as usize * self.stride + x as usize / 64];
         let bit = 1 << (x % 64);
         *word = if value { *word | bit } else { *word & !bit };
+    }
+
+    /// The places of the set pixels in the picture's rows, in reading order.
+    pub fn pixels(&self) -> impl Iterator<Item = usize> + '_ {
+        let rows = (0..self.height as usize).flat_map(|y| self.row(y).iter().enumerate().map(move |word| (y, word)));
+        rows.flat_map(move |(y, (index, &word))| {
+            let first = y * self.width as usize + index * 64;
+            (0..64).filter(move |bit| word >> bit & 1 != 0).map(move |bit| first + bit)
+        })
     }
 
     /// The number of set pixels.
@@ -154,13 +170,24 @@ impl BitImage {
     }
 
     /// Sets what is set in either.
-    pub(super) fn or(&mut self, other: &Self) {
+    pub(crate) fn or(&mut self, other: &Self) {
         self.words.iter_mut().zip(&other.words).for_each(|(a, b)| *a |= b);
     }
 
     /// Keeps what is set in both.
     pub(super) fn and(&mut self, other: &Self) {
         self.words.iter_mut().zip(&other.words).for_each(|(a, b)| *a &= b);
+    }
+
+    /// Clears what is set in the other, which is of the same size.
+    pub(crate) fn and_not(&mut self, other: &Self) {
+        self.words.iter_mut().zip(&other.words).for_each(|(a, b)| *a &= !b);
+    }
+
+    /// The pixels of a row, 32 a word, the first in the lowest bit.
+    pub(crate) fn row_words(&self, y: usize) -> impl Iterator<Item = u32> + '_ {
+        let words = self.row(y).iter().flat_map(|&word| [word as u32, (word >> 32) as u32]);
+        words.take((self.width as usize).div_ceil(32))
     }
 
     /// Swaps set and clear.

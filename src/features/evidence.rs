@@ -71,6 +71,8 @@ impl Evidence {
     pub const BITS: usize = 4;
     /// The code that says nothing.
     pub const NEUTRAL: u32 = 7;
+    /// The word of a pixel that says nothing of any class.
+    pub const SAYS_NOTHING: u32 = 0x1111_1111 * Self::NEUTRAL;
     /// The largest code.
     pub const MOST: u32 = 14;
     /// Steps of the code a unit of the log-likelihood ratio.
@@ -101,6 +103,12 @@ impl Evidence {
             best += largest.saturating_sub(Self::NEUTRAL);
         }
         Ok(Self { classes, width, height, words, best })
+    }
+
+    /// The same that says nothing at the given places.
+    pub(super) fn without(mut self, pixels: &[usize]) -> Result<Self> {
+        pixels.iter().for_each(|&at| self.words[at] = Self::SAYS_NOTHING);
+        Self::new(self.classes, self.width, self.height, self.words)
     }
 
     /// The classes.

@@ -1,6 +1,7 @@
 //! The packed observation: what one camera saw in one frame, one byte a pixel (METHOD A5.5).
 
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::{Context, Result, bail, ensure};
 use image::codecs::png::PngEncoder;
@@ -24,6 +25,9 @@ pub struct Observation {
     pub segmentation: Option<Segmentation>,
     /// How likely each pixel is of each class of parts, of the same size; `None` where silhouettes alone are compared.
     pub evidence: Option<Evidence>,
+    /// The pixels that count neither for nor against a candidate, of the same size, as [`Self::ignore`] leaves them: without
+    /// silhouette, proximity, segment or evidence. `None` where all count.
+    pub ignored: Option<Arc<BitImage>>,
 }
 
 impl Observation {
@@ -34,7 +38,47 @@ impl Observation {
 
     /// An observation of nothing.
     pub fn empty(width: u32, height: u32) -> Self {
-        Self { width, height, bytes: vec![0; width as usize * height as usize], segmentation: None, evidence: None }
+        let bytes = vec![0; width as usize * height as usize];
+        Self { width, height, bytes, segmentation: None, evidence: None, ignored: None }
+    }
+
+    /// Has more pixels count neither for nor against a candidate: nothing is seen there, and what is drawn there is passed over.
+    ///
+    /// # Errors
+    /// When the mask is of another size.
+    pub fn ignore(&mut self, ignored: &Arc<BitImage>) -> Result<()> {
+        let size = (ignored.width(), ignored.height());
+        ensure!(
+            size == (self.width, self.height),
+            "the ignored pixels of {} x {} were given for an observation of {} x {}",
+            size.0,
+            size.1,
+            self.width,
+            self.height
+        );
+        let pixels: Vec<usize> = ignored.pixels().collect();
+        pixels.iter().for_each(|&at| self.bytes[at] = 0);
+        self.segmentation = self.segmentation.take().map(|found| found.without(&pixels));
+        self.evidence = self.evidence.take().map(|found| found.without(&pixels)).transpose()?;
+        self.ignored = Some(match self.ignored.take() {
+            None => Arc::clone(ignored),
+            Some(mut before) => {
+                Arc::make_mut(&mut before).or(ignored);
+                before
+            }
+        });
+        Ok(())
+    }
+
+    /// 0xff where a pixel counts, 0 where it is ignored.
+    pub(crate) fn counts(&self, x: u32, y: u32) -> u8 {
+        if self.ignored.as_ref().is_some_and(|ignored| ignored.get(x, y)) { 0 } else { 0xff }
+    }
+
+    /// Whether a pixel, by its place in the picture's rows, counts neither for nor against a candidate.
+    pub fn ignores(&self, at: usize) -> bool {
+        let width = self.width as usize;
+        self.ignored.as_ref().is_some_and(|ignored| ignored.get((at % width) as u32, (at / width) as u32))
     }
 
     /// The observation with its body parts told apart.
@@ -60,7 +104,9 @@ impl Observation {
 
     /// The number of silhouette pixels.
     pub fn area(&self) -> u32 {
-        self.bytes.iter().map(|byte| u32::from(byte >> 7)).sum()
+        let all: u32 = self.bytes.iter().map(|byte| u32::from(byte >> 7)).sum();
+        let ignored = self.ignored.iter().flat_map(|ignored| ignored.pixels());
+        all - ignored.filter_map(|at| self.bytes.get(at)).map(|byte| u32::from(byte >> 7)).sum::<u32>()
     }
 
     /// Packs a silhouette and a distance map of one size; `proximity` holds the 7-bit value of every code of the map.
@@ -128,6 +174,7 @@ impl Observation {
                 bytes: gray.into_raw(),
                 segmentation: None,
                 evidence: None,
+                ignored: None,
             }),
             other => bail!(
                 "{} holds pixels of the kind {:?}, expected a packed observation: one 8-bit grey value a pixel",
@@ -150,10 +197,8 @@ fn pack_row<T: Copy + Into<u32>>(bytes: &mut [u8], codes: &[T], silhouette: &[u6
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::super::bit_image::any_bit_image;
-    use super::super::{Metric, ProximitySettings, Segment, Segments};
+    use super::super::{Metric, PartClasses, ProximitySettings, Segment, Segments};
     use super::*;
     use proptest::prelude::*;
 
@@ -206,6 +251,26 @@ mod tests {
         let broken = Observation { bytes: vec![0; 8], ..Observation::empty(3, 3) };
         let error = broken.write_png(&folder.path().join("broken.png"), Overwrite::Refuse).unwrap_err().to_string();
         assert!(error.contains("3 x 3") && error.contains('8'), "{error}");
+    }
+
+    #[test]
+    fn nothing_is_seen_where_pixels_are_ignored() {
+        let segment = Segment { name: "skin".to_owned(), labels: vec![4], weight: 1.0 };
+        let segments = Arc::new(Segments::new(vec![segment]).unwrap());
+        let segmentation = Segmentation::new(segments, 2, 2, vec![1, 1, 1, 0]).unwrap();
+        let evidence = Evidence::new(Arc::new(PartClasses::one()), 2, 2, vec![14, 9, 0, 3]).unwrap();
+        let seen = Observation { bytes: vec![0x80, 0x85, 0xff, 0x7f], ..Observation::empty(2, 2) };
+        let mut seen = Observation { evidence: Some(evidence), ..seen.with_segmentation(segmentation).unwrap() };
+        seen.ignore(&Arc::new(BitImage::from_fn(2, 2, |x, y| (x, y) == (0, 0)))).unwrap();
+        assert_eq!((seen.area(), seen.evidence.as_ref().unwrap().best()), (2, 2));
+        assert_eq!(seen.segmentation.as_ref().unwrap().areas(), [2]);
+        // And more.
+        seen.ignore(&Arc::new(BitImage::from_fn(2, 2, |x, y| (x, y) == (0, 1)))).unwrap();
+        assert_eq!(seen.bytes, [0, 0x85, 0, 0x7f]);
+        assert_eq!([0, 1, 2, 3].map(|at| seen.ignores(at)), [true, false, true, false]);
+        assert_eq!(seen.evidence.as_ref().unwrap().words()[2], Evidence::SAYS_NOTHING);
+        let error = seen.ignore(&Arc::new(BitImage::new(2, 3))).unwrap_err().to_string();
+        assert_eq!(error, "the ignored pixels of 2 x 3 were given for an observation of 2 x 2");
     }
 
     #[test]

@@ -111,6 +111,12 @@ impl Segmentation {
         Ok(Self { segments, width, height, numbers })
     }
 
+    /// The same with no segment at the given places.
+    pub(super) fn without(mut self, pixels: &[usize]) -> Self {
+        pixels.iter().for_each(|&at| self.numbers[at] = 0);
+        self
+    }
+
     /// The segments.
     pub fn segments(&self) -> &Arc<Segments> {
         &self.segments

@@ -95,8 +95,7 @@ fn packed_observations_instead_of_a_sequence() {
     for (view, camera) in cameras.iter().enumerate() {
         let drawn = reference.draw(&row, view);
         let bytes = drawn.bytes.iter().map(|b| u8::from(*b != 0) << 7 | if b & 0x80 != 0 { 127 } else { 0 }).collect();
-        let observation =
-            Observation { width: drawn.width, height: drawn.height, bytes, segmentation: None, evidence: None };
+        let observation = Observation { bytes, ..Observation::empty(drawn.width, drawn.height) };
         observation.write_png(&folder.path().join(format!("{}.png", camera.name)), Overwrite::Refuse).unwrap();
     }
     // A whole number of turns more is the same pose.

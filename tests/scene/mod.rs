@@ -1,9 +1,11 @@
 //! Cameras, observations and poses that evaluators are compared on.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use pantin::body::Body;
 use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind, Reference};
-use pantin::features::Observation;
+use pantin::features::{BitImage, Observation};
 use pantin::geometry::{BrownConrady, Camera, Lens, Tsai};
 
 /// A small generator for test data.
@@ -69,6 +71,19 @@ pub(crate) fn observations(cameras: &[Camera], random: &mut Random) -> Vec<Obser
             observation
         })
         .collect()
+}
+
+/// The same with pixels that do not count in the first and third view: a block over its lower left half, and specks all over it.
+pub(crate) fn ignoring(seen: &[Observation], random: &mut Random) -> Vec<Observation> {
+    let mut seen = seen.to_vec();
+    for view in [0, 2] {
+        let (width, height) = (seen[view].width, seen[view].height);
+        let ignored = BitImage::from_fn(width, height, |x, y| {
+            (x < width / 2 + 3 && y > height / 2) || random.next().is_multiple_of(13)
+        });
+        seen[view].ignore(&Arc::new(ignored)).unwrap();
+    }
+    seen
 }
 
 /// Poses from calm to wild: within the limits near the origin, anywhere within the limits, any angle anywhere (behind

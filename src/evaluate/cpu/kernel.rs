@@ -141,6 +141,9 @@ impl<P: Pixels> Canvas<P> {
             }
         }
         self.trim(simd, planes, &words, &blocks);
+        if !planes.counted.is_empty() {
+            self.pass_over(simd, planes, &words, &blocks);
+        }
         Some((words, blocks))
     }
 
@@ -186,6 +189,16 @@ impl<P: Pixels> Canvas<P> {
             let end = block * (planes.columns + 1) + planes.columns;
             self.cells[end - 1].keep(simd, inside);
             self.cells[end].keep(simd, simd.splat(0));
+        }
+    }
+
+    /// Removes what was drawn in the given cells where the observation ignores it.
+    #[inline(always)]
+    fn pass_over<S: Simd>(&mut self, simd: S, planes: &Planes, words: &Range<usize>, blocks: &Range<usize>) {
+        for block in blocks.clone() {
+            let cells = &mut self.cells[block * (planes.columns + 1)..][words.clone()];
+            let counted = &planes.counted[block * planes.columns..][words.clone()];
+            cells.iter_mut().zip(counted).for_each(|(cell, counted)| cell.keep(simd, simd.load(counted)));
         }
     }
 

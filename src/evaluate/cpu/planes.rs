@@ -2,7 +2,7 @@
 //! one bit a column. So a comparison is a bit operation and a bit count, with no look-up a pixel.
 
 use crate::evaluate::bit_planes::{bit_planes, word_planes};
-use crate::features::{Evidence, Observation, Segmentation, Segments};
+use crate::features::{BitImage, Evidence, Observation, Segmentation, Segments};
 
 use super::simd::Lanes;
 
@@ -30,6 +30,8 @@ pub(super) struct Planes {
     /// `evidence[class * canvas_cells + block * (columns + 1) + word]`: the four bits of the codes, 0 right of the picture; nothing
     /// without evidence. Where a part is drawn they are beside its cells.
     pub(super) evidence: Vec<[Lanes; Evidence::BITS]>,
+    /// `counted[block * columns + word]`: the pixels that are not ignored; nothing where all count.
+    pub(super) counted: Vec<Lanes>,
 }
 
 impl Planes {
@@ -45,6 +47,7 @@ impl Planes {
             segment_cells: Vec::new(),
             segment_areas: Vec::new(),
             evidence: Vec::new(),
+            counted: Vec::new(),
         }
     }
 
@@ -57,6 +60,7 @@ impl Planes {
     pub(super) fn fill(&mut self, observation: &Observation) {
         self.area = observation.area();
         self.fill_segments(observation.segmentation.as_ref());
+        self.fill_counted(observation.ignored.as_deref());
         self.fill_evidence(observation.evidence.as_ref());
         let width = self.width as usize;
         for (y, row) in observation.bytes.chunks_exact(width).enumerate() {
@@ -67,6 +71,17 @@ impl Planes {
                     plane.0[lane] = bits;
                 }
             }
+        }
+    }
+
+    fn fill_counted(&mut self, ignored: Option<&BitImage>) {
+        self.counted.clear();
+        let Some(ignored) = ignored else { return };
+        self.counted.resize(self.cells.len(), Lanes::default());
+        for y in 0..self.height as usize {
+            let (block, lane) = (y / CELL_ROWS as usize, y % CELL_ROWS as usize);
+            let cells = self.counted[block * self.columns..][..self.columns].iter_mut();
+            cells.zip(ignored.row_words(y)).for_each(|(cell, bits)| cell.0[lane] = !bits);
         }
     }
 
@@ -94,9 +109,11 @@ impl Planes {
             for (word, pixels) in row.chunks(CELL_COLUMNS as usize).enumerate() {
                 let planes = word_planes(pixels);
                 let place = block * (self.columns + 1) + word;
+                // What is ignored is not drawn, and the codes that parts show there are none.
+                let counted = self.counted.get(block * self.columns + word).map_or(u32::MAX, |cell| cell.0[lane]);
                 for (class, bits) in planes.chunks_exact(Evidence::BITS).take(classes).enumerate() {
                     for (plane, &bits) in self.evidence[class * cells + place].iter_mut().zip(bits) {
-                        plane.0[lane] = bits;
+                        plane.0[lane] = bits & counted;
                     }
                 }
             }

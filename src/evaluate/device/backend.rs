@@ -174,6 +174,17 @@ impl<R: Rasteriser> DeviceBackend<R> {
         Ok(())
     }
 
+    /// Passes over what observations ignore from now on.
+    fn set_ignoring(&mut self) -> Result<()> {
+        if self.resources.scene.reserve_ignored()? {
+            // Recordings count everything.
+            self.runs.clear();
+            self.runs.set_upload(record_upload(&self.resources, &self.rasteriser)?);
+            self.is_outgrown = self.is_recorded;
+        }
+        Ok(())
+    }
+
     /// Runs poses through the device. The results then lie in the host's buffers; what the host itself compared comes back.
     fn run(&mut self, poses: &[f32], asked: Asked) -> Result<HostCounts> {
         let candidates = u32::try_from(poses.len() / self.dof_count())?;
@@ -236,6 +247,9 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
         let (segments, classes) = (segments_of(observations)?, evidence_of(observations)?);
+        if observations.iter().any(|view| view.ignored.is_some()) {
+            self.set_ignoring()?;
+        }
         self.resources.scene.observe(observations)?;
         self.set_segments(segments.as_ref())?;
         self.set_evidence(classes.as_deref())?;

@@ -46,7 +46,7 @@ impl Compute {
     /// When a picture has no pixel or is too large, the body has no or too many parts, or the device fails.
     pub fn on(device: &Device, body: &Body, cameras: &[Camera]) -> Result<Self> {
         Self::with(DeviceScene::new(device, body, cameras)?, |_| {
-            let raster = raster_stage(device, false);
+            let raster = raster_stage(device, false, false);
             device.compile(&[raster, pose_comp::stage(), project_comp::stage(), objective_comp::stage()])?;
             Ok(ComputeRasteriser { has_subgroups: device.capabilities().subgroup_arithmetic })
         })
@@ -72,7 +72,10 @@ impl Rasteriser for ComputeRasteriser {
         segments: Option<&DeviceSegments>,
     ) -> Result<()> {
         if segments.is_some() {
-            let raster = raster_segments_comp::stage(raster_segments_comp::Constants { listed: false });
+            let raster = raster_segments_comp::stage(raster_segments_comp::Constants {
+                listed: false,
+                ignores: scene.counted.is_some(),
+            });
             scene.device.compile(&[raster, objective_segments_comp::stage()])?;
         }
         Ok(())
@@ -85,7 +88,10 @@ impl Rasteriser for ComputeRasteriser {
         evidence: Option<&DeviceEvidence>,
     ) -> Result<()> {
         if evidence.is_some() {
-            let raster = raster_evidence_comp::stage(raster_evidence_comp::Constants { listed: false });
+            let raster = raster_evidence_comp::stage(raster_evidence_comp::Constants {
+                listed: false,
+                ignores: scene.counted.is_some(),
+            });
             scene.device.compile(&[raster, objective_evidence_comp::stage()])?;
         }
         Ok(())

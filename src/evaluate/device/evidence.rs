@@ -1,5 +1,6 @@
 //! Soft evidence of the observations on the device, and what candidates have of it.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use anyhow::Result;
@@ -78,8 +79,13 @@ impl DeviceEvidence {
             for (label, class) in (0..).zip(&mut header.classes) {
                 *class = u32::from(evidence.classes().of_label(label));
             }
-            let rows = evidence.words().chunks_exact(view.width as usize);
-            let mut planes = Vec::with_capacity(evidence.words().len().div_ceil(WORD_PIXELS) * self.classes);
+            // Stages that add up codes do not count what is ignored.
+            let mut words = Cow::Borrowed(evidence.words());
+            for at in view.ignored.iter().flat_map(|ignored| ignored.pixels()) {
+                words.to_mut()[at] = 0;
+            }
+            let rows = words.chunks_exact(view.width as usize);
+            let mut planes = Vec::with_capacity(words.len().div_ceil(WORD_PIXELS) * self.classes);
             for pixels in rows.flat_map(|row| row.chunks(WORD_PIXELS)) {
                 planes.extend_from_slice(&word_planes(pixels)[..Evidence::BITS * self.classes]);
             }

@@ -50,8 +50,8 @@ pub(super) fn image_groups(scene: &DeviceScene, share: Share) -> Groups<'static>
 }
 
 /// The stage that draws and compares whole silhouettes without a framebuffer, with sums over subgroups where the device has them.
-pub(super) fn raster_stage(device: &Device, listed: bool) -> ShaderStage {
-    let stage = raster_comp::stage(raster_comp::Constants { listed });
+pub(super) fn raster_stage(device: &Device, listed: bool, ignores: bool) -> ShaderStage {
+    let stage = raster_comp::stage(raster_comp::Constants { listed, ignores });
     if device.capabilities().subgroup_arithmetic {
         stage
     } else {
@@ -73,6 +73,9 @@ pub(super) fn raster(
         Images::All => (false, &scene.cameras.buffer, Groups::Count([share.candidates * scene.counts.views, 1, 1])),
         Images::Listed(list) => (true, list, Groups::Indirect(list, 0)),
     };
+    let ignores = scene.counted.is_some();
+    // Nor are these where everything counts.
+    let counted = scene.counted.as_ref().map_or(&scene.planes.buffer, |counted| &counted.planes.buffer);
     let whole = raster_comp::Bindings {
         cameras: &scene.cameras.buffer,
         quads: &workspace.quads,
@@ -80,12 +83,13 @@ pub(super) fn raster(
         planes: &scene.planes.buffer,
         list,
         all_sums: &workspace.sums,
+        counted,
     };
-    let raster_comp::Bindings { cameras, quads, all_bounds, planes, list, all_sums } = whole;
+    let raster_comp::Bindings { cameras, quads, all_bounds, planes, list, all_sums, .. } = whole;
     match summed {
         Summed::Nothing => {
-            let dispatch = whole.dispatch(raster_comp::Constants { listed }, scene.batch(share), groups);
-            recorder.compute("raster", &[dispatch.by(raster_stage(&scene.device, listed).shader)])
+            let dispatch = whole.dispatch(raster_comp::Constants { listed, ignores }, scene.batch(share), groups);
+            recorder.compute("raster", &[dispatch.by(raster_stage(&scene.device, listed, ignores).shader)])
         }
         Summed::Segments(segments) => {
             let bindings = raster_segments_comp::Bindings {
@@ -98,8 +102,13 @@ pub(super) fn raster(
                 table: &segments.table.buffer,
                 segment_planes: &segments.planes.buffer,
                 all_segment_sums: &segments.sums,
+                counted,
             };
-            recorder.run(bindings.dispatch(raster_segments_comp::Constants { listed }, scene.batch(share), groups))
+            recorder.run(bindings.dispatch(
+                raster_segments_comp::Constants { listed, ignores },
+                scene.batch(share),
+                groups,
+            ))
         }
         Summed::Evidence(own) => {
             let bindings = raster_evidence_comp::Bindings {
@@ -112,8 +121,13 @@ pub(super) fn raster(
                 table: &own.table.buffer,
                 evidence_planes: &own.planes.buffer,
                 all_evidence: &own.sums,
+                counted,
             };
-            recorder.run(bindings.dispatch(raster_evidence_comp::Constants { listed }, scene.batch(share), groups))
+            recorder.run(bindings.dispatch(
+                raster_evidence_comp::Constants { listed, ignores },
+                scene.batch(share),
+                groups,
+            ))
         }
     }
 }

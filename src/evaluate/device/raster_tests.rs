@@ -187,7 +187,7 @@ fn check(name: &str, settings: &DeviceSettings, parts: usize, candidates: usize)
     let seen = observations(&mut random, &scene);
     scene.observe(&seen).unwrap();
     put(&device, &workspace, &scene, &images);
-    let shader = raster_stage(&device, false).shader;
+    let shader = raster_stage(&device, false, false).shader;
     assert_eq!(shader.label(), if device.capabilities().subgroup_arithmetic { "raster" } else { "raster_shared" });
     let mut recorder = device.recorder(Timing::Off).unwrap();
     raster(&mut recorder, (&scene, &workspace), Summed::Nothing, Images::All, share).unwrap();

@@ -32,6 +32,15 @@ pub(crate) struct Share {
     pub(crate) candidates: u32,
 }
 
+/// The pixels that are not ignored.
+#[derive(Debug)]
+pub(super) struct Counted {
+    /// A bit a pixel, a word for 32 of a row, in the order of the scene's planes.
+    pub(super) planes: StagedBuffer,
+    /// 0xff a pixel, in the order of the scene's packed bytes.
+    pub(super) pixels: StagedBuffer,
+}
+
 /// Body, cameras and observations on the device. The host's side is written at once; the device sees it when the passes of
 /// [`Self::record_upload`] have run.
 #[derive(Debug)]
@@ -51,6 +60,8 @@ pub(crate) struct DeviceScene {
     /// The packed bytes of the observations, four pixels a word, rows padded to whole words. A view's begin at its camera's
     /// `first_pixel_word`.
     pub(crate) pixels: StagedBuffer,
+    /// Which pixels count, once some did not.
+    pub(super) counted: Option<Counted>,
     camera_rows: Vec<layout::Camera>,
 }
 
@@ -94,8 +105,24 @@ impl DeviceScene {
             planes: StagedBuffer::of(device, "observed planes", &vec![0_u32; 8 * planes as usize])?,
             pixels: StagedBuffer::of(device, "observed pixels", &vec![0_u32; pixels as usize])?,
             labels,
+            counted: None,
             camera_rows,
         })
+    }
+
+    /// Has room for the pixels that observations ignore, from now on; whether it had none.
+    pub(super) fn reserve_ignored(&mut self) -> Result<bool> {
+        if self.counted.is_some() {
+            return Ok(false);
+        }
+        // The scene has eight planes a group.
+        let groups = self.planes.buffer.size() as usize / size_of::<[u32; 8]>();
+        let words = self.pixels.buffer.size() as usize / size_of::<u32>();
+        self.counted = Some(Counted {
+            planes: StagedBuffer::of(&self.device, "counted planes", &vec![u32::MAX; groups])?,
+            pixels: StagedBuffer::of(&self.device, "counted pixels", &vec![u32::MAX; words])?,
+        });
+        Ok(true)
     }
 
     /// Takes another body of as many bones, parts and degrees of freedom.
@@ -129,6 +156,17 @@ impl DeviceScene {
             }
             self.planes.staging.write(8 * camera.first_plane_word as usize, &planes)?;
             self.pixels.staging.write(camera.first_pixel_word as usize, &pixels)?;
+            if let Some(counted) = &self.counted {
+                let (mut planes, mut pixels) = (Vec::new(), Vec::new());
+                for row in 0..observation.height {
+                    let counts: Vec<u8> =
+                        (0..observation.width).map(|column| observation.counts(column, row)).collect();
+                    planes.extend(counts.chunks(WORD_PIXELS).map(|pixels| bit_planes(pixels)[0]));
+                    pixels.extend(packed(&counts));
+                }
+                counted.planes.staging.write(camera.first_plane_word as usize, &planes)?;
+                counted.pixels.staging.write(camera.first_pixel_word as usize, &pixels)?;
+            }
         }
         self.cameras.staging.write(0, &self.camera_rows)
     }
@@ -151,7 +189,9 @@ impl DeviceScene {
     /// Records the copies of everything to the device's own memory.
     pub(crate) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
         let Self { bones, parts, cameras, planes, pixels, .. } = self;
-        [bones, parts, cameras, planes, pixels].into_iter().try_for_each(|staged| staged.record_upload(recorder))
+        let counted = self.counted.iter().flat_map(|counted| [&counted.planes, &counted.pixels]);
+        let all = [bones, parts, cameras, planes, pixels].into_iter().chain(counted);
+        all.into_iter().try_for_each(|staged| staged.record_upload(recorder))
     }
 
     /// The push constants of a share of the candidates.

@@ -58,23 +58,23 @@ impl Comparing {
         Groups::Count([share.candidates.div_ceil(4) * scene.counts.views, self.bands, 1])
     }
 
-    fn constants(self) -> compare_texels_comp::Constants {
-        compare_texels_comp::Constants { edge_bit: self.packing.edge_bit() }
+    fn constants(self, ignores: bool) -> compare_texels_comp::Constants {
+        compare_texels_comp::Constants { edge_bit: self.packing.edge_bit(), ignores }
     }
 
-    fn segments_constants(self, codes: u32, segments: u32) -> compare_texels_segments_comp::Constants {
-        compare_texels_segments_comp::Constants { edge_bit: self.packing.edge_bit(), codes, segments }
+    fn segments_constants(self, codes: u32, segments: u32, ignores: bool) -> compare_texels_segments_comp::Constants {
+        compare_texels_segments_comp::Constants { edge_bit: self.packing.edge_bit(), ignores, codes, segments }
     }
 
     /// What compares whole silhouettes.
     pub(super) fn stage(self) -> ShaderStage {
-        let stage = compare_texels_comp::stage(self.constants());
+        let stage = compare_texels_comp::stage(self.constants(false));
         ShaderStage { shader: self.gathering.shader(), ..stage }
     }
 
     /// What compares a number of segments, told apart by so many codes.
     pub(super) fn segments_stage(self, codes: u32, segments: u32) -> ShaderStage {
-        let stage = compare_texels_segments_comp::stage(self.segments_constants(codes, segments));
+        let stage = compare_texels_segments_comp::stage(self.segments_constants(codes, segments, false));
         ShaderStage { shader: self.gathering.segments_shader(), ..stage }
     }
 
@@ -92,9 +92,13 @@ impl Comparing {
         let groups = self.groups(scene, share);
         let (placements, tiles, framebuffer) = (&framebuffer.placements, &framebuffer.tiles, &framebuffer.words);
         let (cameras, pixels, all_sums) = (&scene.cameras.buffer, &scene.pixels.buffer, &workspace.sums);
+        let ignores = scene.counted.is_some();
+        // Not read where everything counts.
+        let counted = scene.counted.as_ref().map_or(pixels, |counted| &counted.pixels.buffer);
         let Some(ObservedSegments { segments, numbers, codes }) = observed else {
-            let bindings = compare_texels_comp::Bindings { placements, tiles, cameras, pixels, all_sums, framebuffer };
-            let dispatch = bindings.dispatch(self.constants(), push, groups).by(self.gathering.shader());
+            let bindings =
+                compare_texels_comp::Bindings { placements, tiles, cameras, pixels, all_sums, framebuffer, counted };
+            let dispatch = bindings.dispatch(self.constants(ignores), push, groups).by(self.gathering.shader());
             return recorder.compute("compare", &[dispatch]);
         };
         let bindings = compare_texels_segments_comp::Bindings {
@@ -108,8 +112,9 @@ impl Comparing {
             quads: &workspace.quads,
             segment_pixels: numbers,
             all_segment_sums: &segments.sums,
+            counted,
         };
-        let constants = self.segments_constants(codes, segments.segments().as_slice().len() as u32);
+        let constants = self.segments_constants(codes, segments.segments().as_slice().len() as u32, ignores);
         let dispatch = bindings.dispatch(constants, push, groups).by(self.gathering.segments_shader());
         recorder.compute("compare_segments", &[dispatch])
     }

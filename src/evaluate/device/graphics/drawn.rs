@@ -33,7 +33,7 @@ pub(super) struct DrawnMesh {
 impl Drawn {
     /// The flat model of a body of `parts` parts.
     pub(super) fn flat(device: &Device, parts: u32, packing: Packing, coverage: Coverage) -> Result<Self> {
-        device.compile(&[project_comp::stage(), raster_stage(device, true)])?;
+        device.compile(&[project_comp::stage(), raster_stage(device, true, false)])?;
         Ok(Self::Flat(FlatDrawing::new(device, parts, packing, coverage)?))
     }
 

@@ -1,5 +1,7 @@
 //! The evidence of what a framebuffer shows, looked up pixel by pixel by the class of the part that shows there.
 
+use std::borrow::Cow;
+
 use anyhow::Result;
 
 use super::byte_numbers::PartOrders;
@@ -11,7 +13,7 @@ use crate::evaluate::device::evidence::DeviceEvidence;
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::workspace::Workspace;
 use crate::evaluate::shaders::{evidence_comp, objective_evidence_comp, raster_evidence_comp};
-use crate::features::Observation;
+use crate::features::{Evidence, Observation};
 use crate::gpu::{Recorder, StagedBuffer};
 
 /// Pixels that a stage reads together: rows are filled up to a whole number of them.
@@ -37,7 +39,10 @@ impl GraphicsEvidence {
     ) -> Result<Self> {
         let device = &scene.device;
         let codes = drawn.codes(scene, comparing.packing);
-        let listed = raster_evidence_comp::stage(raster_evidence_comp::Constants { listed: true });
+        let listed = raster_evidence_comp::stage(raster_evidence_comp::Constants {
+            listed: true,
+            ignores: scene.counted.is_some(),
+        });
         device.compile(&[
             evidence_comp::stage(constants(comparing, codes)),
             listed,
@@ -54,17 +59,20 @@ impl GraphicsEvidence {
 
     /// Takes the observations of a frame.
     pub(super) fn observe(&self, scene: &DeviceScene, observations: &[Observation]) -> Result<()> {
-        let evidence = observations.iter().filter_map(|view| view.evidence.as_ref());
-        for (evidence, first) in evidence.zip(scene.first_pixel_words()) {
-            let width = evidence.dimensions().0 as usize;
+        for (view, first) in observations.iter().zip(scene.first_pixel_words()) {
+            let Some(evidence) = &view.evidence else { continue };
+            let mut words = Cow::Borrowed(evidence.words());
+            for at in view.ignored.iter().flat_map(|ignored| ignored.pixels()) {
+                words.to_mut()[at] = Evidence::SAYS_NOTHING;
+            }
+            let width = view.width as usize;
             let first = TOGETHER * first as usize;
             if width.is_multiple_of(TOGETHER) {
-                self.pixels.staging.write(first, evidence.words())?;
+                self.pixels.staging.write(first, &words)?;
                 continue;
             }
-            let mut rows =
-                Vec::with_capacity(evidence.words().len().div_ceil(width) * width.next_multiple_of(TOGETHER));
-            for row in evidence.words().chunks_exact(width) {
+            let mut rows = Vec::with_capacity(words.len().div_ceil(width) * width.next_multiple_of(TOGETHER));
+            for row in words.chunks_exact(width) {
                 rows.extend_from_slice(row);
                 rows.resize(rows.len().next_multiple_of(TOGETHER), 0);
             }

@@ -1,6 +1,8 @@
 //! The framebuffer compared on the host: what hardware without compute had to do, kept as rows of the benchmark and to read
 //! pictures back.
 
+use std::borrow::Cow;
+
 use anyhow::Result;
 
 use super::byte_numbers::ByteNumbers;
@@ -64,7 +66,7 @@ impl FramebufferCopy {
 
 /// Rows of one candidate's picture and of the observation behind them.
 struct Window<'a, T> {
-    texels: &'a [u32],
+    texels: Cow<'a, [u32]>,
     /// Texels from a row to the next.
     pitch: usize,
     seen: &'a [T],
@@ -86,7 +88,7 @@ impl Pictures<'_> {
         (0..self.placements.len())
             .map(|image| {
                 let observation = &observations[image % self.layout.views.len()];
-                let window = self.window(image, &observation.bytes, observation.width as usize)?;
+                let window = self.window(image, &observation.bytes, observation)?;
                 let [area_model, overlap, edges, proximity] = match how {
                     HostComparison::Scalar => compare_scalar(&window, edge_bit),
                     HostComparison::Simd => compare_simd(&window, edge_bit),
@@ -114,7 +116,7 @@ impl Pictures<'_> {
         for (image, sums) in all.chunks_exact_mut(segments).enumerate() {
             let observation = &observations[image % self.layout.views.len()];
             let Some(seen) = &observation.segmentation else { continue };
-            let Some(window) = self.window(image, seen.numbers(), observation.width as usize) else { continue };
+            let Some(window) = self.window(image, seen.numbers(), observation) else { continue };
             let found = match how {
                 HostComparison::Scalar => count_segments(&window, &numbers(image)),
                 HostComparison::Simd => count_segments_simd(&window, &numbers(image), segments),
@@ -134,15 +136,18 @@ impl Pictures<'_> {
         numbers: impl Fn(usize, &PartClasses) -> ByteNumbers,
     ) -> Vec<i32> {
         let sum = |image: usize| {
-            let seen = observations[image % self.layout.views.len()].evidence.as_ref()?;
-            let window = self.window(image, seen.words(), seen.dimensions().0 as usize)?;
+            let observation = &observations[image % self.layout.views.len()];
+            let seen = observation.evidence.as_ref()?;
+            let window = self.window(image, seen.words(), observation)?;
             Some(sum_codes(&window, &numbers(image, seen.classes())))
         };
         (0..self.placements.len()).map(|image| sum(image).unwrap_or(0)).collect()
     }
 
-    /// An image and the rows of `seen_pitch` values a pixel that were observed behind it; none of an image that is not drawn here.
-    fn window<'a, T>(&'a self, image: usize, seen: &'a [T], seen_pitch: usize) -> Option<Window<'a, T>> {
+    /// An image and what was observed behind it, a value a pixel; none of an image that is not drawn here. What the observation
+    /// ignores is not drawn.
+    fn window<'a, T>(&'a self, image: usize, seen: &'a [T], observation: &Observation) -> Option<Window<'a, T>> {
+        let seen_pitch = observation.width as usize;
         let placement = &self.placements[image];
         if placement.low == placement.high {
             return None;
@@ -153,13 +158,23 @@ impl Pictures<'_> {
         // The shift leads from the picture to the framebuffer; what is drawn lies in both.
         let seen_left = left.wrapping_add_signed(-placement.shift[0] as isize);
         let seen_top = top.wrapping_add_signed(-placement.shift[1] as isize);
+        let (width, height) = (right - left, bottom - top);
+        let mut texels = Cow::Borrowed(self.texels.get(top * pitch + left..)?);
+        if observation.ignored.is_some() {
+            let counted = |(at, &texel): (usize, &u32)| {
+                let column = (seen_left + at % pitch) as u32;
+                let row = (seen_top + at / pitch) as u32;
+                texel & (0x0101_0101 * u32::from(observation.counts(column, row)))
+            };
+            texels = texels.iter().enumerate().take(pitch * height).map(counted).collect();
+        }
         Some(Window {
-            texels: self.texels.get(top * pitch + left..)?,
+            texels,
             pitch,
             seen: seen.get(seen_top * seen_pitch + seen_left..)?,
             seen_pitch,
-            width: right - left,
-            height: bottom - top,
+            width,
+            height,
             shift: 8 * ((image / self.layout.views.len()) as u32 % CANDIDATES_A_TILE),
         })
     }
@@ -294,7 +309,7 @@ mod tests {
     use super::*;
 
     fn window<'a>(texels: &'a [u32], seen: &'a [u8], [width, height]: [usize; 2], shift: u32) -> Window<'a, u8> {
-        Window { texels, pitch: 200, seen, seen_pitch: 150, width, height, shift }
+        Window { texels: Cow::Borrowed(texels), pitch: 200, seen, seen_pitch: 150, width, height, shift }
     }
 
     #[test]
