@@ -1,5 +1,7 @@
 //! A silhouette as a height field: how far a pixel lies outside its border, negative inside.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use crate::features::BitImage;
@@ -17,6 +19,8 @@ pub(super) struct SignedDistance {
     height: usize,
     values: Vec<f32>,
     border: Vec<DVec2>,
+    /// Where nothing is known.
+    ignored: Option<Arc<BitImage>>,
 }
 
 impl SignedDistance {
@@ -48,9 +52,22 @@ impl SignedDistance {
             height: rows,
             values: outward.iter().zip(&inward).map(value).collect(),
             border: Vec::new(),
+            ignored: None,
         };
         field.border = field.find_border();
         Some(field)
+    }
+
+    /// With pixels of which nothing is known: no border is beside one, and there is no distance there.
+    pub(super) fn ignoring(mut self, ignored: Option<Arc<BitImage>>) -> Self {
+        self.ignored = ignored;
+        self.border = self.find_border();
+        self
+    }
+
+    fn is_ignored(&self, pixel: DVec2) -> bool {
+        let [x, y] = pixel.round().max(DVec2::ZERO).to_array();
+        self.ignored.as_ref().is_some_and(|ignored| ignored.get(x as u32, y as u32))
     }
 
     /// The largest distance told apart, pixels.
@@ -58,10 +75,14 @@ impl SignedDistance {
         f64::from(MARGIN) * self.step
     }
 
-    /// The distance at a place in the picture, between the samples by their four neighbours; None outside the picture.
+    /// The distance at a place in the picture, between the samples by their four neighbours; None outside the picture and where nothing
+    /// is known.
     pub(super) fn at(&self, pixel: DVec2) -> Option<f64> {
         let half = DVec2::splat(0.5);
         if !(pixel.cmpge(-half).all() && pixel.cmplt(self.picture - half).all()) {
+            return None;
+        }
+        if self.is_ignored(pixel) {
             return None;
         }
         let place = (pixel - self.origin) / self.step;
@@ -91,8 +112,10 @@ impl SignedDistance {
                 let pixel = self.origin + DVec2::new(x as f64, y as f64) * self.step;
                 let is_cut =
                     pixel.cmplt(DVec2::splat(self.step)).any() || pixel.cmpgt(self.picture - 1.0 - self.step).any();
+                let beside = [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y];
+                let is_covered = || beside.iter().any(|side| self.is_ignored(pixel + side * self.step));
                 // The nearest pixel outside is a neighbour.
-                if f64::from(self.values[y * self.width + x]) == -0.5 * self.step && !is_cut {
+                if f64::from(self.values[y * self.width + x]) == -0.5 * self.step && !is_cut && !is_covered() {
                     border.push(pixel);
                 }
             }

@@ -40,8 +40,10 @@ impl Silhouettes {
         let mut fields = vec![Vec::new(); frames.len()];
         while let Some(frame) = observer.read()? {
             if let Some(features) = observer.features(&frame, is_wanted(frame.index))? {
-                let field =
-                    |view: &ViewFeatures| SignedDistance::of(&view.silhouette, view.silhouette.height().div_ceil(ROWS));
+                let field = |view: &ViewFeatures| {
+                    let distance = SignedDistance::of(&view.silhouette, view.silhouette.height().div_ceil(ROWS))?;
+                    Some(distance.ignoring(view.observation.ignored.clone()))
+                };
                 fields[frame.index - frames.start] = features.iter().map(field).collect();
             }
         }

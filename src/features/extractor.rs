@@ -1,5 +1,7 @@
 //! All stages in order: the pictures of one frame in, the features of every view out.
 
+use std::sync::Arc;
+
 use anyhow::{Result, bail};
 use image::{GrayImage, RgbImage};
 use rayon::prelude::*;
@@ -47,12 +49,14 @@ pub struct Extractor {
     likely: Vec<LikelySilhouette>,
     /// Widths and heights of the views.
     sizes: Vec<(u32, u32)>,
+    /// The proximity of each code of a distance map.
+    proximity: Vec<u8>,
     chain: Chain,
 }
 
 /// Who does the work.
 enum Chain {
-    Processor { views: Vec<View>, proximity: Vec<u8> },
+    Processor(Vec<View>),
     Device(Box<DeviceChain>),
 }
 
@@ -77,8 +81,7 @@ impl Extractor {
             .collect::<Result<_>>()?;
         let proximity = settings.proximity.table(settings.distance.metric);
         let segmenter = Segmenter::new(&settings.segment)?;
-        let chain = Chain::Processor { views, proximity };
-        Ok(Self { settings, segmenter, likely, sizes, chain })
+        Ok(Self { settings, segmenter, likely, sizes, proximity, chain: Chain::Processor(views) })
     }
 
     /// As [`Self::new`] and [`Self::move_to`].
@@ -101,9 +104,9 @@ impl Extractor {
         if self.likely.iter().any(LikelySilhouette::learns) {
             return Ok(());
         }
-        if let Chain::Processor { views, proximity } = &self.chain {
+        if let Chain::Processor(views) = &self.chain {
             let views = views.iter().map(|view| ([view.width, view.height], view.foreground.plate()));
-            let chain = DeviceChain::new(device, views, &self.settings, proximity)?;
+            let chain = DeviceChain::new(device, views, &self.settings, &self.proximity)?;
             self.chain = Chain::Device(Box::new(chain));
         }
         Ok(())
@@ -122,7 +125,7 @@ impl Extractor {
     /// When the device fails.
     pub fn passes(&self) -> Result<Vec<PassTiming>> {
         match &self.chain {
-            Chain::Processor { .. } => Ok(Vec::new()),
+            Chain::Processor(_) => Ok(Vec::new()),
             Chain::Device(device) => device.passes(),
         }
     }
@@ -140,7 +143,7 @@ impl Extractor {
         self.check_frame(pictures, None)?;
         let settings = &self.settings;
         match &mut self.chain {
-            Chain::Processor { views, .. } => views.par_iter_mut().zip(pictures).for_each(|(view, picture)| {
+            Chain::Processor(views) => views.par_iter_mut().zip(pictures).for_each(|(view, picture)| {
                 view.foreground.learn(picture, settings);
             }),
             Chain::Device(device) => device.prime(pictures)?,
@@ -178,10 +181,11 @@ impl Extractor {
                 None => features.push(ViewFeatures::empty(width, height)),
             }
         }
-        let settings = &self.settings;
+        features.iter_mut().for_each(|features| features.observation.ignored = None);
+        let (settings, proximity) = (&self.settings, &self.proximity[..]);
         let is_likely = settings.foreground == ForegroundKind::Likelihood;
         match &mut self.chain {
-            Chain::Processor { views, proximity } => {
+            Chain::Processor(views) => {
                 let mut likely: Vec<_> = self.likely.iter_mut().map(Some).collect();
                 likely.resize_with(views.len(), || None);
                 let inputs = views.par_iter_mut().zip(likely).zip(pictures).zip(masks);
@@ -202,7 +206,7 @@ impl Extractor {
                             features.silhouette.copy_from(likely.silhouette());
                         }
                     }
-                    view.find_region(settings, features);
+                    find_region(settings, features);
                     view.find_edges(picture, settings, proximity, features);
                 });
             }
@@ -236,6 +240,29 @@ impl Extractor {
         features.par_iter_mut().zip(pictures).try_for_each(|(features, picture)| {
             features.observation.segmentation = Some(segmenter.segment(picture, &features.silhouette)?);
             Ok(())
+        })
+    }
+
+    /// Has pixels of a frame's features count neither for nor against a candidate: no silhouette is there and no edge, so that none
+    /// of their edges is near a pixel that counts. One mask a view, or none.
+    ///
+    /// # Errors
+    /// When there are not as many masks as views, or one is of another size.
+    pub fn ignore(&self, features: &mut [ViewFeatures], ignored: &[Option<Arc<BitImage>>]) -> Result<()> {
+        if ignored.len() != features.len() {
+            bail!(
+                "{} views were given {} masks of ignored pixels or gaps, expected one each",
+                features.len(),
+                ignored.len()
+            );
+        }
+        features.par_iter_mut().zip(ignored).try_for_each(|(features, ignored)| {
+            let Some(ignored) = ignored else { return Ok(()) };
+            features.silhouette.and_not(ignored);
+            find_region(&self.settings, features);
+            features.edges.and_not(ignored);
+            measure_edges(&self.settings, &self.proximity, features);
+            features.observation.ignore(ignored)
         })
     }
 
@@ -309,13 +336,6 @@ impl View {
         }
     }
 
-    fn find_region(&self, settings: &FeatureSettings, features: &mut ViewFeatures) {
-        let bounds = features.silhouette.bounds();
-        features.region = bounds.map_or(Region::whole(self.width, self.height), |bounds| {
-            bounds.enlarged(settings.silhouette.motion, self.width, self.height)
-        });
-    }
-
     fn find_edges(
         &mut self,
         picture: &RgbImage,
@@ -326,9 +346,21 @@ impl View {
         self.near.copy_from(&features.silhouette);
         self.morphology.dilate(&mut self.near, settings.dilation());
         self.detector.detect(picture, &self.near, &settings.edges, &mut features.edges);
-        features.distance.measure(&features.edges, settings.distance.metric, settings.proximity.limit());
-        features.observation.pack(&features.silhouette, &features.distance, proximity);
+        measure_edges(settings, proximity, features);
     }
+}
+
+fn find_region(settings: &FeatureSettings, features: &mut ViewFeatures) {
+    let (width, height) = (features.silhouette.width(), features.silhouette.height());
+    let bounds = features.silhouette.bounds();
+    features.region = bounds
+        .map_or(Region::whole(width, height), |bounds| bounds.enlarged(settings.silhouette.motion, width, height));
+}
+
+/// From edges to distance and packed bytes.
+fn measure_edges(settings: &FeatureSettings, proximity: &[u8], features: &mut ViewFeatures) {
+    features.distance.measure(&features.edges, settings.distance.metric, settings.proximity.limit());
+    features.observation.pack(&features.silhouette, &features.distance, proximity);
 }
 
 #[cfg(test)]
@@ -468,6 +500,36 @@ mod tests {
         let white = GrayImage::from_pixel(1, 1, Luma([255]));
         let features = extractor.extract(&[RgbImage::new(1, 1)], &[Some(white)]).unwrap();
         assert_eq!(features[0].observation.bytes, [0x80]);
+    }
+
+    /// Nothing is seen in ignored pixels, and no edge in them is near a pixel that counts.
+    #[test]
+    fn edges_of_what_is_ignored_are_near_nothing() {
+        let mut extractor = Extractor::new(settings(), vec![source(true)]).unwrap();
+        let mut features = extractor.extract(&[picture(90, 60)], &[None]).unwrap();
+        let all = features[0].clone();
+        assert!(all.edges.get(46, 20) || all.edges.get(45, 20), "an edge on the right side");
+        let ignored = Arc::new(BitImage::from_fn(90, 60, |x, _| (40..50).contains(&x)));
+        extractor.ignore(&mut features, &[Some(Arc::clone(&ignored))]).unwrap();
+        let found = &features[0];
+        assert_eq!(found.observation.area(), all.silhouette.count() - 6 * 40);
+        assert_eq!(found.region.x1, 40 + settings().silhouette.motion);
+        let mut edges = all.edges.clone();
+        edges.and_not(&ignored);
+        let mut distance = super::super::DistanceMap::default();
+        distance.measure(&edges, settings().distance.metric, settings().proximity.limit());
+        assert_eq!(found.distance.distances(), distance.distances());
+        // Right of what is ignored it was near an edge before.
+        let near = |features: &ViewFeatures| features.observation.bytes[20 * 90 + 50] & Observation::PROXIMITY;
+        assert!(near(&all) > 90 && near(found) < 50, "{} and {}", near(&all), near(found));
+        assert_eq!(found.observation.ignored.as_deref(), Some(&*ignored));
+        // The next frame begins anew.
+        extractor.extract_into(&[picture(90, 60)], &[None], &mut features).unwrap();
+        assert_eq!(features[0].observation, all.observation);
+        let error = extractor.ignore(&mut features, &[]).unwrap_err().to_string();
+        assert!(error.contains("1 views were given 0 masks"), "{error}");
+        let error = extractor.ignore(&mut features, &[Some(Arc::new(BitImage::new(60, 90)))]).unwrap_err().to_string();
+        assert!(error.contains("60 x 90") && error.contains("90 x 60"), "{error}");
     }
 
     #[test]

@@ -1,11 +1,12 @@
 //! The frames of a sequence in order, and what is seen in them.
 
 use std::ops::Range;
+use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::{Context, Result, ensure};
 
-use crate::features::{Extractor, FeatureSettings, Likelihood, Observation, ViewFeatures, ViewSource};
+use crate::features::{BitImage, Extractor, FeatureSettings, Likelihood, Observation, ViewFeatures, ViewSource};
 use crate::gpu::Device;
 use crate::sequence::{FrameReader, FrameSet, Sequence, View};
 
@@ -69,6 +70,7 @@ impl Observer {
         }
         if is_wanted || self.learns {
             self.extractor.extract_into(&frame.pictures, &frame.masks, &mut self.features)?;
+            self.extractor.ignore(&mut self.features, &ignored_pixels(frame))?;
         }
         Ok(is_wanted.then_some(self.features.as_mut_slice()))
     }
@@ -88,6 +90,11 @@ pub fn check_background(sequence: &Sequence, range: &Range<usize>) -> Result<()>
         learnt.map_or("", |view| view.camera.as_str())
     );
     Ok(())
+}
+
+/// The pixels that a frame's views ignore.
+fn ignored_pixels(frame: &FrameSet) -> Vec<Option<Arc<BitImage>>> {
+    frame.ignored.iter().map(|mask| mask.as_ref().map(|mask| Arc::new(BitImage::of_gray(mask)))).collect()
 }
 
 /// Takes the observations out of features, whose other memory is used again.

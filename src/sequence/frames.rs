@@ -1,6 +1,7 @@
 //! The pictures of a sequence, frame by frame, read ahead by one thread a view.
 
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
@@ -8,6 +9,7 @@ use std::time::Duration;
 use anyhow::{Context, Result, anyhow, bail};
 use image::{GrayImage, RgbImage};
 
+use super::ignored::IgnoredFrames;
 use super::manifest::{Sequence, View};
 use super::pictures::{PicturePattern, read_picture};
 use super::program::Stopper;
@@ -28,6 +30,8 @@ pub struct FrameSet {
     pub pictures: Vec<RgbImage>,
     /// A ready silhouette a view, where the view has any: 255 on the person, 0 elsewhere, at the working size.
     pub masks: Vec<Option<GrayImage>>,
+    /// The pixels that count neither for nor against anybody, where the view has any: 255 there, 0 elsewhere, at the working size.
+    pub ignored: Vec<Option<Arc<GrayImage>>>,
 }
 
 /// How long a view may take for a picture before it counts as stalled, unless told otherwise.
@@ -46,8 +50,8 @@ pub struct FrameReader {
     passed_over: usize,
 }
 
-/// A view's picture and mask of one frame.
-type ViewFrame = (RgbImage, Option<GrayImage>);
+/// A view's picture, mask and ignored pixels of one frame.
+type ViewFrame = (RgbImage, Option<GrayImage>, Option<Arc<GrayImage>>);
 
 #[derive(Debug)]
 struct ViewThread {
@@ -139,9 +143,9 @@ impl FrameReader {
     fn receive(&mut self) -> Result<FrameSet> {
         let patience = self.stall_timeout + PASSED_OVER * u32::try_from(self.passed_over).unwrap_or(u32::MAX);
         self.passed_over = 0;
-        let mut set = FrameSet { index: self.next, pictures: Vec::new(), masks: Vec::new() };
+        let mut set = FrameSet { index: self.next, pictures: Vec::new(), masks: Vec::new(), ignored: Vec::new() };
         for view in &self.views {
-            let (picture, mask) = view.frames.recv_timeout(patience).map_err(|error| match error {
+            let (picture, mask, ignored) = view.frames.recv_timeout(patience).map_err(|error| match error {
                 RecvTimeoutError::Timeout => anyhow!(
                     "camera {:?} stalled: no picture of frame {} came in {:.1} s (--stall-timeout)",
                     view.camera,
@@ -154,6 +158,7 @@ impl FrameReader {
             })??;
             set.pictures.push(picture);
             set.masks.push(mask);
+            set.ignored.push(ignored);
         }
         Ok(set)
     }
@@ -181,6 +186,7 @@ struct ViewStream {
     pictures: Stream,
     picture_size: [u32; 2],
     masks: Option<(Stream, [u32; 2])>,
+    ignored: Option<IgnoredFrames>,
 }
 
 enum Stream {
@@ -206,7 +212,8 @@ impl ViewStream {
             Some((mask, stored)) => Some((Stream::open(mask, frames.clone(), *stored, PixelFormat::Grey)?, *stored)),
             None => None,
         };
-        Ok(Self { size, frames, pictures, picture_size: view.size, masks })
+        let ignored = view.ignored.as_ref().map(|ignored| ignored.frames(size)).transpose()?;
+        Ok(Self { size, frames, pictures, picture_size: view.size, masks, ignored })
     }
 
     fn stoppers(&self) -> Vec<Stopper> {
@@ -239,7 +246,8 @@ impl ViewStream {
                 area_average(read_picture(&pattern.file(frame), &[self.picture_size])?.into_rgb8(), self.size)
             }
         };
-        let Some((masks, stored)) = &mut self.masks else { return Ok((picture, None)) };
+        let ignored = self.ignored.as_ref().map(|ignored| ignored.of_frame(frame, self.size)).transpose()?;
+        let Some((masks, stored)) = &mut self.masks else { return Ok((picture, None, ignored)) };
         let mask = match masks {
             Stream::Video(decoder) => {
                 let bytes = decoder.next_frame()?.unwrap_or_default();
@@ -248,6 +256,6 @@ impl ViewStream {
             }
             Stream::Pictures(pattern) => read_picture(&pattern.file(frame), &[*stored])?.into_luma8(),
         };
-        Ok((picture, Some(nearest_mask(&mask, self.size))))
+        Ok((picture, Some(nearest_mask(&mask, self.size)), ignored))
     }
 }

@@ -9,7 +9,7 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
-use image::RgbImage;
+use image::{GrayImage, RgbImage};
 
 use super::frames::FrameSet;
 use super::manifest::Sequence;
@@ -27,6 +27,8 @@ const ON_THEIR_WAY: usize = 2;
 pub struct LiveReader {
     views: Vec<LiveView>,
     arrivals: Receiver<Arrival>,
+    /// What every set ignores, one a view.
+    ignored: Vec<Option<Arc<GrayImage>>>,
     fps: f64,
     stall_timeout: Duration,
     /// The first set's capture and its index.
@@ -75,6 +77,7 @@ impl Sequence {
         let mut reader = LiveReader {
             views: Vec::new(),
             arrivals,
+            ignored: Vec::new(),
             fps: self.fps,
             stall_timeout,
             zero: None,
@@ -88,6 +91,8 @@ impl Sequence {
             let Source::Live(source) = &view.source else {
                 bail!("camera {:?} is not live, expected all views to be", view.camera);
             };
+            let ignored = view.ignored.as_ref().map(|ignored| ignored.frames(size)?.of_frame(first, size));
+            reader.ignored.push(ignored.transpose()?);
             let process = Process::spawn(command(source, self.scale)?)?;
             let (decoder, complained) = (process.stopper(), process.complained());
             let name = format!("camera {:?} ({})", view.camera, source.address);
@@ -272,7 +277,8 @@ impl LiveReader {
         self.next = index + 1;
         self.last_set = last;
         let masks = vec![None; pictures.len()];
-        Some(Captured { set: FrameSet { index, pictures, masks }, at: first })
+        let ignored = self.ignored.clone();
+        Some(Captured { set: FrameSet { index, pictures, masks, ignored }, at: first })
     }
 }
 

@@ -7,6 +7,7 @@ use serde::Deserialize;
 
 use super::calibration::read_cameras;
 use super::coverage::check_coverage;
+use super::ignored::Ignored;
 use super::live_options;
 use super::pictures::{PicturePattern, picture_size, shown};
 use super::source::{LiveSource, Source};
@@ -63,6 +64,8 @@ pub struct View {
     pub background: Option<PathBuf>,
     /// Ready silhouettes and the size they are stored at.
     pub mask: Option<(Source, [u32; 2])>,
+    /// Pixels that count neither for nor against anybody.
+    pub ignored: Option<Ignored>,
 }
 
 impl View {
@@ -98,6 +101,7 @@ struct ViewTable {
     input: Option<Vec<String>>,
     background: Option<PathBuf>,
     mask: Option<PathBuf>,
+    ignore: Option<PathBuf>,
 }
 
 fn full_size() -> f64 {
@@ -330,7 +334,11 @@ fn open_view(
             Some((mask.source, mask.size))
         }
     };
-    let view = View { camera: name.clone(), size: camera.size, source: source.source, background, mask };
+    let length = Some(source.frame_count).filter(|count| *count != Sequence::NO_END);
+    let ignored =
+        table.ignore.as_deref().map(|ignore| Ignored::open(&key("ignore"), &dir.join(ignore), camera.size, length));
+    let ignored = ignored.transpose()?;
+    let view = View { camera: name.clone(), size: camera.size, source: source.source, background, mask, ignored };
     Ok((view, source.frame_count))
 }
 

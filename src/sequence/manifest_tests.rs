@@ -239,6 +239,58 @@ fn a_camera_that_looks_away_is_named() {
 }
 
 #[test]
+fn what_is_ignored_is_read_with_every_frame() {
+    let scene = Scene::new();
+    let mask = |name: &str, [width, height]: [u32; 2], from: u32| {
+        let mask = image::GrayImage::from_fn(width, height, |x, _| image::Luma([if x >= from { 200 } else { 40 }]));
+        mask.save(scene.path(name)).unwrap();
+    };
+    mask("desk.png", CAMERA_SIZE, 30);
+    (1..=3).for_each(|frame| mask(&format!("door_{frame}.png"), [80, 60], 10 * frame));
+    let view = |camera: &str, ignore: &str| format!("{}\nignore = {ignore:?}", Scene::view(camera));
+    let views = [view("cam01", "desk.png"), view("cam02", "door_%d.png"), Scene::view("cam03")];
+    scene.manifest("scale = 0.5", &views.each_ref().map(String::as_str));
+    let sequence = Sequence::open(scene.folder.path()).unwrap();
+    let mut reader = sequence.read_frames(0..3).unwrap();
+    let mut frames = 0;
+    while let Some(set) = reader.next_frame().unwrap() {
+        frames += 1;
+        assert!(set.ignored[2].is_none());
+        for (view, from) in [(0, 15), (1, 5 * frames / 2)] {
+            let ignored = set.ignored[view].as_ref().unwrap();
+            assert_eq!(ignored.dimensions(), (20, 15));
+            let expected = |x: u32| if x >= from { 255 } else { 0 };
+            assert!(ignored.enumerate_pixels().all(|(x, _, pixel)| pixel[0] == expected(x)), "view {view}");
+        }
+    }
+    assert_eq!(frames, 3);
+}
+
+#[test]
+fn wrong_masks_of_what_is_ignored_are_sentences() {
+    let scene = Scene::new();
+    image::GrayImage::new(30, 40).save(scene.path("lying.png")).unwrap();
+    for frame in [1, 2] {
+        image::GrayImage::new(40, 30).save(scene.path(&format!("few_{frame}.png"))).unwrap();
+    }
+    for frame in [1, 3] {
+        image::GrayImage::new(40, 30).save(scene.path(&format!("gap_{frame}.png"))).unwrap();
+    }
+    scene.write("text.png", "no picture");
+    let error = |ignore: &str| scene.error("", &[&format!("{}\nignore = {ignore:?}", Scene::view("cam01"))]);
+    for (ignore, parts) in [
+        ("none.png", &["the ignore of camera \"cam01\"", "none.png", "no such file, expected a picture"][..]),
+        ("lying.png", &["the ignore of camera \"cam01\"", "lying.png is 30x40 pixels, expected the shape of 40x30"]),
+        ("few_%d.png", &["2 pictures", "few_%d.png", "one for each of the 3 frames, or one picture for all"]),
+        ("gap_%d.png", &["gap_%d.png", "number 2 is missing"]),
+        ("text.png", &["text.png"]),
+    ] {
+        let error = error(ignore);
+        assert!(parts.iter().all(|part| error.contains(part)), "{ignore}: {error}");
+    }
+}
+
+#[test]
 fn videos_and_pictures_mix() {
     if !ffmpeg_is_here("videos_and_pictures_mix") {
         return;

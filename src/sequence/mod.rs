@@ -3,6 +3,7 @@
 mod calibration;
 mod coverage;
 mod frames;
+mod ignored;
 mod live;
 mod live_options;
 mod manifest;
@@ -19,6 +20,7 @@ pub use calibration::{
     read_cameras, write_cameras_toml,
 };
 pub use frames::{FrameReader, FrameSet, STALL_TIMEOUT};
+pub use ignored::Ignored;
 pub use live::LiveReader;
 pub use manifest::{Sequence, View, check_manifest};
 pub use pictures::PicturePattern;

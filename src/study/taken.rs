@@ -32,6 +32,7 @@ struct ManifestView {
     source: String,
     background: Option<String>,
     mask: Option<String>,
+    ignore: Option<String>,
 }
 
 /// The sequence as its settings take it. Where frames are left out or turned round, its pictures are written into `output` once, at
@@ -108,8 +109,12 @@ fn write(sequence: &Sequence, settings: &SequenceSettings, folder: &OutputFolder
     let mut reader = sequence.read_frames(0..sequence.frame_count)?;
     while let Some(set) = reader.next_frame()? {
         let Some(now) = shown.get(&set.index) else { continue };
-        for ((view, picture), mask) in sequence.views.iter().zip(&set.pictures).zip(&set.masks) {
+        let views = sequence.views.iter().zip(&set.pictures).zip(&set.masks).zip(&set.ignored);
+        for (((view, picture), mask), ignored) in views {
             save(&|path| picture.save(path), format!("frames/{}_{now:04}.png", view.camera))?;
+            if let Some(ignored) = ignored {
+                save(&|path| ignored.save(path), format!("ignored/{}_{now:04}.png", view.camera))?;
+            }
             if let Some(mask) = mask {
                 save(&|path| mask.save(path), format!("masks/{}_{now:04}.png", view.camera))?;
             }
@@ -130,6 +135,7 @@ fn write(sequence: &Sequence, settings: &SequenceSettings, folder: &OutputFolder
                 source: format!("frames/{name}_%04d.png"),
                 background: plate.as_ref().map(|_| format!("plates/{name}.png")),
                 mask: view.mask.as_ref().map(|_| format!("masks/{name}_%04d.png")),
+                ignore: view.ignored.as_ref().map(|_| format!("ignored/{name}_%04d.png")),
             }
         };
         let manifest = Manifest {

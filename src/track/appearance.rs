@@ -44,8 +44,11 @@ impl RunAppearance {
         }
         let views = 0..prepared.likelihoods.len();
         let drawn: Vec<Vec<u8>> = views.map(|view| self.reference.draw(pose, view).bytes).collect();
-        let lessons = prepared.likelihoods.iter().zip(&drawn);
-        let lessons: Vec<Lesson<'_>> = lessons.map(|(likelihood, drawn)| Lesson { likelihood, drawn }).collect();
+        let views = prepared.likelihoods.iter().zip(&drawn).zip(&prepared.observations);
+        let mut lessons = Vec::new();
+        for ((likelihood, drawn), observation) in views {
+            lessons.push(Lesson { likelihood, drawn, observation });
+        }
         self.appearance.learn(&lessons, KEPT)
     }
 }

@@ -214,7 +214,7 @@ fn root_mean_square(values: &[f32], chosen: &[usize]) -> f64 {
     (squares.sum::<f64>() / chosen.len() as f64).sqrt()
 }
 
-/// Of every joint of a pose the share of the views that have it in their picture in which it lies on the silhouette; 0 where
+/// Of every joint of a pose the share of the views that have it in their picture, where it is not ignored, in which it lies on the silhouette; 0 where
 /// none has.
 pub(super) fn seen_joints(body: &Body, cameras: &[Camera], observations: &[Observation], pose: &[f32]) -> Vec<f32> {
     let pose: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
@@ -225,7 +225,11 @@ pub(super) fn seen_joints(body: &Body, cameras: &[Camera], observations: &[Obser
             let Some(at) = camera.project(joint) else { continue };
             let (x, y) = (at.x.round(), at.y.round());
             if x >= 0.0 && y >= 0.0 && x < f64::from(observation.width) && y < f64::from(observation.height) {
-                let byte = observation.bytes[y as usize * observation.width as usize + x as usize];
+                let at = y as usize * observation.width as usize + x as usize;
+                if observation.ignores(at) {
+                    continue;
+                }
+                let byte = observation.bytes[at];
                 inside += 1;
                 seen += u32::from(byte & Observation::SILHOUETTE != 0);
             }

@@ -68,7 +68,7 @@ impl Hull {
     }
 }
 
-/// Whether a point is in the silhouette of every camera whose picture it is in, and those are two or more.
+/// Whether a point is in the silhouette of every camera whose picture it is in and does not ignore it there, and those are two or more.
 fn is_person(cameras: &[Camera], observations: &[Observation], at: DVec3) -> bool {
     let mut seen = 0;
     for (camera, observation) in cameras.iter().zip(observations) {
@@ -77,7 +77,11 @@ fn is_person(cameras: &[Camera], observations: &[Observation], at: DVec3) -> boo
         if x < 0.0 || y < 0.0 || x >= f64::from(observation.width) || y >= f64::from(observation.height) {
             continue;
         }
-        if observation.bytes[y as usize * observation.width as usize + x as usize] & Observation::SILHOUETTE == 0 {
+        let place = y as usize * observation.width as usize + x as usize;
+        if observation.ignores(place) {
+            continue;
+        }
+        if observation.bytes[place] & Observation::SILHOUETTE == 0 {
             return false;
         }
         seen += 1;

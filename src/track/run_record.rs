@@ -15,7 +15,7 @@ use super::{Backend, RealtimeSettings, TrackSettings, Width};
 use crate::body::{MeshSource, Model};
 use crate::evaluate::Objective;
 use crate::files::{OutputFolder, read_toml, table_of};
-use crate::sequence::{Sequence, Source};
+use crate::sequence::{Ignored, Sequence, Source};
 
 /// Its name in a track's folder.
 pub(super) const NAME: &str = "run.toml";
@@ -256,6 +256,9 @@ impl<'a> Inputs<'a> {
             let mut files = vec![described(&view.source)?];
             files.extend(view.background.as_deref().map(sum_of).transpose()?);
             files.extend(view.mask.as_ref().map(|(mask, _)| described(mask)).transpose()?);
+            if let Some((first, count)) = view.ignored.as_ref().map(Ignored::first) {
+                files.push(count.map_or_else(|| sum_of(&first), |count| described_pictures(&first, count))?);
+            }
             views.insert(format!("view {}", view.camera), files);
         }
         Ok(Self {
@@ -282,12 +285,14 @@ fn described(source: &Source) -> Result<String> {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             Ok(format!("{name}, {size} bytes"))
         }
-        Source::Pictures(pattern) => {
-            let first = pattern.file(0);
-            let name = first.file_name().ok_or_else(|| anyhow!("{} names no file", first.display()))?.to_string_lossy();
-            Ok(format!("{name} and on, {} pictures", pattern.frame_count()))
-        }
+        Source::Pictures(pattern) => described_pictures(&pattern.file(0), pattern.frame_count()),
     }
+}
+
+/// Numbered pictures by the name of the first and their number.
+fn described_pictures(first: &Path, count: usize) -> Result<String> {
+    let name = first.file_name().ok_or_else(|| anyhow!("{} names no file", first.display()))?.to_string_lossy();
+    Ok(format!("{name} and on, {count} pictures"))
 }
 
 #[derive(Serialize)]

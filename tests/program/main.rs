@@ -22,6 +22,7 @@ mod example_bodies;
 mod features;
 mod losses;
 mod observe;
+mod obstacles;
 mod reliability;
 mod report_in_browser;
 #[cfg(feature = "rerun")]

@@ -12,7 +12,7 @@ use self::classes::{Groups, grouped};
 use self::colours::{Colours, LogTable};
 use crate::body::Body;
 use crate::features::likelihood::{LOG_STEPS, smooth_rows};
-use crate::features::{Evidence, Likelihood, Observation, PartClasses};
+use crate::features::{BitImage, Evidence, Likelihood, Observation, PartClasses};
 
 /// The largest log-likelihood ratio that is believed, in steps.
 const MOST: i32 = (5.0 * LOG_STEPS) as i32;
@@ -43,6 +43,8 @@ pub struct Lesson<'a> {
     pub likelihood: &'a Likelihood,
     /// The frame's pose drawn there: a byte a pixel, bits 0 to 6 the label of the visible part, bit 7 an edge.
     pub drawn: &'a [u8],
+    /// What was seen there: pixels that it ignores teach nothing.
+    pub observation: &'a Observation,
 }
 
 impl Appearance {
@@ -69,14 +71,15 @@ impl Appearance {
     /// When a part's label is no label.
     pub fn learn(&mut self, views: &[Lesson<'_>], kept: f32) -> Result<()> {
         self.seen.iter_mut().for_each(|colours| colours.fade(kept));
-        for Lesson { likelihood, drawn } in views {
+        for Lesson { likelihood, drawn, observation } in views {
             let pixels = likelihood.background.iter().zip(&likelihood.colours).zip(*drawn);
-            for ((&background, colour), &byte) in pixels {
+            for (at, ((&background, colour), &byte)) in pixels.enumerate() {
                 // A border pixel may be its neighbour's, and what surely is background is nobody's colour.
                 let looks_empty = i32::from(background) - self.person.of(*colour) > MOST;
                 if byte & 0x80 == 0
                     && !looks_empty
                     && let Some(group) = self.groups.of_label(byte)
+                    && !observation.ignores(at)
                 {
                     self.seen[group].add(*colour);
                 }
@@ -95,18 +98,19 @@ impl Appearance {
         Ok(())
     }
 
-    /// Gives a frame's observations the evidence of its likelihoods, one a view; none where there are none.
+    /// Gives a frame's observations the evidence of its likelihoods, one a view; none where there are none. What an observation
+    /// ignores says nothing, of its neighbours neither.
     ///
     /// # Errors
     /// When likelihoods are of another size than they say.
     pub fn give(&self, likelihoods: &[Likelihood], observations: &mut [Observation]) -> Result<()> {
         observations.par_iter_mut().zip(likelihoods).try_for_each(|(observation, view)| {
-            observation.evidence = Some(self.view_evidence(view)?);
+            observation.evidence = Some(self.view_evidence(view, observation.ignored.as_deref())?);
             Ok(())
         })
     }
 
-    fn view_evidence(&self, view: &Likelihood) -> Result<Evidence> {
+    fn view_evidence(&self, view: &Likelihood, ignored: Option<&BitImage>) -> Result<Evidence> {
         let (width, region) = (view.width as usize, view.region);
         let all_classes = (0..self.classes.count()).fold(0_u32, |word, class| word | 1 << (Evidence::BITS * class));
         // Away from what may be the person nothing speaks for her, and colours are not looked up.
@@ -134,6 +138,13 @@ impl Appearance {
                     let known = if view.is_masked && background < 0 { self.person.of(colour) } else { 0 };
                     *ratio = (table.of(colour) - known - i32::from(background)).clamp(-MOST, MOST) as i16;
                 }
+                if let Some(ignored) = ignored {
+                    for (x, ratio) in (region.x0..).zip(row) {
+                        if ignored.get(x, y as u32 + region.y0) {
+                            *ratio = 0;
+                        }
+                    }
+                }
             };
             let take = |y: usize, sums: &[i16]| {
                 let at = (y + region.y0 as usize) * width;
@@ -142,6 +153,9 @@ impl Appearance {
                 }
             };
             smooth_rows(region.width() as usize, region.height() as usize, make, take);
+        }
+        for at in ignored.into_iter().flat_map(BitImage::pixels) {
+            words[at] = Evidence::SAYS_NOTHING;
         }
         Evidence::new(Arc::clone(&self.classes), view.width, view.height, words)
     }
@@ -184,14 +198,15 @@ mod tests {
         let (head, thigh) = (label("head"), label("left_thigh"));
         let mut appearance = Appearance::new(&body);
         let view = seen();
-        let before = appearance.view_evidence(&view).unwrap();
+        let before = appearance.view_evidence(&view, None).unwrap();
         assert_eq!(before.classes().count(), 1);
         assert_eq!((evidence::code(before.words()[0], 0), evidence::code(before.words()[90], 0)), (8, 0));
         let drawn: Vec<u8> = (0..96).map(|at| if at % 12 < 6 { head } else { thigh }).collect();
+        let observation = Observation::empty(12, 8);
         for _ in 0..40 {
-            appearance.learn(&[Lesson { likelihood: &view, drawn: &drawn }], 1.0).unwrap();
+            appearance.learn(&[Lesson { likelihood: &view, drawn: &drawn, observation: &observation }], 1.0).unwrap();
         }
-        let after = appearance.view_evidence(&view).unwrap();
+        let after = appearance.view_evidence(&view, None).unwrap();
         let at = |pixel: usize, label: u8| {
             evidence::code(after.words()[pixel], usize::from(after.classes().of_label(label)))
         };

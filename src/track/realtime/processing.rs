@@ -10,7 +10,7 @@ use anyhow::{Context, Result, anyhow};
 use image::{GrayImage, RgbImage};
 
 use super::timeline::{Row, Timeline};
-use crate::features::{Extractor, Likelihood, Observation, ViewFeatures};
+use crate::features::{BitImage, Extractor, Likelihood, Observation, ViewFeatures};
 use crate::sequence::{Captured, FrameSet};
 use crate::track::feed::Prepared;
 use crate::track::timings::Span;
@@ -30,6 +30,7 @@ struct Task {
     frame: usize,
     picture: RgbImage,
     mask: Option<GrayImage>,
+    ignored: Option<Arc<GrayImage>>,
 }
 
 struct Done {
@@ -65,11 +66,11 @@ impl Processing {
     pub(super) fn process(&self, Captured { set, at }: Captured) -> Result<Prepared> {
         let read = Span::since(at);
         let begin = Instant::now();
-        let FrameSet { index, pictures, masks } = set;
+        let FrameSet { index, pictures, masks, ignored } = set;
         let failed = || anyhow!("a worker for the features failed; its message stands above");
-        for ((worker, picture), mask) in self.workers.iter().zip(pictures).zip(masks) {
+        for (((worker, picture), mask), ignored) in self.workers.iter().zip(pictures).zip(masks).zip(ignored) {
             let tasks = worker.tasks.as_ref().ok_or_else(failed)?;
-            tasks.send(Task { frame: index, picture, mask }).map_err(|_| failed())?;
+            tasks.send(Task { frame: index, picture, mask, ignored }).map_err(|_| failed())?;
         }
         let mut views: Vec<Option<Done>> = self.workers.iter().map(|_| None).collect();
         for _ in &self.workers {
@@ -106,10 +107,12 @@ fn work(
     timeline: &Timeline,
 ) {
     let mut features = vec![ViewFeatures::empty(1, 1)];
-    while let Ok(Task { frame, picture, mask }) = tasks.recv() {
+    while let Ok(Task { frame, picture, mask, ignored }) = tasks.recv() {
         let start = Instant::now();
         let process = || -> Result<(Observation, Option<Likelihood>)> {
             extractor.extract_into(std::slice::from_ref(&picture), std::slice::from_ref(&mask), &mut features)?;
+            let ignored = ignored.as_deref().map(|mask| Arc::new(BitImage::of_gray(mask)));
+            extractor.ignore(&mut features, &[ignored])?;
             let observation = std::mem::replace(&mut features[0].observation, Observation::empty(0, 0));
             Ok((observation, features[0].likelihood.take()))
         };
