@@ -17,7 +17,7 @@ choices! {
     "objective" pub enum ObjectiveKind => pub formula: (Area, Terms, Views) {
         /// Weighted sum of the terms over all cameras together.
         "ws" Ws => (Area::Silhouette, Terms::Sum, Views::Together),
-        /// Product of powers of the terms over all cameras together; the default, best on average.
+        /// Product of powers of the terms over all cameras together; the default where silhouettes are compared, best on average of these.
         "sp" #[default] Sp => (Area::Silhouette, Terms::Product, Views::Together),
         /// Mean over cameras of the weighted sums.
         "aows" Aows => (Area::Silhouette, Terms::Sum, Views::Mean),
@@ -25,7 +25,7 @@ choices! {
         "aosp" Aosp => (Area::Silhouette, Terms::Product, Views::Mean),
         /// Product over cameras of the products.
         "posp" Posp => (Area::Silhouette, Terms::Product, Views::Product),
-        /// Product of powers over all cameras together, of soft evidence in place of the silhouette.
+        /// Product of powers over all cameras together, of soft evidence in place of the silhouette; the default of `track` with `maes` off line.
         "evidence" Evidence => (Area::Evidence, Terms::Product, Views::Together),
     }
 }

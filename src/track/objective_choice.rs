@@ -21,18 +21,26 @@ pub struct ObjectiveChoice {
 }
 
 impl ObjectiveChoice {
+    /// As [`Self::resolve_over`] the default objective.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn resolve(&self, table: Option<&toml::Table>, name: &str) -> Result<Objective> {
+        self.resolve_over(ObjectiveKind::default(), table, name)
+    }
+
     /// The objective: this choice over the `[objective]` table of a sequence (`name` stands for its file in messages)
-    /// over the defaults of the kind that both come to.
+    /// over the defaults of the kind that both come to, or of `usual` where neither names one.
     ///
     /// # Errors
     /// An unknown key or kind, a value of the wrong type or one that makes no sense (METHOD A7: weights of a sum are in
     /// [0, 1] and sum to 1, exponents of a product in (0, 1]).
-    pub fn resolve(&self, table: Option<&toml::Table>, name: &str) -> Result<Objective> {
+    pub fn resolve_over(&self, usual: ObjectiveKind, table: Option<&toml::Table>, name: &str) -> Result<Objective> {
         let written = match table {
             Some(table) => parse_table(table, &format!("{name}, table [objective]"))?,
             None => Self::default(),
         };
-        let usual = Objective::of(self.kind.or(written.kind).unwrap_or_default());
+        let usual = Objective::of(self.kind.or(written.kind).unwrap_or(usual));
         let objective = Objective {
             beta: self.beta.or(written.beta).unwrap_or(usual.beta),
             w1: self.w1.or(written.w1).unwrap_or(usual.w1),

@@ -47,8 +47,9 @@ impl Plan {
         // Frames are counters of the random numbers.
         u32::try_from(range.end).map_err(|_| anyhow::anyhow!("{name} has {} frames, too many", range.end))?;
         let body = Body::load(&sequence.body)?;
-        let objective = settings.objective.resolve(sequence.objective.as_ref(), &name)?;
         let mut features = feature_settings(sequence)?;
+        let usual = settings.usual_objective(!features.segment.is_empty());
+        let objective = settings.objective.resolve_over(usual, sequence.objective.as_ref(), &name)?;
         features.likelihoods = objective.weighs_evidence();
         check_background(sequence, &range)?;
         let Some(start_path) = settings.start.clone().or_else(|| sequence.start.clone()) else {

@@ -8,6 +8,7 @@ use anyhow::{Result, ensure};
 use super::journal::Numbering;
 use super::{Backend, FrameRange, ObjectiveChoice, Prediction, RealtimeSettings, Width};
 use crate::body::Model;
+use crate::evaluate::ObjectiveKind;
 use crate::report::check_recordings_are_built;
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::STALL_TIMEOUT;
@@ -19,7 +20,8 @@ pub struct TrackSettings {
     pub backend: Backend,
     /// What the body is drawn as.
     pub model: Model,
-    /// What counts as a good pose; over the sequence's `[objective]` table.
+    /// What counts as a good pose; over the sequence's `[objective]` table. Where neither names a kind, `evidence` with the search `maes`
+    /// and the flat model off line, unless body parts are told apart; else `sp`.
     pub objective: ObjectiveChoice,
     /// How poses are searched; its seed decides all random numbers.
     pub search: SearchSettings,
@@ -84,6 +86,13 @@ impl TrackSettings {
     pub fn width(&self) -> Width {
         let usual = if self.search.kind == SearchKind::MaEs { Width::Learnt } else { Width::Steps };
         self.width.unwrap_or(usual)
+    }
+
+    /// What a good pose is where neither settings nor sequence say. Evidence, which is right more often, where `maes` compares the flat
+    /// model off line; body parts that are told apart count in silhouettes alone, and real time has no time for it.
+    pub(super) fn usual_objective(&self, has_segments: bool) -> ObjectiveKind {
+        let weighs = self.search.kind == SearchKind::MaEs && self.model == Model::Flat && self.realtime.is_none();
+        if weighs && !has_segments { ObjectiveKind::Evidence } else { ObjectiveKind::default() }
     }
 
     /// Whether a lost person is searched for wider: that takes the time that real time has not.
