@@ -24,7 +24,7 @@ pub use c3d::{parse_c3d, write_c3d};
 pub use error::{FrameError, Matching, PointError, TrajectoryError, write_frame_errors};
 pub use pairing::PointPairs;
 pub use points::{LARGEST_COORDINATE, PointTrajectory};
-pub use points_csv::{parse_points_csv, write_points_csv};
+pub use points_csv::{parse_points_csv, write_points_csv, write_points_csv_with_sigmas};
 pub use skeletal::{
     AsfBone, AsfSkeleton, DeepMimicSkeleton, MotionFormat, Placement, SkeletalJoint, SkeletalMotion, UpAxis, parse_amc,
     parse_asf, parse_deepmimic, parse_deepmimic_skeleton, read_skeletal_motion,

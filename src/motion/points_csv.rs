@@ -1,5 +1,5 @@
 //! Points as CSV: `frame,time,<name>.x,<name>.y,<name>.z,…`, mm, seconds, frames from 0, missing points empty
-//! (joints.csv of FORMATS). Tables that name their columns `<name>_x` and `time_s`, or have no time, are read as
+//! (joints.csv of FORMATS), then perhaps `<name>.sigma,…`, expected errors in mm. Tables that name their columns `<name>_x` and `time_s`, or have no time, are read as
 //! well.
 
 use std::io::Write;
@@ -16,6 +16,9 @@ pub(super) const POINTS: PointFile = PointFile {
     read: |bytes, name| parse_points_csv(text(bytes, name)?, name),
     write: Ok(|out, points, _| write_points_csv(out, points)),
 };
+
+/// What ends the name of a column with a point's expected error.
+const SIGMA: &str = ".sigma";
 
 /// Reads the text of a points CSV; `name` stands for the file in messages. The rate comes from the times, which must
 /// follow the frames evenly; without a time column (or with a single frame at time 0) it is 0, unknown.
@@ -83,7 +86,8 @@ fn header(columns: &[&str]) -> Result<(usize, Vec<String>)> {
     );
     let timed = columns.get(1).is_some_and(|c| ["time", "time_s"].iter().any(|t| c.eq_ignore_ascii_case(t)));
     let leading = if timed { 2 } else { 1 };
-    let points = &columns[leading..];
+    let sigmas = columns.iter().position(|column| column.ends_with(SIGMA)).unwrap_or(columns.len());
+    let points = columns.get(leading..sigmas).unwrap_or_default();
     ensure!(points.len() >= 3, "found {} columns after the time, expected three for each point", points.len());
     let mut names = Vec::new();
     for triple in points.chunks(3) {
@@ -98,6 +102,12 @@ fn header(columns: &[&str]) -> Result<(usize, Vec<String>)> {
             ensure!(found == expected, "found column `{}`, expected `{}`", shortened(found), shortened(&expected));
         }
         names.push(base.trim().to_string());
+    }
+    if let Some(stray) = columns[sigmas..]
+        .iter()
+        .find(|column| column.strip_suffix(SIGMA).is_none_or(|name| !names.iter().any(|known| known == name)))
+    {
+        bail!("found column `{}` after the points, expected `<name>.sigma` of a point before it", shortened(stray));
     }
     Ok((leading, names))
 }
@@ -133,12 +143,36 @@ fn rate_of(times: &[f64], first_frame: usize) -> Result<f64> {
 /// # Errors
 /// When the trajectory breaks [`PointTrajectory::check`] or writing fails.
 pub fn write_points_csv(out: &mut dyn Write, points: &PointTrajectory) -> Result<()> {
+    write_with_sigmas(out, points, &[])
+}
+
+/// As [`write_points_csv`], with a column `<name>.sigma` a point after all positions: its expected error, mm; `sigmas` holds a row a frame
+/// of one value a point. Of a point that is missing so is it.
+///
+/// # Errors
+/// As there; also when there are not as many rows as frames, or values as points.
+pub fn write_points_csv_with_sigmas(out: &mut dyn Write, points: &PointTrajectory, sigmas: &[Vec<f64>]) -> Result<()> {
+    let is_whole = sigmas.len() == points.frames.len() && sigmas.iter().all(|row| row.len() == points.names.len());
+    ensure!(
+        is_whole,
+        "there are {} rows of expected errors, expected {} of {} points each",
+        sigmas.len(),
+        points.frames.len(),
+        points.names.len()
+    );
+    write_with_sigmas(out, points, sigmas)
+}
+
+fn write_with_sigmas(out: &mut dyn Write, points: &PointTrajectory, sigmas: &[Vec<f64>]) -> Result<()> {
     points.check()?;
     let timed = points.rate > 0.0;
     let mut writer = csv::Writer::from_writer(out);
     let mut header = vec!["frame".to_string()];
     header.extend(timed.then(|| "time".to_string()));
     header.extend(points.names.iter().flat_map(|name| ["x", "y", "z"].map(|axis| format!("{name}.{axis}"))));
+    if !sigmas.is_empty() {
+        header.extend(points.names.iter().map(|name| format!("{name}{SIGMA}")));
+    }
     writer.write_record(&header)?;
     for (row, frame) in points.frames.iter().enumerate() {
         let mut cells = vec![(points.first_frame + row).to_string()];
@@ -150,6 +184,8 @@ pub fn write_points_csv(out: &mut dyn Write, points: &PointTrajectory) -> Result
                 None => cells.extend([const { String::new() }; 3]),
             }
         }
+        let sigmas = sigmas.get(row).into_iter().flatten().zip(frame);
+        cells.extend(sigmas.map(|(sigma, point)| point.map_or_else(String::new, |_| format!("{sigma:.2}"))));
         writer.write_record(&cells)?;
     }
     writer.flush()?;
@@ -164,6 +200,21 @@ mod tests {
     use proptest::prelude::*;
 
     const SMALL: &str = "frame,time,a.x,a.y,a.z,b.x,b.y,b.z\n7,0.7,1,2,3,,,\n8,0.8,4,5,6,7,8,9\n";
+
+    #[test]
+    fn expected_errors_follow_the_points_and_are_passed_over() {
+        let points = parse_points_csv(SMALL, "joints.csv").unwrap();
+        let mut bytes = Vec::new();
+        write_points_csv_with_sigmas(&mut bytes, &points, &[vec![1.5, 2.0], vec![20.125, 3.0]]).unwrap();
+        let text = String::from_utf8(bytes).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(lines[0].ends_with("b.z,a.sigma,b.sigma"), "{text}");
+        assert!(lines[1].ends_with(",,,,1.50,") && lines[2].ends_with(",20.12,3.00"), "{text}");
+        assert_eq!(parse_points_csv(&text, "joints.csv").unwrap(), points);
+        let error = format!("{:#}", parse_points_csv(&text.replace("b.sigma", "c.sigma"), "j").unwrap_err());
+        assert!(error.contains("found column `c.sigma` after the points"), "{error}");
+        assert!(write_points_csv_with_sigmas(&mut Vec::new(), &points, &[vec![1.0, 2.0]]).is_err());
+    }
 
     #[test]
     fn both_layouts() {

@@ -323,6 +323,7 @@ mod tests {
             name: evil.clone(),
             colour: TRACKED,
             values: (0..40).map(|i| Some(scale * (2.0 + f64::from(i).sin()))).collect(),
+            is_band: false,
         };
         let walker = |shift: f64| Skeleton {
             name: evil.clone(),

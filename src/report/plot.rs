@@ -14,6 +14,8 @@ pub struct Series {
     pub colour: [u8; 3],
     /// One value a frame; gaps where there is none (or it is not finite).
     pub values: Vec<Option<f64>>,
+    /// Whether it bounds a band, the area from 0 up to it, and is no curve of its own.
+    pub is_band: bool,
 }
 
 pub(super) const INK: RGBColor = RGBColor(70, 78, 88);
@@ -29,7 +31,8 @@ pub fn line_chart(label: &str, first_frame: usize, series: &[Series], size: [u32
     let frames = series.iter().map(|s| s.values.len()).max().unwrap_or(0).max(2);
     let top = series.iter().flat_map(|s| &s.values).filter_map(finite).fold(0.0, f64::max);
     // Several curves need room for a legend above them.
-    let room = if series.len() > 1 { 1.12 + 0.12 * series.len() as f64 } else { 1.08 };
+    let has_legend = series.len() > 1 || series.iter().any(|curve| curve.is_band);
+    let room = if has_legend { 1.12 + 0.12 * series.len() as f64 } else { 1.08 };
     let top = if top > 0.0 { top * room } else { 1.0 };
     let x = first_frame as f64..(first_frame + frames - 1) as f64;
     drawn(size, |root| {
@@ -59,21 +62,26 @@ pub fn line_chart(label: &str, first_frame: usize, series: &[Series], size: [u32
             let style = RGBColor(red, green, blue).stroke_width(2);
             for run in runs(&curve.values.iter().map(finite).collect::<Vec<_>>()) {
                 let point = |i: usize| Some(((first_frame + i) as f64, finite(&curve.values[i])?));
-                if run.len() == 1 {
+                if curve.is_band {
+                    let colour = RGBColor(red, green, blue);
+                    let [first, last] = [run.start, run.end - 1].map(|i| ((first_frame + i) as f64, 0.0));
+                    let outline: Vec<_> = [first].into_iter().chain(run.filter_map(point)).chain([last]).collect();
+                    chart.draw_series([Polygon::new(outline, colour.mix(0.18))])?;
+                } else if run.len() == 1 {
                     let dot = run.filter_map(point).map(|p| Circle::new(p, 2, style.filled()));
                     chart.draw_series(dot)?;
                 } else {
                     chart.draw_series(LineSeries::new(run.filter_map(point), style))?;
                 }
             }
-            if series.len() > 1 {
+            if has_legend {
                 chart
                     .draw_series(std::iter::empty::<Circle<(f64, f64), i32>>())?
                     .label(&curve.name)
                     .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
             }
         }
-        if series.len() > 1 {
+        if has_legend {
             chart
                 .configure_series_labels()
                 .position(SeriesLabelPosition::UpperRight)
@@ -157,7 +165,7 @@ mod tests {
     fn gaps_split_a_curve() {
         assert_eq!(runs(&[None, Some(1.0), Some(2.0), None, Some(3.0)]), [1..3, 4..5]);
         let values = vec![Some(10.0), Some(20.0), None, Some(f64::NAN), Some(30.0), Some(5.0)];
-        let series = Series { name: "error".into(), colour: [1, 2, 3], values };
+        let series = Series { name: "error".into(), colour: [1, 2, 3], values, is_band: false };
         let svg = line_chart("error, mm", 7, &[series], [640, 200]).unwrap();
         assert_eq!(svg.matches("#010203").count(), 2, "{svg}");
         assert!(svg.contains("error, mm") && !svg.contains("NaN"));
@@ -168,7 +176,7 @@ mod tests {
         for values in
             [vec![], vec![None], vec![Some(f64::INFINITY), Some(f64::NAN)], vec![Some(0.0)], vec![Some(1e300)]]
         {
-            let series = Series { name: "<b>&".into(), colour: [0; 3], values };
+            let series = Series { name: "<b>&".into(), colour: [0; 3], values, is_band: false };
             let svg = line_chart("x", 0, &[series.clone(), series], [300, 100]).unwrap();
             assert!(svg.starts_with("<svg") && !svg.contains("<b>"), "{svg}");
         }

@@ -6,7 +6,7 @@ use anyhow::{Context, Result, anyhow};
 use serde_json::json;
 
 use super::appearance::RunAppearance;
-use super::confidence::{Confidence, LossRule, seen_joints};
+use super::confidence::{Confidence, JointProbe, LossRule};
 use super::feed::Prepared;
 use super::journal::{Extent, FrameResult, Journal};
 use super::motion::LearntMotion;
@@ -24,7 +24,7 @@ use super::timings::{Span, Thread, Timings};
 use super::truth::Truth;
 use super::unaided::with_start;
 use super::{Backend, Prediction, TrackSettings, Width, folder, results, run_record};
-use crate::evaluate::ViewCounts;
+use crate::evaluate::{Evaluator, ViewCounts};
 use crate::files::OutputFolder;
 use crate::gpu::DeviceLost;
 use crate::sequence::Sequence;
@@ -104,6 +104,7 @@ pub fn track(
     let confidence = Confidence::new(&plan.body, LossRule::default());
     let recovery = Recovery::new(&plan.body, &sequence.cameras, &settings.search, &plan.space);
     let recovery = settings.may_recover().then_some(recovery);
+    let probe = JointProbe::new(&plan.body, &sequence.cameras);
     let is_learnt = plan.features.likelihoods;
     let appearance = is_learnt.then(|| RunAppearance::new(&plan.body, &sequence.cameras));
     let motion = LearntMotion::new(plan.space.spread(1.0 / sequence.fps)?, settings.prediction() == Prediction::Learnt);
@@ -120,6 +121,7 @@ pub fn track(
         done: 0,
         timings,
         confidence,
+        probe,
         recovery,
         pace,
         motion,
@@ -151,6 +153,8 @@ struct Run<'a> {
     done: usize,
     timings: Timings,
     confidence: Confidence,
+    /// What asks a frame about its joints.
+    probe: JointProbe,
     /// The search for a lost person, where one is asked for.
     recovery: Option<Recovery>,
     pace: Box<dyn Pace>,
@@ -298,7 +302,7 @@ impl Run<'_> {
         }
         let [particles, iterations] = turn.size;
         self.plan.resize(particles, iterations)?;
-        let Plan { start, objective, backend, search, space, body, .. } = &mut self.plan;
+        let Plan { start, objective, backend, search, space, .. } = &mut self.plan;
         let predicted = match &*self.frames {
             _ if turn.starts_anew => start.clone(),
             [] => start.clone(),
@@ -317,16 +321,19 @@ impl Run<'_> {
         let observations = &prepared.observations;
         let in_frame = || format!("frame {frame}");
         let mut searched = search.search(evaluator, objective, observations, start).with_context(in_frame)?;
-        let cameras = &self.sequence.cameras;
-        let result = |searched: &Searched| FrameResult {
-            frame,
-            pose: searched.estimate.pose.clone(),
-            fitness: searched.estimate.fitness,
-            spread: searched.estimate.spread.clone(),
-            views: searched.views.iter().map(|view| objective.view_terms(view)).collect(),
-            joints: seen_joints(body, cameras, observations, &searched.estimate.pose),
+        let probe = &self.probe;
+        let result = |evaluator: &mut dyn Evaluator, searched: &Searched| -> Result<FrameResult> {
+            let pose = searched.estimate.pose.clone();
+            Ok(FrameResult {
+                frame,
+                fitness: searched.estimate.fitness,
+                spread: searched.estimate.spread.clone(),
+                views: searched.views.iter().map(|view| objective.view_terms(view)).collect(),
+                joints: probe.ask(evaluator, objective, observations, &pose)?,
+                pose,
+            })
         };
-        let mut found = result(&searched);
+        let mut found = result(evaluator, &searched).with_context(in_frame)?;
         if let Some(recovery) =
             self.recovery.as_ref().filter(|recovery| recovery.is_lost() || self.confidence.is_loss_at(&found))
         {
@@ -335,10 +342,11 @@ impl Run<'_> {
                 let views = views.iter().map(|view| objective.view_terms(view)).collect();
                 !self.confidence.is_loss_at(&FrameResult { views, ..found.clone() })
             };
-            let lost = LostFrame { evaluator, objective, observations, number: counter, spread: &steps };
+            let lost =
+                LostFrame { evaluator: &mut *evaluator, objective, observations, number: counter, spread: &steps };
             recovery.search(lost, &mut searched, &is_sure).with_context(in_frame)?;
             searched.evaluations.push(Span::since(begin));
-            found = result(&searched);
+            found = result(evaluator, &searched).with_context(in_frame)?;
         }
         let Searched { estimate, evaluations, passes, .. } = searched;
 

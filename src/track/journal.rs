@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 
+use super::JointHints;
 use crate::body::Body;
 use crate::geometry::Camera;
 
@@ -23,8 +24,8 @@ pub struct FrameResult {
     pub spread: Vec<f32>,
     /// f1 and f2 (METHOD A7) of each view.
     pub views: Vec<[f32; 2]>,
-    /// Share of the views in which a joint lies on the silhouette, one a joint.
-    pub joints: Vec<f32>,
+    /// What the frame by itself says of each joint.
+    pub joints: Vec<JointHints>,
 }
 
 /// How many values a frame's result has.
@@ -45,7 +46,9 @@ impl FrameResult {
     /// A line of the journal: the frame, the bits of every number in hexadecimal, a checksum of all that.
     fn to_line(&self) -> String {
         let mut line = format!("{} {:08x}", self.frame, self.fitness.to_bits());
-        for value in self.pose.iter().chain(&self.spread).chain(self.views.as_flattened()).chain(&self.joints) {
+        let joints = self.joints.iter().flat_map(|hints| [hints.seen, hints.looseness, hints.support]);
+        let values = self.pose.iter().chain(&self.spread).chain(self.views.as_flattened()).copied();
+        for value in values.chain(joints) {
             line.push_str(&format!(" {:08x}", value.to_bits()));
         }
         let sum = checksum(line.as_bytes());
@@ -65,7 +68,7 @@ impl FrameResult {
             words.map(|word| Some(f32::from_bits(u32::from_str_radix(word, 16).ok()?))).collect();
         let bits = bits?;
         let Extent { dofs, views, joints } = extent;
-        if bits.len() != 1 + 2 * dofs + 2 * views + joints {
+        if bits.len() != 1 + 2 * dofs + 2 * views + 3 * joints {
             return None;
         }
         let (pose, rest) = bits[1..].split_at(dofs);
@@ -77,7 +80,9 @@ impl FrameResult {
             pose: pose.to_vec(),
             spread: spread.to_vec(),
             views: views.as_chunks().0.to_vec(),
-            joints: joints.to_vec(),
+            joints: (joints.as_chunks().0.iter())
+                .map(|&[seen, looseness, support]| JointHints { seen, looseness, support })
+                .collect(),
         })
     }
 }
@@ -192,7 +197,10 @@ mod tests {
             fitness: 0.1 * at,
             spread: vec![1.0 / 3.0, 0.0, 7.0],
             views: vec![[0.5, 0.25], [at, 1.0]],
-            joints: vec![0.75, at],
+            joints: vec![
+                JointHints { seen: 0.75, looseness: at, support: -0.25 },
+                JointHints { seen: at, looseness: 7.0, support: 1.0 },
+            ],
         }
     }
 
@@ -209,7 +217,9 @@ mod tests {
         let (_folder, path) = written(4..9);
         let (_, results) = Journal::resume(&path, Numbering::EachFrom(4), EXTENT).unwrap();
         let bits = |r: &FrameResult| -> Vec<u32> {
-            r.pose.iter().chain(&r.spread).chain(r.views.as_flattened()).chain(&r.joints).map(|v| v.to_bits()).collect()
+            let joints = r.joints.iter().flat_map(|hints| [hints.seen, hints.looseness, hints.support]);
+            let values = r.pose.iter().chain(&r.spread).chain(r.views.as_flattened()).copied();
+            values.chain(joints).map(f32::to_bits).collect()
         };
         assert_eq!(results.len(), 5);
         for (at, found) in results.iter().enumerate() {

@@ -38,7 +38,7 @@ mod unaided;
 mod unseen;
 
 pub use backend::{Backend, BuiltBackend};
-pub use confidence::{Confidence, FrameConfidence, JointConfidence, LossRule};
+pub use confidence::{Confidence, FrameConfidence, JointConfidence, JointHints, LossRule, WRONG};
 pub use driver::track;
 pub use fit::{Coverage, Fit, FitSettings, fit};
 pub use frame_range::FrameRange;

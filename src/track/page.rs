@@ -28,6 +28,7 @@ const OVERLAY_FRAMES: usize = 12;
 const BLUE: [u8; 3] = [31, 111, 178];
 const ORANGE: [u8; 3] = [217, 119, 6];
 const GREEN: [u8; 3] = [22, 140, 90];
+const RED: [u8; 3] = [200, 40, 60];
 
 /// Writes report.html, and the recording if it is asked for; `settings` are names and values.
 pub(super) fn write_report(
@@ -58,6 +59,7 @@ pub(super) fn write_report(
         headlines: headlines(summary),
         warnings: summary.warnings.clone(),
         first_frame: summary.first_frame,
+        errors_per_frame: vec![expected_errors(confidences)],
         fitness_per_frame: fitness_curves(confidences, frames),
         overlays: overlays(output.path(), &sequence.cameras, &drawn)?,
         player: Some(player(sequence, body, &joints, truth)),
@@ -72,7 +74,7 @@ pub(super) fn write_report(
             }
         }
         let name = format!("mean over the {}", error.compared);
-        data.errors_per_frame = vec![Series { name, colour: BLUE, values }];
+        data.errors_per_frame.push(Series { name, colour: BLUE, values, is_band: false });
         let points = error.error.points.iter();
         data.joint_errors = points
             .map(|p| JointError { name: p.name.clone(), mean: p.mean, deviation: p.std, largest: p.max })
@@ -101,11 +103,22 @@ fn headlines(summary: &TrackSummary) -> Vec<Headline> {
     all
 }
 
+/// What the joints are expected to be off: the mean over them, a band from 0.
+fn expected_errors(confidences: &[FrameConfidence]) -> Series {
+    let mean = |frame: &FrameConfidence| {
+        let sum: f64 = frame.joints.iter().map(|joint| joint.sigma).sum();
+        (!frame.joints.is_empty()).then(|| sum / frame.joints.len() as f64)
+    };
+    let name = "expected, mean over the joints".to_string();
+    Series { name, colour: ORANGE, values: confidences.iter().map(mean).collect(), is_band: true }
+}
+
 fn fitness_curves(confidences: &[FrameConfidence], frames: &[FrameResult]) -> Vec<Series> {
     let curve = |name: &str, colour, values: Vec<f64>| Series {
         name: name.to_string(),
         colour,
         values: values.into_iter().map(Some).collect(),
+        is_band: false,
     };
     let mean_f1 = |result: &FrameResult| {
         result.views.iter().map(|view| f64::from(view[0])).sum::<f64>() / result.views.len().max(1) as f64
@@ -114,6 +127,7 @@ fn fitness_curves(confidences: &[FrameConfidence], frames: &[FrameResult]) -> Ve
         curve("fitness", BLUE, frames.iter().map(|result| f64::from(result.fitness)).collect()),
         curve("silhouette (mean f1)", GREEN, frames.iter().map(mean_f1).collect()),
         curve("confidence", ORANGE, confidences.iter().map(|frame| frame.confidence).collect()),
+        curve("probability that it is wrong", RED, confidences.iter().map(|frame| frame.wrong).collect()),
     ]
 }
 

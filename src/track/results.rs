@@ -4,12 +4,12 @@ use std::io::Write;
 
 use anyhow::Result;
 
-use super::confidence::FrameConfidence;
+use super::confidence::{FrameConfidence, JointHints};
 use super::journal::FrameResult;
 use crate::body::{Body, PoseTable, PoseWriter};
 use crate::files::{OutputFolder, Overwrite};
 use crate::geometry::Camera;
-use crate::motion::{PointTrajectory, write_bvh, write_points};
+use crate::motion::{PointTrajectory, write_bvh, write_points, write_points_csv_with_sigmas};
 
 /// The poses of a track as its files hold them: where the person is lost, and such frames are to be gaps, the last sure pose
 /// before stands in (the first after, where there is none), so that every frame has its row.
@@ -92,7 +92,8 @@ pub(super) fn write(
     // One trajectory at a time: they are the largest things in memory.
     {
         let joints = held.with_gaps(body.joint_trajectory(table, fps)?);
-        write_points(&output.file("joints.csv")?, &joints, Overwrite::Replace)?;
+        let sigmas = joint_sigmas(&joints, table, confidences);
+        output.write("joints.csv", |writer| write_points_csv_with_sigmas(writer, &joints, &sigmas))?;
         write_points(&output.file("joints.trc")?, &joints, Overwrite::Replace)?;
     }
     if !body.markers.is_empty() {
@@ -104,9 +105,23 @@ pub(super) fn write(
     output.write("confidence.csv", |writer| write_confidence(writer, body, cameras, results, confidences))
 }
 
-/// `frame,fitness,<camera>.f1,<camera>.f2,…,position_spread,angle_spread,confidence,agreement,state`, then
-/// `<joint>.spread,<joint>.seen,<joint>.confidence` a joint: spreads in mm and degrees, the state `sure` or `lost`, the rest in
-/// [0, 1]; see [`super::Confidence`].
+/// The joints' expected errors, mm, a row a frame of the trajectory: a frame that was left out, which has no points, has none either.
+fn joint_sigmas(joints: &PointTrajectory, table: &PoseTable, confidences: &[FrameConfidence]) -> Vec<Vec<f64>> {
+    let mut sigmas = vec![vec![0.0; joints.names.len()]; joints.frames.len()];
+    for (frame, confidence) in table.frames.iter().zip(confidences) {
+        if let Some(row) = frame.checked_sub(joints.first_frame).and_then(|at| sigmas.get_mut(at)) {
+            row.iter_mut().zip(&confidence.joints).for_each(|(sigma, joint)| *sigma = joint.sigma);
+        }
+    }
+    sigmas
+}
+
+/// What confidence.csv says of a joint.
+const COLUMNS: [&str; 6] = ["spread", "seen", "confidence", "sigma", "looseness", "support"];
+
+/// `frame,fitness,<camera>.f1,<camera>.f2,…,position_spread,angle_spread,confidence,agreement,wrong,state`, then
+/// `<joint>.spread,<joint>.seen,<joint>.confidence,<joint>.sigma,<joint>.looseness,<joint>.support` a joint: spreads and looseness in mm and degrees,
+/// the state `sure` or `lost`, support in [-1, 1], the rest in [0, 1]; see [`super::Confidence`].
 fn write_confidence(
     out: &mut dyn Write,
     body: &Body,
@@ -117,19 +132,21 @@ fn write_confidence(
     let mut writer = csv::Writer::from_writer(out);
     let views = cameras.iter().flat_map(|camera| [format!("{}.f1", camera.name), format!("{}.f2", camera.name)]);
     let header = ["frame", "fitness"].map(str::to_string).into_iter().chain(views);
-    let whole = ["position_spread", "angle_spread", "confidence", "agreement", "state"].map(str::to_string);
+    let whole = ["position_spread", "angle_spread", "confidence", "agreement", "wrong", "state"].map(str::to_string);
     let joints = body.joint_names();
-    let joints = joints.iter().flat_map(|joint| ["spread", "seen", "confidence"].map(|what| format!("{joint}.{what}")));
+    let joints = joints.iter().flat_map(|joint| COLUMNS.map(|what| format!("{joint}.{what}")));
     writer.write_record(header.chain(whole).chain(joints))?;
     for (result, frame) in results.iter().zip(confidences) {
         let mut cells = vec![result.frame.to_string(), result.fitness.to_string()];
         cells.extend(result.views.as_flattened().iter().map(f32::to_string));
-        let last = [frame.position_spread, frame.angle_spread, frame.confidence, frame.agreement];
+        let last = [frame.position_spread, frame.angle_spread, frame.confidence, frame.agreement, frame.wrong];
         cells.extend(last.map(|value| format!("{value:.6}")));
         cells.push(if frame.is_lost { "lost" } else { "sure" }.to_string());
-        cells.extend(frame.joints.iter().flat_map(|joint| {
+        cells.extend(frame.joints.iter().zip(&result.joints).flat_map(|(joint, hints)| {
             let [spread, seen, confidence] = [joint.spread, joint.seen, joint.confidence];
-            [format!("{spread:.3}"), format!("{seen:.3}"), format!("{confidence:.4}")]
+            let JointHints { looseness, support, .. } = hints;
+            let own = [format!("{spread:.3}"), format!("{seen:.3}"), format!("{confidence:.4}")];
+            own.into_iter().chain([format!("{:.2}", joint.sigma), format!("{looseness:.3}"), format!("{support:.4}")])
         }));
         writer.write_record(&cells)?;
     }

@@ -12,6 +12,7 @@
 mod beam;
 mod body_import;
 mod calibrate;
+mod calibrated;
 mod check;
 mod demo;
 mod devices_and_bench;

@@ -1,11 +1,17 @@
 //! How far a frame's pose and each of its joints can be trusted, and whether the person is lost.
 
+mod calibration;
+mod hints;
+
 use glam::DVec3;
 
+use self::calibration::{expected_error, wrong_probability};
 use super::FrameResult;
 use crate::body::Body;
-use crate::features::Observation;
-use crate::geometry::Camera;
+
+pub use self::calibration::WRONG;
+pub use self::hints::JointHints;
+pub(super) use self::hints::JointProbe;
 
 /// Spread of a position at which the confidence in it is halved, mm: about a limb's thickness.
 const HALF_TRUST: f64 = 100.0;
@@ -19,15 +25,15 @@ const PROBE: f64 = 1e-3;
 /// When a person counts as lost and as found again. docs/CONFIDENCE.md measures these thresholds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LossRule {
-    /// An agreement below this is a loss.
-    pub lost_below: f64,
-    /// After a loss, an agreement of at least this is a find.
+    /// A pose that is wrong with more than this probability is a loss.
+    pub wrong_above: f64,
+    /// After a loss a pose that is none is a find with an agreement of at least this.
     pub found_from: f64,
 }
 
 impl Default for LossRule {
     fn default() -> Self {
-        Self { lost_below: 0.8, found_from: 0.9 }
+        Self { wrong_above: 0.5, found_from: 0.9 }
     }
 }
 
@@ -43,11 +49,16 @@ impl Default for LossRule {
 /// A joint's confidence is the first two factors, the third with the joint's own standard deviation, and the share of the
 /// views in which the joint lies on the silhouette.
 ///
-/// Loss goes by the agreement: a view's `sqrt(f1 f2)` over its average in the sure frames so far (exponentially, 25 frames),
+/// How far a joint is expected to be off, and with which probability the pose is wrong, is calibrated (METHOD A13): by how far the joint
+/// could lie elsewhere before the fitness told, what the pictures say of its limbs, the fitness, and the agreement. Loss goes by that
+/// probability.
+///
+/// The agreement: a view's `sqrt(f1 f2)` over its average in the sure frames so far (exponentially, 25 frames),
 /// at most 1, and of that the mean over the views that have such a reference, less the worst where three or more do.
 #[derive(Clone, Debug)]
 pub struct Confidence {
     body: Body,
+    joint_names: Vec<String>,
     rule: LossRule,
     best_fitness: f64,
     /// Average of a view's `sqrt(f1 f2)` in the sure frames.
@@ -69,6 +80,8 @@ pub struct FrameConfidence {
     pub confidence: f64,
     /// What the views say, against what they said before, in [0, 1].
     pub agreement: f64,
+    /// The probability that the pose is off by more than [`WRONG`], root mean square over the joints, or that nobody stands there.
+    pub wrong: f64,
     /// Whether the person is lost.
     pub is_lost: bool,
     /// One a joint, in the order of [`Body::joint_names`].
@@ -84,6 +97,8 @@ pub struct JointConfidence {
     pub seen: f64,
     /// In [0, 1].
     pub confidence: f64,
+    /// Its expected error, mm: 68 % of joints are within theirs.
+    pub sigma: f64,
 }
 
 impl Confidence {
@@ -101,6 +116,7 @@ impl Confidence {
             is_lost: false,
             root: chosen(&|bone, is_rotation| !is_rotation && body.bones[bone].parent.is_none()),
             angles: chosen(&|_, is_rotation| is_rotation),
+            joint_names: body.joint_names(),
             body: body.clone(),
         }
     }
@@ -120,35 +136,49 @@ impl Confidence {
         let mean = f1().sum::<f64>() / result.views.len().max(1) as f64;
         let balance = if mean > 0.0 { (f1().fold(f64::INFINITY, f64::min) / mean).clamp(0.0, 1.0).sqrt() } else { 0.0 };
         let position_spread = root_mean_square(&result.spread, &self.root);
-        let joints = self.joint_spreads(result).into_iter().zip(&result.joints).map(|(spread, &seen)| {
-            let seen = f64::from(seen);
-            JointConfidence { spread, seen, confidence: relative * balance * settled(spread) * seen }
+        let agreement = self.agreement(result);
+        let (sigmas, wrong) = self.expected(result, agreement);
+        let joints = self.joint_spreads(result).into_iter().zip(&result.joints).zip(sigmas);
+        let joints = joints.map(|((spread, hints), sigma)| {
+            let seen = f64::from(hints.seen);
+            JointConfidence { spread, seen, confidence: relative * balance * settled(spread) * seen, sigma }
         });
         let joints = joints.collect();
-        let agreement = self.judge(result);
+        self.judge(result, agreement, wrong);
         FrameConfidence {
             position_spread,
             angle_spread: root_mean_square(&result.spread, &self.angles).to_degrees(),
             confidence: relative * balance * settled(position_spread),
             agreement,
+            wrong,
             is_lost: self.is_lost,
             joints,
         }
     }
 
-    /// Whether the next frame would be a loss with this result, without taking note of it.
-    pub(super) fn is_loss_at(&self, result: &FrameResult) -> bool {
-        self.is_loss(self.agreement(result))
+    /// The expected error of each joint, mm, and the probability that the pose is wrong.
+    fn expected(&self, result: &FrameResult, agreement: f64) -> (Vec<f64>, f64) {
+        let fitness = f64::from(result.fitness).clamp(0.0, 1.0);
+        let joints = self.joint_names.iter().zip(&result.joints).zip(self.joint_spreads(result));
+        let sigmas: Vec<f64> =
+            joints.map(|((name, hints), spread)| expected_error(name, hints, spread, fitness)).collect();
+        let wrong = wrong_probability(sigmas.iter().copied(), agreement);
+        (sigmas, wrong)
     }
 
-    fn is_loss(&self, agreement: f64) -> bool {
-        agreement < if self.is_lost { self.rule.found_from } else { self.rule.lost_below }
+    /// Whether the next frame would be a loss with this result, without taking note of it.
+    pub(super) fn is_loss_at(&self, result: &FrameResult) -> bool {
+        let agreement = self.agreement(result);
+        self.is_loss(agreement, self.expected(result, agreement).1)
+    }
+
+    fn is_loss(&self, agreement: f64, wrong: f64) -> bool {
+        wrong > self.rule.wrong_above || self.is_lost && agreement < self.rule.found_from
     }
 
     /// Judges the next frame, and learns from it if it is a sure one.
-    fn judge(&mut self, result: &FrameResult) -> f64 {
-        let agreement = self.agreement(result);
-        self.is_lost = self.is_loss(agreement);
+    fn judge(&mut self, result: &FrameResult, agreement: f64, wrong: f64) {
+        self.is_lost = self.is_loss(agreement, wrong);
         if !self.is_lost {
             self.sure_frames += 1;
             let share = 1.0 / (self.sure_frames as f64).min(MEMORY);
@@ -157,7 +187,6 @@ impl Confidence {
                 *reference += share * (view_term(view) - *reference);
             }
         }
-        agreement
     }
 
     fn agreement(&self, result: &FrameResult) -> f64 {
@@ -214,34 +243,8 @@ fn root_mean_square(values: &[f32], chosen: &[usize]) -> f64 {
     (squares.sum::<f64>() / chosen.len() as f64).sqrt()
 }
 
-/// Of every joint of a pose the share of the views that have it in their picture, where it is not ignored, in which it lies on the silhouette; 0 where
-/// none has.
-pub(super) fn seen_joints(body: &Body, cameras: &[Camera], observations: &[Observation], pose: &[f32]) -> Vec<f32> {
-    let pose: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
-    let Ok(bones) = body.world_from_bones(&pose) else { return vec![0.0; body.joint_names().len()] };
-    let share = |joint: DVec3| {
-        let (mut inside, mut seen) = (0, 0);
-        for (camera, observation) in cameras.iter().zip(observations) {
-            let Some(at) = camera.project(joint) else { continue };
-            let (x, y) = (at.x.round(), at.y.round());
-            if x >= 0.0 && y >= 0.0 && x < f64::from(observation.width) && y < f64::from(observation.height) {
-                let at = y as usize * observation.width as usize + x as usize;
-                if observation.ignores(at) {
-                    continue;
-                }
-                let byte = observation.bytes[at];
-                inside += 1;
-                seen += u32::from(byte & Observation::SILHOUETTE != 0);
-            }
-        }
-        if inside > 0 { seen as f32 / inside as f32 } else { 0.0 }
-    };
-    body.joint_positions(&bones).into_iter().map(share).collect()
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::fit_tests::{cameras_around, seen};
     use super::*;
 
     fn result(fitness: f32, views: &[f32], spread: f32) -> FrameResult {
@@ -251,7 +254,10 @@ mod tests {
             fitness,
             spread: vec![spread; 31],
             views: views.iter().map(|f1| [*f1, 0.5]).collect(),
-            joints: vec![1.0; Body::adult(1750.0).unwrap().joint_names().len()],
+            joints: vec![
+                JointHints { seen: 1.0, looseness: 20.0, support: 1.0 };
+                Body::adult(1750.0).unwrap().joint_names().len()
+            ],
         }
     }
 
@@ -287,7 +293,7 @@ mod tests {
         let hip = body.dof_names().iter().position(|name| name == "left_hip.ry").unwrap();
         still.spread[hip] = 0.1;
         let joint = |name: &str| body.joint_names().iter().position(|known| known == name).unwrap();
-        still.joints[joint("head")] = 0.25;
+        still.joints[joint("head")].seen = 0.25;
         let joints = confidence().next(&still).joints;
         let [hip, knee, ankle, other] = ["left_hip", "left_knee", "left_ankle", "right_knee"].map(joint);
         assert!(joints[hip].spread < 1e-6 && joints[other].spread == 0.0);
@@ -313,19 +319,5 @@ mod tests {
         for _ in 0..10 {
             assert!(!poor.next(&result(0.3, &[0.4; 4], 0.0)).is_lost);
         }
-    }
-
-    #[test]
-    fn joints_are_seen_on_silhouettes() {
-        let (body, cameras) = (Body::adult(1700.0).unwrap(), cameras_around());
-        let pose = body.standing_pose();
-        let mut observations = seen(&body, &cameras, &pose);
-        let single: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
-        let all = seen_joints(&body, &cameras, &observations, &single);
-        assert_eq!(all.len(), body.joint_names().len());
-        assert!(all.iter().filter(|share| **share == 1.0).count() * 4 > all.len() * 3, "{all:?}");
-        observations[1].bytes.fill(0);
-        let fewer = seen_joints(&body, &cameras, &observations, &single);
-        assert!(fewer.iter().all(|share| *share < 0.7), "{fewer:?}");
     }
 }

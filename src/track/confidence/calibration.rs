@@ -1,0 +1,102 @@
+//! What is known of a joint and a frame as numbers that mean something: an expected error in mm, and the probability that the pose is
+//! wrong (METHOD A13). Fitted on development scenes drawn by lot, held out scene by scene; docs/CONFIDENCE.md shows how they hold.
+
+use super::hints::JointHints;
+
+/// Constant of each kind of joint, left and right together, in the logarithm of its error.
+const JOINTS: [(&str, f64); 12] = [
+    ("pelvis", -0.521),
+    ("hip", -0.509),
+    ("knee", -1.343),
+    ("ankle", -2.073),
+    ("axis", -0.521),
+    ("thorax", -0.487),
+    ("clavicle", -0.714),
+    ("shoulder", -1.016),
+    ("elbow", -1.608),
+    ("wrist", -1.904),
+    ("head", -0.945),
+    ("head_top", -2.172),
+];
+/// Constant of a joint of another name.
+const OTHER_JOINT: f64 = -1.151;
+/// Factors of what is known, in the same logarithm.
+const LOOSENESS: f64 = 1.025;
+const SUPPORT: f64 = 0.409;
+const FITNESS: f64 = 2.683;
+const SEEN: f64 = 0.392;
+const SPREAD: f64 = 0.046;
+/// Expected errors are held within these, mm.
+const LIMITS: [f64; 2] = [3.0, 1000.0];
+
+/// An error, root mean square over the joints, from which on a pose is wrong, mm: what `wrong` is the probability of.
+pub const WRONG: f64 = 150.0;
+/// The logit of a wrong pose over the logarithm of the joints' expected error: root mean square.
+const WRONG_AT: [f64; 2] = [-22.139, 4.498];
+/// An agreement of the views at which it is as likely as not that nobody stands there, and how quickly that changes.
+const NOBODY_AT: f64 = 0.8;
+const NOBODY_WIDTH: f64 = 0.04;
+
+/// The expected error of a joint, mm: 68 % of joints are within theirs. `spread` is the standard deviation of the candidates, mm.
+pub(super) fn expected_error(joint: &str, hints: &JointHints, spread: f64, fitness: f64) -> f64 {
+    let kind = joint.strip_prefix("left_").or_else(|| joint.strip_prefix("right_")).unwrap_or(joint);
+    let constant = JOINTS.iter().find(|(name, _)| *name == kind).map_or(OTHER_JOINT, |(_, constant)| *constant);
+    let [seen, looseness, support] = [hints.seen, hints.looseness, hints.support].map(f64::from);
+    let logarithm = constant
+        + LOOSENESS * (looseness.max(0.0) + 5.0).ln()
+        + SUPPORT * (1.0 - support)
+        + FITNESS * (1.0 - fitness)
+        + SEEN * (1.0 - seen)
+        + SPREAD * (spread.max(0.0) + 1.0).ln();
+    let error = logarithm.exp();
+    if error.is_nan() { LIMITS[1] } else { error.clamp(LIMITS[0], LIMITS[1]) }
+}
+
+/// The probability that the joints are off by more than [`WRONG`], root mean square, or that nobody stands there.
+pub(super) fn wrong_probability(expected: impl Iterator<Item = f64>, agreement: f64) -> f64 {
+    let (sum, count) = expected.fold((0.0, 0.0), |(sum, count), error| (sum + error * error, count + 1.0));
+    let [offset, slope] = WRONG_AT;
+    let logistic = |logit: f64| 1.0 / (1.0 + (-logit).exp());
+    let is_off = if count > 0.0 { logistic(offset + slope * 0.5 * (sum / count).ln()) } else { 1.0 };
+    let is_nobody = logistic((NOBODY_AT - agreement) / NOBODY_WIDTH);
+    1.0 - (1.0 - is_off) * (1.0 - is_nobody)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SURE: JointHints = JointHints { seen: 1.0, looseness: 20.0, support: 1.0 };
+
+    #[test]
+    fn what_is_loose_unsupported_or_badly_explained_is_expected_further_off() {
+        let sure = expected_error("left_elbow", &SURE, 1.0, 0.9);
+        assert!((5.0..40.0).contains(&sure), "{sure}");
+        assert_eq!(sure, expected_error("right_elbow", &SURE, 1.0, 0.9));
+        let loose = expected_error("left_elbow", &JointHints { looseness: 100.0, ..SURE }, 1.0, 0.9);
+        assert!(loose > 3.0 * sure, "{loose}");
+        for worse in [
+            expected_error("left_elbow", &JointHints { support: -0.5, ..SURE }, 1.0, 0.9),
+            expected_error("left_elbow", &JointHints { seen: 0.0, ..SURE }, 1.0, 0.9),
+            expected_error("left_elbow", &SURE, 60.0, 0.9),
+            expected_error("left_elbow", &SURE, 1.0, 0.6),
+        ] {
+            assert!(worse > 1.05 * sure, "{worse} {sure}");
+        }
+        let unknown = expected_error("tail", &SURE, 1.0, 0.9);
+        assert!((5.0..100.0).contains(&unknown), "{unknown}");
+        let nothing = JointHints { seen: f32::NAN, looseness: f32::INFINITY, support: f32::NAN };
+        assert_eq!(expected_error("head", &nothing, f64::INFINITY, 0.0), LIMITS[1]);
+    }
+
+    #[test]
+    fn a_pose_is_wrong_where_joints_are_far_off_or_views_disagree() {
+        let wrong = |error: f64, agreement: f64| wrong_probability([error; 15].into_iter(), agreement);
+        assert!(wrong(25.0, 1.0) < 0.02 && wrong(60.0, 1.0) < 0.1, "{} {}", wrong(25.0, 1.0), wrong(60.0, 1.0));
+        assert!(wrong(200.0, 1.0) > 0.5, "{}", wrong(200.0, 1.0));
+        assert!(wrong(25.0, 0.6) > 0.9 && wrong(25.0, NOBODY_AT) > 0.49);
+        assert_eq!(wrong_probability(std::iter::empty(), 1.0), 1.0, "nothing known is no pose");
+        let all: Vec<f64> = (0..20).map(|step| wrong(20.0 * 1.2_f64.powi(step), 1.0)).collect();
+        assert!(all.is_sorted() && all.iter().all(|wrong| (0.0..=1.0).contains(wrong)), "{all:?}");
+    }
+}

@@ -1,0 +1,234 @@
+//! What a frame by itself says of each joint of its pose: seen on silhouettes, held by the fitness, supported by the pictures (METHOD A13).
+
+use anyhow::Result;
+use glam::DVec3;
+
+use crate::body::Body;
+use crate::evaluate::{Evaluator, Objective};
+use crate::features::{Evidence, Observation, evidence};
+use crate::geometry::Camera;
+
+/// What a frame by itself says of a joint.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct JointHints {
+    /// Share of the views that have it in their picture in which it lies on the silhouette.
+    pub seen: f32,
+    /// How far it could lie elsewhere before the fitness told, mm: each degree of freedom turned by itself.
+    pub looseness: f32,
+    /// What the pictures say of the limbs that meet in it, from -1 (surely background) to 1 (surely those limbs): the mean along the axes
+    /// of the worse of the two.
+    pub support: f32,
+}
+
+/// How far a degree of freedom moves the joint that it moves most, to see what the fitness makes of it, mm.
+const REACH: f64 = 30.0;
+/// The largest turn for that, radians: a twist of a straight limb moves no joint far.
+const LARGEST_TURN: f64 = 0.5;
+/// A side on which a limit is nearer than this is not asked, mm.
+const NEAREST: f64 = 1.0;
+/// The loss of fitness, relative to it, that tells; and the least that is believed: noise of single pixels.
+const TELLING: f64 = 0.01;
+const NOISE: f64 = 0.0005;
+/// Step of a degree of freedom for its effect on the joints: mm, radians.
+const PROBE: f64 = 1e-3;
+/// Places along a limb's axis that are asked for support.
+const PLACES: usize = 6;
+
+/// Asks a frame about the joints of a pose.
+#[derive(Clone, Debug)]
+pub(in crate::track) struct JointProbe {
+    body: Body,
+    cameras: Vec<Camera>,
+    /// The bones whose parts meet in a joint.
+    bones: Vec<Vec<usize>>,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+    /// Whether a degree of freedom is a rotation.
+    is_turn: Vec<bool>,
+}
+
+impl JointProbe {
+    pub(in crate::track) fn new(body: &Body, cameras: &[Camera]) -> Self {
+        let has_parts = |bone: &usize| body.parts.iter().any(|part| part.bone == *bone);
+        let of_bone =
+            |bone: usize| [Some(bone), body.bones[bone].parent].into_iter().flatten().filter(has_parts).collect();
+        let ends = body.free_ends().into_iter().map(|end| vec![end.bone]);
+        Self {
+            bones: (0..body.bones.len()).map(of_bone).chain(ends).collect(),
+            lower: body.dofs().map(|(_, dof)| dof.limits[0]).collect(),
+            upper: body.dofs().map(|(_, dof)| dof.limits[1]).collect(),
+            is_turn: body.dofs().map(|(_, dof)| dof.axis.is_rotation()).collect(),
+            body: body.clone(),
+            cameras: cameras.to_vec(),
+        }
+    }
+
+    /// One a joint, in the order of [`Body::joint_names`]. The evaluator holds these observations.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(in crate::track) fn ask(
+        &self,
+        evaluator: &mut dyn Evaluator,
+        objective: &Objective,
+        observations: &[Observation],
+        pose: &[f32],
+    ) -> Result<Vec<JointHints>> {
+        let values: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
+        let Ok(bones) = self.body.world_from_bones(&values) else {
+            return Ok(vec![JointHints::default(); self.bones.len()]);
+        };
+        let joints = self.body.joint_positions(&bones);
+        let looseness = self.looseness(evaluator, objective, &values, &joints)?;
+        let support = self.support(observations, &bones);
+        let hints = joints.iter().zip(looseness).zip(support);
+        Ok(hints
+            .map(|((&joint, looseness), support)| JointHints {
+                seen: self.seen(observations, joint),
+                looseness,
+                support,
+            })
+            .collect())
+    }
+
+    /// How far each joint could lie elsewhere before the fitness told, mm.
+    fn looseness(
+        &self,
+        evaluator: &mut dyn Evaluator,
+        objective: &Objective,
+        pose: &[f64],
+        joints: &[DVec3],
+    ) -> Result<Vec<f32>> {
+        // The pose itself, then each degree of freedom to both sides, as far as its limits let it.
+        let mut rows: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
+        let (mut tries, mut all_levers) = (Vec::new(), Vec::with_capacity(pose.len()));
+        let mut moved = pose.to_vec();
+        let mut matrices = Vec::new();
+        let mut positions = |pose: &[f64]| -> Vec<DVec3> {
+            match self.body.world_from_bones_into(pose, &mut matrices) {
+                Ok(()) => self.body.joint_positions(&matrices),
+                Err(_) => joints.to_vec(),
+            }
+        };
+        for (dof, &value) in pose.iter().enumerate() {
+            moved[dof] = value + PROBE;
+            let levers: Vec<f64> = positions(&moved).iter().zip(joints).map(|(a, b)| a.distance(*b) / PROBE).collect();
+            let longest = levers.iter().copied().fold(0.0, f64::max);
+            let largest = if self.is_turn[dof] { LARGEST_TURN } else { f64::INFINITY };
+            for side in [-1.0, 1.0] {
+                moved[dof] =
+                    (value + side * (REACH / longest.max(1e-6)).min(largest)).clamp(self.lower[dof], self.upper[dof]);
+                let way = longest * (moved[dof] - value).abs();
+                if way >= NEAREST {
+                    rows.extend(moved.iter().map(|value| *value as f32));
+                    tries.push((dof, way));
+                }
+            }
+            all_levers.push(levers.into_iter().map(|lever| lever / longest.max(1e-6)).collect::<Vec<_>>());
+            moved[dof] = value;
+        }
+        let mut fitness = vec![0.0; rows.len() / pose.len()];
+        evaluator.fitness(&rows, objective, &mut fitness)?;
+        let best = f64::from(fitness[0]);
+        let mut ways = vec![0.0_f64; pose.len()];
+        for (&(dof, way), there) in tries.iter().zip(&fitness[1..]) {
+            let loss = (best - f64::from(*there)) / best.max(1e-6);
+            ways[dof] = ways[dof].max(way * (TELLING / loss.max(NOISE)).sqrt());
+        }
+        let mut variances = vec![0.0; joints.len()];
+        for (levers, way) in all_levers.iter().zip(ways) {
+            variances.iter_mut().zip(levers).for_each(|(variance, lever)| *variance += (lever * way).powi(2));
+        }
+        Ok(variances.into_iter().map(|variance| variance.sqrt() as f32).collect())
+    }
+
+    /// What the pictures say of the limbs that meet in each joint.
+    fn support(&self, observations: &[Observation], bones: &[glam::DAffine3]) -> Vec<f32> {
+        let mut sums = vec![[0.0, 0.0]; self.body.bones.len()];
+        for part in &self.body.parts {
+            let [a, b] = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
+            for place in 0..PLACES {
+                let at = a.lerp(b, (place as f64 + 0.5) / PLACES as f64);
+                for (camera, observation) in self.cameras.iter().zip(observations) {
+                    if let Some(pixel) = pixel(camera, observation, at) {
+                        let sum = &mut sums[part.bone];
+                        *sum = [sum[0] + said(observation, pixel, part.label), sum[1] + 1.0];
+                    }
+                }
+            }
+        }
+        let of_bone = |bone: &usize| if sums[*bone][1] > 0.0 { sums[*bone][0] / sums[*bone][1] } else { 0.0 };
+        let worse = |bones: &Vec<usize>| bones.iter().map(of_bone).reduce(f32::min).unwrap_or(0.0);
+        self.bones.iter().map(worse).collect()
+    }
+
+    fn seen(&self, observations: &[Observation], joint: DVec3) -> f32 {
+        let (mut inside, mut seen) = (0, 0);
+        for (camera, observation) in self.cameras.iter().zip(observations) {
+            if let Some(at) = pixel(camera, observation, joint) {
+                inside += 1;
+                seen += u32::from(observation.bytes[at] & Observation::SILHOUETTE != 0);
+            }
+        }
+        if inside > 0 { seen as f32 / inside as f32 } else { 0.0 }
+    }
+}
+
+/// The pixel that a point is seen in; none outside the picture and where nothing counts.
+fn pixel(camera: &Camera, observation: &Observation, point: DVec3) -> Option<usize> {
+    let at = camera.project(point)?.round();
+    let inside =
+        at.x >= 0.0 && at.y >= 0.0 && at.x < f64::from(observation.width) && at.y < f64::from(observation.height);
+    let at = inside.then(|| at.y as usize * observation.width as usize + at.x as usize)?;
+    (!observation.ignores(at)).then_some(at)
+}
+
+/// What a pixel says of a part being there, from -1 to 1.
+fn said(observation: &Observation, pixel: usize, label: u8) -> f32 {
+    match &observation.evidence {
+        Some(seen) => {
+            let code = evidence::code(seen.words()[pixel], usize::from(seen.classes().of_label(label)));
+            (code as f32 - Evidence::NEUTRAL as f32) / Evidence::NEUTRAL as f32
+        }
+        None if observation.bytes[pixel] & Observation::SILHOUETTE != 0 => 1.0,
+        None => -1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::fit_tests::{cameras_around, seen};
+    use super::*;
+    use crate::evaluate::{ObjectiveKind, Reference};
+
+    #[test]
+    fn what_is_seen_holds_a_joint_and_what_is_hidden_leaves_it_loose() {
+        let (body, cameras) = (Body::adult(1700.0).unwrap(), cameras_around());
+        let pose = body.standing_pose();
+        let mut observations = seen(&body, &cameras, &pose);
+        let single: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
+        let probe = JointProbe::new(&body, &cameras);
+        let mut evaluator = Reference::new(&body, &cameras);
+        let objective = Objective::of(ObjectiveKind::Ws);
+        let mut ask = |observations: &[Observation], pose: &[f32]| {
+            evaluator.observe(observations).unwrap();
+            probe.ask(&mut evaluator, &objective, observations, pose).unwrap()
+        };
+        let all = ask(&observations, &single);
+        assert_eq!(all.len(), body.joint_names().len());
+        assert!(all.iter().filter(|hints| hints.seen == 1.0).count() * 4 > all.len() * 3, "{all:?}");
+        let joint = |name: &str| body.joint_names().iter().position(|known| known == name).unwrap();
+        let [wrist, ankle] = ["left_wrist", "left_ankle"].map(joint);
+        assert!(all[ankle].support > 0.9 && all[ankle].looseness < 60.0, "{:?}", all[ankle]);
+        // An arm that is not where it is thought is not supported.
+        let mut lifted = single.clone();
+        lifted[body.dof_names().iter().position(|name| name == "left_shoulder.rx").unwrap()] = 1.5;
+        let wrong = ask(&observations, &lifted);
+        assert!(wrong[wrist].support < 0.0 && wrong[ankle].support > 0.9, "{:?}", wrong[wrist]);
+        // Fewer views see less, and hold less.
+        observations[1].bytes.fill(0);
+        observations[2].bytes.fill(0);
+        let fewer = ask(&observations, &single);
+        assert!(fewer.iter().all(|hints| hints.seen < 0.7), "{fewer:?}");
+    }
+}

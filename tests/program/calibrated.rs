@@ -1,0 +1,241 @@
+//! The constants of expected errors (docs/METHOD.md A13), fitted on scenes drawn by lot and tried on those held out.
+
+use std::collections::HashMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+use pantin::motion::read_points;
+use plotters::prelude::*;
+
+use super::support::{self, succeeded};
+
+/// Kinds of joints, left and right together.
+const KINDS: [&str; 12] =
+    ["pelvis", "hip", "knee", "ankle", "axis", "thorax", "clavicle", "shoulder", "elbow", "wrist", "head", "head_top"];
+/// What else the logarithm of the error is a sum of.
+const TERMS: [&str; 5] = ["LOOSENESS", "SUPPORT", "FITNESS", "SEEN", "SPREAD"];
+const COUNT: usize = KINDS.len() + TERMS.len();
+/// Share of the joints that are to be within their expected error.
+const SHARE: f64 = 0.6827;
+/// Root mean square over the joints from which on a pose is wrong, mm.
+const WRONG: f64 = 150.0;
+/// How scenes are tracked: as by default, and worse, so that there are wrong poses.
+const RUNS: [&[&str]; 3] = [
+    &[],
+    &["--particles", "100", "--iterations", "8", "--seed", "2", "--objective", "sp"],
+    &["--particles", "64", "--iterations", "8", "--seed", "3"],
+];
+
+/// A joint in a frame.
+struct Joint {
+    scene: usize,
+    frame: usize,
+    terms: [f64; COUNT],
+    /// Logarithm of its distance from the truth, mm.
+    error: f64,
+}
+
+/// The constants of [`Joint::terms`], and of the logit of a wrong pose.
+struct Fitted {
+    weights: [f64; COUNT],
+    wrong: [f64; 2],
+}
+
+/// Gradient descent with the steps of Adam, ever smaller.
+fn descend<const N: usize>(
+    mut at: [f64; N],
+    rate: f64,
+    steps: i32,
+    gradient: impl Fn(&[f64; N]) -> [f64; N],
+) -> [f64; N] {
+    let (mut mean, mut square) = ([0.0; N], [0.0; N]);
+    for step in 1..=steps {
+        let slope = gradient(&at);
+        let rate = rate * (1.0 - f64::from(step) / f64::from(steps));
+        for i in 0..N {
+            mean[i] += 0.1 * (slope[i] - mean[i]);
+            square[i] += 0.01 * (slope[i] * slope[i] - square[i]);
+            let [mean, square] = [mean[i] / (1.0 - 0.9_f64.powi(step)), square[i] / (1.0 - 0.99_f64.powi(step))];
+            at[i] -= rate * mean / (square.sqrt() + 1e-8);
+        }
+    }
+    at
+}
+
+fn expected(joint: &Joint, weights: &[f64; COUNT]) -> f64 {
+    joint.terms.iter().zip(weights).map(|(term, weight)| term * weight).sum()
+}
+
+/// Of each frame the logarithm of the root mean square over its joints of the expected errors, and of the errors.
+fn frames(joints: &[&Joint], weights: &[f64; COUNT]) -> Vec<[f64; 2]> {
+    let mut sums: HashMap<usize, [f64; 3]> = HashMap::new();
+    for joint in joints {
+        let sum = sums.entry(joint.frame).or_default();
+        let squares = [expected(joint, weights), joint.error].map(|logarithm| (2.0 * logarithm).exp());
+        *sum = [sum[0] + squares[0], sum[1] + squares[1], sum[2] + 1.0];
+    }
+    let mut frames: Vec<(usize, [f64; 3])> = sums.into_iter().collect();
+    frames.sort_by_key(|(frame, _)| *frame);
+    frames.into_iter().map(|(_, [a, b, count])| [a, b].map(|sum| 0.5 * (sum / count).ln())).collect()
+}
+
+fn fit(joints: &[&Joint]) -> Fitted {
+    let count = joints.len() as f64;
+    let mut means = [0.0; COUNT];
+    for joint in joints {
+        (KINDS.len()..COUNT).for_each(|i| means[i] += joint.terms[i] / count);
+    }
+    let mut start = [0.0; COUNT];
+    let mut errors: Vec<f64> = joints.iter().map(|joint| joint.error).collect();
+    errors.sort_by(f64::total_cmp);
+    start[..KINDS.len()].fill(errors[(SHARE * count) as usize]);
+    let mut weights = descend(start, 0.03, 2500, |weights| {
+        let mut slope = [0.0; COUNT];
+        for joint in joints {
+            let centred = |i: usize| joint.terms[i] - means[i];
+            let missing = joint.error - (0..COUNT).map(|i| centred(i) * weights[i]).sum::<f64>();
+            let share = if missing > 0.0 { SHARE } else { SHARE - 1.0 };
+            (0..COUNT).for_each(|i| slope[i] -= share * centred(i) / count);
+        }
+        (KINDS.len()..COUNT).for_each(|i| slope[i] += 1e-3 * weights[i]);
+        slope
+    });
+    let offset: f64 = (KINDS.len()..COUNT).map(|i| means[i] * weights[i]).sum();
+    weights[..KINDS.len()].iter_mut().for_each(|constant| *constant -= offset);
+    let frames = frames(joints, &weights);
+    let middle = frames.iter().map(|frame| frame[0]).sum::<f64>() / frames.len() as f64;
+    let [constant, slope] = descend([0.0; 2], 0.05, 6000, |[constant, slope]| {
+        let mut gradient = [0.0; 2];
+        for [expected, error] in &frames {
+            let x = expected - middle;
+            let off = 1.0 / (1.0 + (-(constant + slope * x)).exp()) - f64::from(u8::from(*error > WRONG.ln()));
+            gradient = [gradient[0] + off / frames.len() as f64, gradient[1] + off * x / frames.len() as f64];
+        }
+        gradient
+    });
+    Fitted { weights, wrong: [constant - middle * slope, slope] }
+}
+
+/// The joints of a track, frames numbered from `frame` on.
+fn read(track: &Path, truth: &Path, scene: usize, frame: usize, joints: &mut Vec<Joint>) -> usize {
+    let (ours, truth) = (read_points(&track.join("joints.csv")).unwrap(), read_points(truth).unwrap());
+    let mut reader = csv::Reader::from_path(track.join("confidence.csv")).unwrap();
+    let header = reader.headers().unwrap().clone();
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    for (at, row) in rows.iter().enumerate() {
+        let value =
+            |name: &str| -> f64 { row[header.iter().position(|known| known == name).unwrap()].parse().unwrap() };
+        for (column, name) in ours.names.iter().enumerate() {
+            let same = truth.names.iter().position(|known| known == name);
+            let (Some(found), Some(Some(real))) = (ours.frames[at][column], same.map(|same| truth.frames[at][same]))
+            else {
+                continue;
+            };
+            let kind = name.strip_prefix("left_").or_else(|| name.strip_prefix("right_")).unwrap_or(name);
+            let mut terms = [0.0; COUNT];
+            terms[KINDS.iter().position(|known| *known == kind).unwrap()] = 1.0;
+            let of = |what: &str| value(&format!("{name}.{what}"));
+            terms[KINDS.len()..].copy_from_slice(&[
+                (of("looseness") + 5.0).ln(),
+                1.0 - of("support"),
+                1.0 - value("fitness"),
+                1.0 - of("seen"),
+                (of("spread") + 1.0).ln(),
+            ]);
+            joints.push(Joint { scene, frame: frame + at, terms, error: found.distance(real).max(1.0).ln() });
+        }
+    }
+    frame + rows.len()
+}
+
+/// Fits the constants on the scenes of the folder that `PANTIN_SCENES` names, one folder of `pantin synth --lottery` a scene, prints them, and
+/// writes how they hold on the scenes left out into `target/tmp/calibrated`:
+/// `PANTIN_SCENES=... cargo test --release --test program calibrated:: -- --ignored --nocapture`.
+#[test]
+#[ignore = "needs scenes, and minutes of them; run it in release"]
+fn expected_errors_hold_on_scenes_left_out() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("calibrated");
+    fs::create_dir_all(&folder).unwrap();
+    let scenes = std::env::var("PANTIN_SCENES").expect("PANTIN_SCENES names a folder of scenes");
+    let mut scenes: Vec<_> = fs::read_dir(scenes).unwrap().map(|entry| entry.unwrap().path()).collect();
+    scenes.retain(|scene| scene.join("sequence.toml").is_file());
+    scenes.sort();
+    let (mut joints, mut frame) = (Vec::new(), 0);
+    for (at, scene) in scenes.iter().enumerate() {
+        for manifest in ["sequence.toml", "true_sequence.toml"] {
+            for run in RUNS {
+                let output = folder.join("track");
+                let [sequence, out] = [&scene.join(manifest), &output].map(|path| path.to_str().unwrap().to_string());
+                let common = ["track", &sequence, "-o", &out, "--force", "--overlay-every", "0", "--recover", "no"];
+                succeeded(&support::pantin(&[&common[..], run].concat()));
+                frame = read(&output, &scene.join("truth.trc"), at, frame, &mut joints);
+            }
+        }
+        println!("{}: {frame} frames so far", scene.display());
+    }
+    // Each scene by what the others say.
+    let (mut held, mut judged) = (Vec::new(), Vec::new());
+    for left_out in 0..scenes.len() {
+        let [tried, others] = [true, false]
+            .map(|is_it| -> Vec<&Joint> { joints.iter().filter(|joint| (joint.scene == left_out) == is_it).collect() });
+        let fitted = fit(&others);
+        held.extend(tried.iter().map(|joint| (expected(joint, &fitted.weights), joint.error)));
+        let [constant, slope] = fitted.wrong;
+        let logistic = |expected: f64| 1.0 / (1.0 + (-(constant + slope * expected)).exp());
+        judged
+            .extend(frames(&tried, &fitted.weights).iter().map(|[expected, error]| (logistic(*expected), error.exp())));
+    }
+    held.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut text = "expected_mm,within,error_mm\n".to_string();
+    println!("\n| expected error, mm | within it | 68 % of the errors, mm |\n|---|---|---|");
+    let mut points = Vec::new();
+    for tenth in held.chunks(held.len().div_ceil(10)) {
+        let within = tenth.iter().filter(|(expected, error)| error <= expected).count() as f64 / tenth.len() as f64;
+        let mut errors: Vec<f64> = tenth.iter().map(|(_, error)| error.exp()).collect();
+        errors.sort_by(f64::total_cmp);
+        let [said, found] = [tenth[tenth.len() / 2].0.exp(), errors[(SHARE * errors.len() as f64) as usize]];
+        println!("| {said:.1} | {:.1} % | {found:.1} |", 100.0 * within);
+        writeln!(text, "{said:.3},{within:.4},{found:.3}").unwrap();
+        points.push((said, found));
+    }
+    let within = held.iter().filter(|(expected, error)| error <= expected).count() as f64 / held.len() as f64;
+    println!(
+        "\nAll: {:.1} % within.\n\n| said to be wrong | frames | said | were |\n|---|---|---|---|",
+        100.0 * within
+    );
+    for range in [0.0..0.02, 0.02..0.05, 0.05..0.1, 0.1..0.3, 0.3..0.5, 0.5..1.01] {
+        let some: Vec<_> = judged.iter().filter(|(said, _)| range.contains(said)).collect();
+        let share = |sum: f64| 100.0 * sum / some.len().max(1) as f64;
+        let (said, were) =
+            (some.iter().map(|(said, _)| said).sum(), some.iter().filter(|(_, rms)| *rms > WRONG).count());
+        println!("| {range:?} | {} | {:.1} % | {:.1} % |", some.len(), share(said), share(were as f64));
+    }
+    fs::write(folder.join("reliability.csv"), text).unwrap();
+    draw(&folder.join("reliability.svg"), &points);
+    let Fitted { weights, wrong } = fit(&joints.iter().collect::<Vec<_>>());
+    println!("\nOn all scenes, for src/track/confidence/calibration.rs:");
+    KINDS.iter().zip(weights).for_each(|(kind, weight)| println!("    (\"{kind}\", {weight:.3}),"));
+    println!("OTHER_JOINT {:.3}", weights[..KINDS.len()].iter().sum::<f64>() / KINDS.len() as f64);
+    TERMS.iter().zip(&weights[KINDS.len()..]).for_each(|(term, weight)| println!("{term} {weight:.3}"));
+    println!("WRONG_AT [{:.3}, {:.3}]", wrong[0], wrong[1]);
+    assert!((0.6..0.76).contains(&within), "{within} of the joints held out are within their expected error");
+}
+
+/// What is said against what is found, both from 0.
+fn draw(path: &Path, points: &[(f64, f64)]) {
+    let end = points.iter().map(|(said, found)| said.max(*found)).fold(0.0, f64::max) * 1.05;
+    let root = SVGBackend::new(path, (480, 440)).into_drawing_area();
+    root.fill(&WHITE).unwrap();
+    let mut chart = ChartBuilder::on(&root)
+        .margin(12)
+        .x_label_area_size(40)
+        .y_label_area_size(54)
+        .build_cartesian_2d(0.0..end, 0.0..end)
+        .unwrap();
+    chart.configure_mesh().x_desc("expected error, mm").y_desc("68 % of the errors are within, mm").draw().unwrap();
+    chart.draw_series(LineSeries::new([(0.0, 0.0), (end, end)], BLACK.mix(0.4))).unwrap();
+    chart.draw_series(points.iter().map(|point| Circle::new(*point, 4, BLUE.filled()))).unwrap();
+    chart.draw_series(LineSeries::new(points.iter().copied(), BLUE)).unwrap();
+    root.present().unwrap();
+}
