@@ -25,7 +25,7 @@ pub struct PlateSettings {
 
 impl Default for PlateSettings {
     fn default() -> Self {
-        Self { weak: 22.0, strong: 40.0, faint: 8.0, bridge: 15, gain: true }
+        Self { weak: 26.0, strong: 45.0, faint: 8.0, bridge: 15, gain: true }
     }
 }
 

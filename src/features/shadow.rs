@@ -18,7 +18,7 @@ pub struct ShadowSettings {
 
 impl Default for ShadowSettings {
     fn default() -> Self {
-        Self { suppress: true, darkest: 0.75, brightest: 1.15, chroma: 10.0 }
+        Self { suppress: true, darkest: 0.75, brightest: 1.35, chroma: 10.0 }
     }
 }
 
