@@ -334,6 +334,7 @@ impl Run<'_> {
             })
         };
         let mut found = result(evaluator, &searched).with_context(in_frame)?;
+        searched.passes.extend(evaluator.device_passes());
         if let Some(recovery) =
             self.recovery.as_ref().filter(|recovery| recovery.is_lost() || self.confidence.is_loss_at(&found))
         {
@@ -347,6 +348,7 @@ impl Run<'_> {
             recovery.search(lost, &mut searched, &is_sure).with_context(in_frame)?;
             searched.evaluations.push(Span::since(begin));
             found = result(evaluator, &searched).with_context(in_frame)?;
+            searched.passes.extend(evaluator.device_passes());
         }
         let Searched { estimate, evaluations, passes, .. } = searched;
 

@@ -169,7 +169,7 @@ fn files_read_back_and_the_walk_is_followed() {
     }
     let stages: serde_json::Value = serde_json::from_slice(&fs::read(folder.join("stages.json")).unwrap()).unwrap();
     let names: Vec<&str> = stages["stages"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
-    assert_eq!(names, ["read", "features", "wait", "evaluate", "search", "output"]);
+    assert_eq!(names, ["evidence", "read", "features", "wait", "evaluate", "search", "output"]);
     assert!(stages["stages"].as_array().unwrap().iter().all(|s| s["count"] == walk::FRAMES));
     let trace: serde_json::Value = serde_json::from_slice(&fs::read(folder.join("trace.json")).unwrap()).unwrap();
     assert!(trace["traceEvents"].as_array().unwrap().len() > 6 * walk::FRAMES);
@@ -292,16 +292,17 @@ fn the_trace_has_the_device_beside_the_host() {
     }
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("track");
-    tracked(&output, &["--backend", "compute", "--trace", "--frames", "0..2"]);
+    tracked(&output, &["--backend", "compute", "--search", "pso", "--trace", "--frames", "0..2"]);
     let trace: serde_json::Value = serde_json::from_slice(&fs::read(output.join("trace.json")).unwrap()).unwrap();
     let events = trace["traceEvents"].as_array().unwrap();
     let of = |name: &str| events.iter().filter(move |event| event["name"] == name).collect::<Vec<_>>();
     let end = |event: &serde_json::Value| event["ts"].as_f64().unwrap() + event["dur"].as_f64().unwrap();
     let (frames, rasters) = (of("frame"), of("raster"));
     assert_eq!(frames.len(), 2);
-    // A frame is one submission, which the host sees as one evaluation; on the device it is one of every iteration.
+    // A frame is one submission, which the host sees as one evaluation; on the device it is one of every iteration, and one more asks how loose
+    // the joints are.
     assert_eq!(of("evaluate").len(), 2);
-    assert_eq!(rasters.len(), 2 * SEARCH[3].parse::<usize>().unwrap());
+    assert_eq!(rasters.len(), 2 * (SEARCH[3].parse::<usize>().unwrap() + 1));
     for raster in rasters {
         let frame = frames.iter().find(|frame| frame["args"]["frame"] == raster["args"]["frame"]).unwrap();
         assert_eq!((&frame["pid"], &raster["pid"]), (&1.into(), &2.into()));
@@ -466,7 +467,7 @@ fn wrong_inputs_are_one_sentence() {
         &["body.toml is a file, expected a folder"],
     );
     refused(&track_with(sequence(), &output, &["--spread", "0"]), &["spread is 0"]);
-    refused(&track_with(sequence(), &output, &["--w1", "2"]), &["w1 of the objective sp is 2"]);
+    refused(&track_with(sequence(), &output, &["--w1", "2"]), &["w1 of the objective evidence is 2"]);
     for (flags, part) in [
         (
             ["--backend", "cuda"],

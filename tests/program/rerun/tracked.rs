@@ -101,7 +101,12 @@ fn there_is_one_recording_with_a_layout_of_its_own() {
     }
     let curves = ["error/mean\\ over\\ the\\ joints", "fitness/fitness", "fitness/silhouette\\ \\(mean\\ f1\\)"];
     expected.extend(curves.map(|curve| format!("/plots/{curve}")));
-    expected.push("/plots/fitness/confidence".to_string());
+    let more = [
+        "error/expected\\,\\ mean\\ over\\ the\\ joints",
+        "fitness/confidence",
+        "fitness/probability\\ that\\ it\\ is\\ wrong",
+    ];
+    expected.extend(more.map(|curve| format!("/plots/{curve}")));
     let entities = read.entities();
     let found: Vec<String> = entities.iter().filter(|name| !name.starts_with("/plots/stages/")).cloned().collect();
     expected.sort();
