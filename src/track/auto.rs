@@ -138,7 +138,7 @@ mod tests {
         assert!(reason.starts_with(start) && reason.contains(", compute (test) 1."), "{reason}");
         assert!(reason.ends_with("graphics failed (it is lost)"), "{reason}");
         assert_eq!(chosen(&[("cpu", Some(1000)), ("compute", Some(9000))]).unwrap().0, "cpu");
-        assert_eq!(chosen(&[("cpu", Some(5000)), ("compute", Some(4900))]).unwrap().0, "cpu", "not clearly faster");
+        assert_eq!(chosen(&[("cpu", Some(40_000)), ("compute", Some(39_800))]).unwrap().0, "cpu", "not clearly faster");
         let error = format!("{:#}", chosen(&[("cpu", None), ("compute", Some(10))]).unwrap_err());
         assert_eq!(error, "the evaluator cpu: it is lost");
     }
