@@ -21,7 +21,7 @@ use pantin::study::{Axis, Value};
 use pantin::synth::{Gait, Garment, LensKind, MotionUnit, PictureForm, RigKind, ScenePreset};
 use pantin::texture::materials::MaterialKind;
 use pantin::texture::noise::Sum;
-use pantin::track::{Backend, Prediction, Width};
+use pantin::track::{Backend, Passes, Prediction, Width};
 
 /// What a document calls a list, and its table.
 type List = (&'static str, String);
@@ -39,6 +39,7 @@ fn lists() -> Vec<List> {
         list::<SearchKind>(),
         list::<Prediction>(),
         list::<Width>(),
+        list::<Passes>(),
         list::<Operator>(),
         list::<Magnitude>(),
         list::<Metric>(),

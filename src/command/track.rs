@@ -15,8 +15,8 @@ use crate::files::{OutputFolder, Overwrite};
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::{STALL_TIMEOUT, Sequence};
 use crate::track::{
-    Backend, FrameDone, FrameRange, Prediction, Progress, RealtimeSummary, RunStart, TrackSettings, TrackSummary,
-    Width, track,
+    Backend, FrameDone, FrameRange, Passes, Prediction, Progress, RealtimeSummary, RunStart, TrackSettings,
+    TrackSummary, Width, track,
 };
 
 /// Tracks a person through a sequence: poses, joints and markers over time (CSV, TRC, C3D, BVH), how far they can be
@@ -56,6 +56,9 @@ pub(super) struct TrackArgs {
     /// How wide it starts. Without: learnt with the search maes, steps with the others.
     #[arg(long, value_name = "NAME")]
     width: Option<Width>,
+    /// How often the run goes over its frames. Without: both with the search maes, forward with the others and in real time.
+    #[arg(long, value_name = "NAME")]
+    passes: Option<Passes>,
     /// Search wider for a person who is lost, and leave frames without a find as gaps in the results: yes or no.
     #[arg(long, value_name = "yes|no", default_value = "yes", value_parser = yes_or_no, action = ArgAction::Set)]
     recover: bool,
@@ -121,6 +124,7 @@ impl TrackArgs {
             spread: self.spread,
             predict: self.predict,
             width: self.width,
+            passes: self.passes,
             recover: self.recover,
             frames: self.frames,
             start: self.start.clone(),
@@ -266,6 +270,14 @@ impl Progress for TrackProgress {
             None => "{spinner} {pos} frames, {per_sec}  {msg} (Ctrl-C ends it)",
         };
         self.bar = TerminalBar::new(template, run.done, run.frames);
+    }
+
+    fn looked_back(&mut self, done: usize) {
+        if !self.bar.show(done, "second pass") && self.last_line.elapsed() >= LINE_INTERVAL {
+            self.last_line = Instant::now();
+            let total = self.total.map(|total| format!("/{total}")).unwrap_or_default();
+            eprintln!("second pass: {done}{total}");
+        }
     }
 
     fn frame(&mut self, frame: &FrameDone) {

@@ -8,6 +8,7 @@ use serde_json::json;
 use super::appearance::RunAppearance;
 use super::confidence::{Confidence, JointProbe, LossRule};
 use super::feed::Prepared;
+use super::hindsight::Hindsight;
 use super::journal::{Extent, FrameResult, Journal};
 use super::motion::LearntMotion;
 use super::overlay::Overlay;
@@ -23,7 +24,7 @@ use super::summary::{TrackSummary, lost_sentence, mean};
 use super::timings::{Span, Thread, Timings};
 use super::truth::Truth;
 use super::unaided::with_start;
-use super::{Backend, Prediction, TrackSettings, Width, folder, results, run_record};
+use super::{Backend, Passes, Prediction, TrackSettings, Width, folder, results, run_record};
 use crate::evaluate::{Evaluator, ViewCounts};
 use crate::files::OutputFolder;
 use crate::gpu::DeviceLost;
@@ -124,10 +125,11 @@ pub fn track(
         probe,
         recovery,
         pace,
+        is_stopped: false,
         motion,
     };
     run.take_over(done)?;
-    let searched = run.search_all(progress);
+    let searched = run.search_all(progress).and_then(|()| run.look_back(progress));
     if !run.pace.ends_anywhere() || run.done == 0 {
         searched?;
         return run.finish(&record, warnings);
@@ -162,6 +164,8 @@ struct Run<'a> {
     appearance: Option<RunAppearance>,
     /// The frames that are lost.
     lost: Vec<usize>,
+    /// Whether the second pass was stopped.
+    is_stopped: bool,
     /// How the person moves, where a search starts by that.
     motion: LearntMotion,
 }
@@ -217,12 +221,13 @@ impl Run<'_> {
 
     /// Searches the frames that are left, until the last or until asked to stop.
     fn search_all(&mut self, progress: &mut dyn Progress) -> Result<()> {
-        if self.next_frame() >= self.plan.range.end {
-            return Ok(());
-        }
         // The person's colours are learnt again from the frames that an earlier run did.
         let next = self.next_frame();
         let learns_again = self.appearance.is_some() && self.settings.realtime.is_none();
+        let looks_back = self.settings.passes() == Passes::Both;
+        if next >= self.plan.range.end && !(looks_back && learns_again) {
+            return Ok(());
+        }
         let mut feed =
             self.pace.feed(self.sequence, &self.plan, if learns_again { self.plan.range.start } else { next })?;
         loop {
@@ -233,7 +238,9 @@ impl Run<'_> {
             if let Some(appearance) = &self.appearance {
                 let start = Instant::now();
                 appearance.observe(&mut prepared)?;
-                self.timings.record("evidence", Thread::Search, frame, Span::since(start))?;
+                if frame >= next {
+                    self.timings.record("evidence", Thread::Search, frame, Span::since(start))?;
+                }
             }
             if frame < next {
                 let result = self.frames.get(frame - self.plan.range.start).cloned();
@@ -245,8 +252,11 @@ impl Run<'_> {
             self.timings.record("wait", Thread::Search, frame, waited)?;
             let result = self.search(&prepared).map_err(|error| self.how_to_go_on(frame, error))?;
             let start = Instant::now();
-            if self.settings.overlay_every > 0 && frame.is_multiple_of(self.settings.overlay_every) {
-                let overlay = Overlay::new(&self.plan.body, self.plan.mesh.as_ref(), &self.sequence.cameras)?;
+            // The second pass draws its own.
+            let is_last = self.settings.passes() == Passes::Forward;
+            if is_last && self.settings.overlay_every > 0 && frame.is_multiple_of(self.settings.overlay_every) {
+                let body = self.plan.body.clone();
+                let overlay = Overlay::new(&body, self.plan.mesh.as_ref(), &self.sequence.cameras)?;
                 overlay.write(self.output, frame, &prepared.pictures, &result.pose)?;
             }
             self.journal.append(&result)?;
@@ -262,6 +272,43 @@ impl Run<'_> {
             if progress.should_stop() {
                 break;
             }
+        }
+        Ok(())
+    }
+
+    /// Goes over all frames again, now that what comes after each is known; not where the run was stopped before its last.
+    fn look_back(&mut self, progress: &mut dyn Progress) -> Result<()> {
+        if self.settings.passes() == Passes::Forward || self.next_frame() < self.plan.range.end {
+            return Ok(());
+        }
+        let start = Instant::now();
+        let mut feed = self.pace.feed(self.sequence, &self.plan, self.plan.range.start)?;
+        let body = self.plan.body.clone();
+        let overlay = Overlay::new(&body, self.plan.mesh.as_ref(), &self.sequence.cameras)?;
+        let hindsight = Hindsight {
+            plan: &mut self.plan,
+            probe: &self.probe,
+            fps: self.sequence.fps,
+            pictures_every: self.settings.overlay_every,
+        };
+        let mut results = Vec::with_capacity(self.frames.len());
+        hindsight.look_back(feed.as_mut(), self.appearance.as_ref(), &self.frames, &mut |result, pictures| {
+            if let Some(pictures) = pictures {
+                overlay.write(self.output, result.frame, pictures, &result.pose)?;
+            }
+            results.push(result);
+            progress.looked_back(results.len());
+            Ok(!progress.should_stop())
+        })?;
+        if results.len() < self.frames.len() {
+            self.is_stopped = true;
+        } else {
+            self.frames = results;
+        }
+        // A finished run that is gone on with has no times to tell.
+        if !self.timings.is_empty() {
+            let each = start.elapsed() / u32::try_from(self.frames.len()).unwrap_or(u32::MAX).max(1);
+            self.frames.iter().for_each(|_| self.timings.count("hindsight", each));
         }
         Ok(())
     }
@@ -369,7 +416,8 @@ impl Run<'_> {
     fn finish(self, record: &RunRecord, warnings: Vec<String>) -> Result<TrackSummary> {
         let (sequence, output, body) = (self.sequence, self.output, &self.plan.body);
         let next = self.next_frame();
-        let stopped_before = (!self.pace.ends_anywhere() && next < self.plan.range.end).then_some(next);
+        let is_stopped = self.is_stopped || next < self.plan.range.end;
+        let stopped_before = (!self.pace.ends_anywhere() && is_stopped).then_some(next);
         let extent = Extent::of(body, &sequence.cameras);
         let frames = self.pace.all_frames(self.frames, &output.path().join(Journal::NAME), extent, self.done)?;
         let confidences = Confidence::of_all(body, LossRule::default(), &frames);
@@ -395,7 +443,7 @@ impl Run<'_> {
             summary.warnings.push(format!("the trace holds no device passes: {name} ({variant}) told of none"));
         }
         // Per frame: waiting for the features, searching, writing; the rest runs beside it.
-        let busy: f64 = ["wait", "evaluate", "search", "output"]
+        let busy: f64 = ["wait", "evaluate", "search", "output", "hindsight"]
             .iter()
             .filter_map(|name| summary.timings.iter().find(|timing| timing.name == *name))
             .map(|timing| timing.total)

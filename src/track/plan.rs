@@ -83,6 +83,11 @@ impl Plan {
         })
     }
 
+    /// What the search is made from.
+    pub(super) fn search_settings(&self) -> &SearchSettings {
+        &self.settings
+    }
+
     /// Makes the search one of `particles` and `iterations`, when it is another yet.
     pub(super) fn resize(&mut self, particles: usize, iterations: usize) -> Result<()> {
         if [self.settings.particles, self.settings.iterations] != [particles, iterations] {

@@ -8,6 +8,9 @@ pub trait Progress {
     /// A frame is done and safe.
     fn frame(&mut self, _frame: &FrameDone) {}
 
+    /// So many frames are done in the second pass too.
+    fn looked_back(&mut self, _done: usize) {}
+
     /// Whether to stop after the frame in work.
     fn should_stop(&self) -> bool {
         false

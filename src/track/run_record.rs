@@ -11,7 +11,7 @@ use toml::{Table, Value};
 
 use super::journal::checksum;
 use super::plan::Plan;
-use super::{Backend, RealtimeSettings, TrackSettings, Width};
+use super::{Backend, Passes, RealtimeSettings, TrackSettings, Width};
 use crate::body::{MeshSource, Model};
 use crate::evaluate::Objective;
 use crate::files::{OutputFolder, read_toml, table_of};
@@ -125,7 +125,7 @@ impl Run {
         let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
         let command = format!(
             "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-             --refine {} --predict {}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}{}",
+             --refine {} --predict {}{}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}{}",
             sequence.path.display(),
             plan.range.start,
             plan.range.end,
@@ -137,6 +137,7 @@ impl Run {
             search.refine,
             settings.prediction().name(),
             learnt_width(settings).map(|width| format!(" --width {width}")).unwrap_or_default(),
+            more_passes(settings).map(|passes| format!(" --passes {passes}")).unwrap_or_default(),
             yes_or_no(settings.recover),
             kind.name(),
             plan.backend.evaluator.name(),
@@ -160,6 +161,12 @@ fn learnt_width(settings: &TrackSettings) -> Option<&'static str> {
     (width != Width::Steps).then(|| width.name())
 }
 
+/// How often the run goes over its frames where that is not once, as all did before there was a choice.
+fn more_passes(settings: &TrackSettings) -> Option<&'static str> {
+    let passes = settings.passes();
+    (passes != Passes::Forward).then(|| passes.name())
+}
+
 #[derive(Serialize)]
 struct Settings<'a> {
     frames: String,
@@ -173,6 +180,8 @@ struct Settings<'a> {
     predict: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     width: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    passes: Option<&'static str>,
     recover: &'static str,
     #[serde(flatten)]
     constants: Table,
@@ -214,6 +223,7 @@ impl<'a> Settings<'a> {
             refine: search.refine,
             predict: settings.prediction().name(),
             width: learnt_width(settings),
+            passes: more_passes(settings),
             recover: yes_or_no(settings.recover),
             constants: search.constants()?,
             objective: kind.name(),

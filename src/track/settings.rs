@@ -6,7 +6,7 @@ use std::time::Duration;
 use anyhow::{Result, ensure};
 
 use super::journal::Numbering;
-use super::{Backend, FrameRange, ObjectiveChoice, Prediction, RealtimeSettings, Width};
+use super::{Backend, FrameRange, ObjectiveChoice, Passes, Prediction, RealtimeSettings, Width};
 use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
 use crate::report::check_recordings_are_built;
@@ -32,6 +32,8 @@ pub struct TrackSettings {
     pub predict: Option<Prediction>,
     /// How wide it starts; without, as it suits the search ([`Self::width`]).
     pub width: Option<Width>,
+    /// How often the run goes over its frames; without, as it suits the search ([`Self::passes`]).
+    pub passes: Option<Passes>,
     /// Whether a lost person is searched for wider, and frames without a find are gaps in the results.
     pub recover: bool,
     /// Which frames.
@@ -62,6 +64,7 @@ impl Default for TrackSettings {
             spread: 1.0,
             predict: None,
             width: None,
+            passes: None,
             recover: true,
             frames: FrameRange::default(),
             start: None,
@@ -95,6 +98,12 @@ impl TrackSettings {
         if weighs && !has_segments { ObjectiveKind::Evidence } else { ObjectiveKind::default() }
     }
 
+    /// How often the run goes over its frames: twice with `maes` where there is time for it. The other searches go on as they did before it.
+    pub fn passes(&self) -> Passes {
+        let has_time = self.realtime.is_none() && self.search.kind == SearchKind::MaEs;
+        self.passes.unwrap_or(if has_time { Passes::Both } else { Passes::Forward })
+    }
+
     /// Whether a lost person is searched for wider: that takes the time that real time has not.
     pub(super) fn may_recover(&self) -> bool {
         self.recover && self.realtime.is_none()
@@ -124,6 +133,10 @@ impl TrackSettings {
         if let Some(realtime) = &self.realtime {
             realtime.check()?;
             ensure!(
+                self.passes() == Passes::Forward,
+                "a run in real time goes over its frames once, expected --passes forward"
+            );
+            ensure!(
                 !self.recording,
                 "a run in real time writes no report, so there is none to record: leave out --rerun"
             );
@@ -152,6 +165,15 @@ mod tests {
         settings.search.kind = SearchKind::ParticleFilter;
         let error = settings.check().unwrap_err().to_string();
         assert!(error.contains("the search pf carries its samples"), "{error}");
+        let mut settings = TrackSettings::default();
+        assert_eq!(settings.passes(), Passes::Both);
+        settings.search.kind = SearchKind::Pso;
+        assert_eq!(settings.passes(), Passes::Forward, "what the swarm gives stays what it was");
+        settings = TrackSettings { realtime: Some(RealtimeSettings::default()), ..TrackSettings::default() };
+        assert_eq!(settings.passes(), Passes::Forward);
+        settings.passes = Some(Passes::Both);
+        let error = settings.check().unwrap_err().to_string();
+        assert!(error.contains("expected --passes forward"), "{error}");
         let mut settings = TrackSettings::default();
         settings.search.particles = 0;
         let error = settings.check().unwrap_err().to_string();

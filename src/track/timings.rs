@@ -114,6 +114,11 @@ impl Timings {
         Ok(Self { phases: Vec::new(), zero: Instant::now(), trace, trace_path, events: 0, has_device: false })
     }
 
+    /// Whether nothing was counted yet.
+    pub(super) fn is_empty(&self) -> bool {
+        self.phases.is_empty()
+    }
+
     /// Counts a time for a phase.
     pub(super) fn count(&mut self, name: impl Into<Cow<'static, str>>, time: Duration) {
         let name = name.into();

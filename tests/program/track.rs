@@ -169,7 +169,7 @@ fn files_read_back_and_the_walk_is_followed() {
     }
     let stages: serde_json::Value = serde_json::from_slice(&fs::read(folder.join("stages.json")).unwrap()).unwrap();
     let names: Vec<&str> = stages["stages"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
-    assert_eq!(names, ["evidence", "read", "features", "wait", "evaluate", "search", "output"]);
+    assert_eq!(names, ["evidence", "read", "features", "wait", "evaluate", "search", "output", "hindsight"]);
     assert!(stages["stages"].as_array().unwrap().iter().all(|s| s["count"] == walk::FRAMES));
     let trace: serde_json::Value = serde_json::from_slice(&fs::read(folder.join("trace.json")).unwrap()).unwrap();
     assert!(trace["traceEvents"].as_array().unwrap().len() > 6 * walk::FRAMES);

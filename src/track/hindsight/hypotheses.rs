@@ -1,0 +1,110 @@
+//! Other poses that a frame may have than the one its track gave it (METHOD A14): limbs taken from one track or the other, limbs of the
+//! two sides exchanged, limbs looked for everywhere within their limits.
+
+use anyhow::Result;
+
+use super::scorer::{Candidate, Effort, Scorer};
+use crate::body::Body;
+use crate::search::SearchSpace;
+
+/// Poses of a limb tried all over its limits, and generations that go on from the best of them.
+const SCATTERED: usize = 96;
+const GENERATIONS: usize = 4;
+/// Width of that search, as a share of the limits.
+const WIDTH: f32 = 0.12;
+
+/// The limbs of a body: the degrees of freedom of each, root to end.
+#[derive(Clone, Debug)]
+pub(super) struct Limbs {
+    limbs: Vec<Vec<usize>>,
+    /// Pairs of limbs with the same joints on either side.
+    pub(super) twins: Vec<[usize; 2]>,
+}
+
+impl Limbs {
+    pub(super) fn new(body: &Body, space: &SearchSpace) -> Self {
+        let count = space.groups().iter().max().copied().unwrap_or(0);
+        let limbs: Vec<Vec<usize>> =
+            (1..=count).map(|group| (0..space.dof_count()).filter(|&d| space.groups()[d] == group).collect()).collect();
+        let names = body.dof_names();
+        let side = |limb: &[usize], side: &str| -> Option<Vec<String>> {
+            limb.iter().map(|&d| names[d].strip_prefix(side).map(str::to_string)).collect()
+        };
+        let mut twins = Vec::new();
+        for (one, limb) in limbs.iter().enumerate() {
+            let Some(left) = side(limb, "left_") else { continue };
+            if let Some(other) = limbs.iter().position(|limb| side(limb, "right_").as_ref() == Some(&left)) {
+                twins.push([one, other]);
+            }
+        }
+        Self { limbs, twins }
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.limbs.len()
+    }
+
+    /// `pose` with a limb of `other`.
+    pub(super) fn with(&self, limb: usize, pose: &[f32], other: &[f32]) -> Vec<f32> {
+        let mut mixed = pose.to_vec();
+        self.limbs[limb].iter().for_each(|&d| mixed[d] = other[d]);
+        mixed
+    }
+
+    /// `pose` with the limbs of the sides exchanged: each is held as the other was, as far as the limits let it.
+    pub(super) fn exchanged(&self, [one, other]: [usize; 2], pose: &[f32], space: &SearchSpace) -> Vec<f32> {
+        let mut exchanged = pose.to_vec();
+        for (&a, &b) in self.limbs[one].iter().zip(&self.limbs[other]) {
+            (exchanged[a], exchanged[b]) = (pose[b], pose[a]);
+        }
+        space.clamp(&mut exchanged);
+        exchanged
+    }
+
+    /// A limb of a frame's pose looked for everywhere within its limits.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(super) fn anywhere(
+        &self,
+        scorer: &mut Scorer<'_>,
+        frame: usize,
+        limb: usize,
+        pose: &[f32],
+        turn: u64,
+    ) -> Result<Candidate> {
+        let moved = &self.limbs[limb];
+        let (lower, upper) = (scorer.space.lower(), scorer.space.upper());
+        // A lattice fills the limits more evenly than random numbers (Roberts 2018), shifted from frame to frame.
+        let root = plastic(moved.len());
+        let count = scorer.generations(SCATTERED);
+        let rows: Vec<Vec<f32>> = (0..count)
+            .map(|at| {
+                let mut row = pose.to_vec();
+                for (dimension, &d) in moved.iter().enumerate() {
+                    let share = (0.5 + (at + 1 + frame * count) as f64 * root.powi(-(dimension as i32 + 1))).fract();
+                    row[d] = lower[d] + share as f32 * (upper[d] - lower[d]);
+                }
+                row
+            })
+            .collect();
+        let scattered = scorer.candidates(&rows)?;
+        let best = best(&scattered);
+        let spread: Vec<f32> = lower.iter().zip(upper).map(|(low, high)| WIDTH * (high - low)).collect();
+        let effort = Effort { spread: &spread, generations: scorer.generations(GENERATIONS), turn };
+        let found = scorer.search(frame, &scattered[best].pose, moved, effort, None)?;
+        scorer.candidate(found.pose)
+    }
+}
+
+/// The index of the candidate that is worth most by itself.
+pub(super) fn best(candidates: &[Candidate]) -> usize {
+    let worth = candidates.iter().enumerate();
+    worth.fold(0, |best, (at, candidate)| if candidate.worth > candidates[best].worth { at } else { best })
+}
+
+/// The root of x^(n + 1) = x + 1 above 1.
+fn plastic(dimensions: usize) -> f64 {
+    let power = 1.0 / (dimensions as f64 + 1.0);
+    (0..40).fold(1.5_f64, |x, _| (1.0 + x).powf(power))
+}

@@ -1,0 +1,102 @@
+//! The frames of a window together: tracks through them, the path that is worth most, every frame searched again beside its neighbours.
+
+use anyhow::Result;
+use glam::DVec3;
+
+use super::hypotheses::Limbs;
+use super::path::best_path;
+use super::refining::{self, Settled};
+use super::scorer::{Candidate, Scorer, robust};
+use super::tracks::Track;
+use super::window::Seen;
+use crate::body::Body;
+
+/// Width of the searches, as a share of the track's changes, and of the body's steps at least and at most.
+const WIDTH: f32 = 0.5;
+const WIDTHS: [f32; 2] = [0.25, 2.0];
+/// What a joint may jerk along a path: deviation at rest, mm, and as a share of the way in a frame.
+const JERK: [f64; 2] = [10.0, 0.3];
+/// How far a joint may go from the first frame to the second, mm.
+const FIRST: f64 = 100.0;
+
+/// The second pass over windows of a run.
+pub(super) struct Mending<'a> {
+    pub(super) scorer: Scorer<'a>,
+    limbs: Limbs,
+    /// The body's, from a frame to the next.
+    steps: Vec<f32>,
+    /// How many frames on either side tell of a frame.
+    pub(super) reach: usize,
+}
+
+impl<'a> Mending<'a> {
+    pub(super) fn new(scorer: Scorer<'a>, body: &Body, fps: f64) -> Result<Self> {
+        let steps = scorer.space.spread(1.0 / fps)?;
+        Ok(Self { limbs: Limbs::new(body, scorer.space), scorer, steps, reach: refining::reach(fps) })
+    }
+
+    /// The poses of a window's frames, of which `given` were found, after those of `before`.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(super) fn mend(&mut self, seen: &[&Seen], given: &[Vec<f32>], before: &[Settled]) -> Result<Vec<Settled>> {
+        let spread = self.widths(given);
+        // What was given stays a candidate.
+        let mut candidates: Vec<Vec<Candidate>> = Vec::with_capacity(seen.len());
+        for (seen, pose) in seen.iter().zip(given) {
+            self.scorer.observe(&seen.observations)?;
+            candidates.push(self.scorer.candidates(std::slice::from_ref(pose))?);
+        }
+        for order in [(0..seen.len()).rev().collect::<Vec<_>>(), (0..seen.len()).collect()] {
+            let is_back = order.first() != Some(&0);
+            Track { limbs: &self.limbs, given, spread: &spread, steps: &self.steps, is_back }.follow(
+                &mut self.scorer,
+                seen,
+                &order,
+                &mut candidates,
+            )?;
+        }
+        let path = choose(&candidates, before);
+        let mut poses: Vec<Settled> = before.to_vec();
+        for (candidates, &chosen) in candidates.iter().zip(&path) {
+            let Candidate { pose, points, .. } = &candidates[chosen];
+            poses.push(Settled { pose: pose.clone(), points: points.clone() });
+        }
+        refining::refine(&mut self.scorer, seen, &spread, &mut poses, self.reach)?;
+        poses.drain(..before.len());
+        Ok(poses)
+    }
+
+    /// How wide to search around a track: by how much its degrees of freedom change.
+    fn widths(&self, track: &[Vec<f32>]) -> Vec<f32> {
+        let width = |(d, step): (usize, &f32)| {
+            let squares = track.windows(2).map(|pair| (pair[1][d] - pair[0][d]).powi(2));
+            let change = (squares.sum::<f32>() / track.len().max(2) as f32).sqrt();
+            (WIDTH * change).clamp(WIDTHS[0] * step, WIDTHS[1] * step)
+        };
+        self.steps.iter().enumerate().map(width).collect()
+    }
+}
+
+/// The path through the candidates, going on from the frames before.
+fn choose(candidates: &[Vec<Candidate>], before: &[Settled]) -> Vec<usize> {
+    let fixed = &before[before.len().saturating_sub(2)..];
+    let mut worth: Vec<Vec<f64>> = fixed.iter().map(|_| vec![0.0]).collect();
+    worth.extend(candidates.iter().map(|found| found.iter().map(|candidate| candidate.worth).collect()));
+    let points = |t: usize, k: usize| -> &[DVec3] {
+        if t < fixed.len() { &fixed[t].points } else { &candidates[t - fixed.len()][k].points }
+    };
+    let jerk = |a: &[DVec3], b: &[DVec3], c: &[DVec3]| -> f64 {
+        let joints = a.iter().zip(b).zip(c).map(|((a, b), c)| {
+            let scale = JERK[0] + JERK[1] * 0.5 * a.distance(*c);
+            robust((*a + *c - 2.0 * *b).length_squared() / (scale * scale))
+        });
+        joints.sum()
+    };
+    let first = |j: usize, k: usize| {
+        let pairs = points(0, j).iter().zip(points(1, k));
+        pairs.map(|(a, b)| robust(a.distance_squared(*b) / (FIRST * FIRST))).sum::<f64>()
+    };
+    let path = best_path(&worth, &first, &|t, i, j, k| jerk(points(t - 2, i), points(t - 1, j), points(t, k)));
+    path[fixed.len()..].to_vec()
+}

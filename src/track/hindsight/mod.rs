@@ -1,0 +1,102 @@
+//! The second pass of a run that has time: every frame again, with what came before and after it known (METHOD A14). Tracks backwards
+//! and forwards make several poses a frame, the path through them that is worth most is taken, and then every frame is searched again
+//! close to where its neighbours expect it.
+
+mod hypotheses;
+mod mending;
+mod path;
+mod refining;
+mod scorer;
+mod shape;
+mod tracks;
+mod window;
+
+use anyhow::{Context, Result};
+use image::RgbImage;
+
+use self::mending::Mending;
+use self::refining::Settled;
+use self::scorer::Scorer;
+use self::shape::Shape;
+use self::window::{Seen, Windows};
+use super::appearance::RunAppearance;
+use super::confidence::JointProbe;
+use super::feed::Frames;
+use super::journal::FrameResult;
+use super::plan::Plan;
+
+/// What the second pass works on.
+pub(super) struct Hindsight<'a> {
+    pub(super) plan: &'a mut Plan,
+    /// What asks a frame about its joints.
+    pub(super) probe: &'a JointProbe,
+    pub(super) fps: f64,
+    /// Every how many frames the pictures are handed on with the result; 0 for never.
+    pub(super) pictures_every: usize,
+}
+
+/// Takes a frame's result and its pictures, where they were asked for; `false` to go no further.
+pub(super) type Taker<'a> = dyn FnMut(FrameResult, Option<&[RgbImage]>) -> Result<bool> + 'a;
+
+impl Hindsight<'_> {
+    /// Hands on the results of all frames of a run again, in order, from those of its first pass. `feed` begins with the first frame.
+    ///
+    /// # Errors
+    /// When a frame cannot be read, the evaluator fails, or `take` does.
+    pub(super) fn look_back(
+        self,
+        feed: &mut dyn Frames,
+        appearance: Option<&RunAppearance>,
+        forward: &[FrameResult],
+        take: &mut Taker<'_>,
+    ) -> Result<()> {
+        let settings = *self.plan.search_settings();
+        let Plan { body, objective, backend, space, .. } = self.plan;
+        let shape = Shape::new(body);
+        let scorer = Scorer::new(backend.evaluator.as_mut(), objective, space, &shape, &settings);
+        let mut mending = Mending::new(scorer, body, self.fps)?;
+        let mut windows = Windows::new(feed, appearance, self.pictures_every);
+        // Poses of the window before that are not settled yet, and the last that are.
+        let mut carried: Vec<Vec<f32>> = Vec::new();
+        let mut before: Vec<Settled> = Vec::new();
+        let mut done = 0;
+        loop {
+            windows.fill()?;
+            let seen: Vec<&Seen> = windows.seen().iter().collect();
+            let Some(first) = seen.first() else { return Ok(()) };
+            let mut track = std::mem::take(&mut carried);
+            let given = forward.iter().skip(done + track.len()).map(|result| result.pose.clone());
+            track.extend(given.take(seen.len().saturating_sub(track.len())));
+            let settled =
+                mending.mend(&seen, &track, &before).with_context(|| format!("the frames from {} on", first.index))?;
+            let count = windows.settled();
+            for ((seen, frame), first) in seen.iter().zip(&settled).zip(&forward[done..]).take(count) {
+                let evaluator = &mut *mending.scorer.evaluator;
+                evaluator.observe(&seen.observations)?;
+                let mut fitness = [0.0];
+                evaluator.fitness(&frame.pose, objective, &mut fitness)?;
+                let views = evaluator.view_counts(&frame.pose, objective)?;
+                let result = FrameResult {
+                    frame: seen.index,
+                    fitness: fitness[0],
+                    views: views.iter().map(|view| objective.view_terms(view)).collect(),
+                    joints: self.probe.ask(evaluator, objective, &seen.observations, &frame.pose)?,
+                    pose: frame.pose.clone(),
+                    // Searches from neighbours on are narrow whatever the pictures say: how sure they are the first one tells.
+                    spread: first.spread.clone(),
+                };
+                if !take(result, seen.pictures.as_deref())? {
+                    return Ok(());
+                }
+            }
+            carried = settled[count..].iter().map(|frame| frame.pose.clone()).collect();
+            before.extend(settled.into_iter().take(count));
+            before.drain(..before.len().saturating_sub(mending.reach));
+            windows.forget(count);
+            done += count;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

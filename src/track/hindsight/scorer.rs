@@ -1,0 +1,203 @@
+//! What a pose is worth when the frames around it are known: its match with the pictures, less what it costs to be somewhere else than
+//! they lead to expect, or in itself (METHOD A14).
+
+use anyhow::Result;
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::shape::{Posed, Shape};
+use crate::evaluate::{Evaluator, Objective};
+use crate::features::Observation;
+use crate::search::{Estimate, SearchKind, SearchSettings, SearchSpace};
+
+/// Samples of a generation, where a run has as many particles.
+const GENERATION: usize = 50;
+/// Worth of the fitness: of its natural logarithm.
+pub(super) const MATCH: f64 = 300.0;
+/// Fitness below which nothing gets worse.
+const LEAST: f64 = 1e-6;
+/// Cost of a millimetre by which parts stand in each other.
+const INTRUSION: f64 = 0.1;
+/// Deviations from which on a joint that is elsewhere costs little more.
+const ROBUST: f64 = 3.0;
+
+/// Cost of a joint that is so many deviations off: quadratic at first, logarithmic far out.
+pub(super) fn robust(deviations_squared: f64) -> f64 {
+    const SQUARE: f64 = ROBUST * ROBUST;
+    0.5 * SQUARE * (deviations_squared / SQUARE).ln_1p()
+}
+
+/// Where joints are expected.
+#[derive(Clone, Debug)]
+pub(super) struct Pull {
+    /// mm.
+    pub(super) targets: Vec<DVec3>,
+    /// Standard deviations, mm.
+    pub(super) scales: Vec<f64>,
+}
+
+impl Pull {
+    /// What it costs to have the joints at `points`.
+    pub(super) fn cost(&self, points: &[DVec3]) -> f64 {
+        let pairs = points.iter().zip(&self.targets).zip(&self.scales);
+        pairs.map(|((point, target), scale)| robust(point.distance_squared(*target) / (scale * scale))).sum()
+    }
+}
+
+/// A pose of a frame, and what is known of it.
+#[derive(Clone, Debug)]
+pub(super) struct Candidate {
+    pub(super) pose: Vec<f32>,
+    /// The joints, mm.
+    pub(super) points: Vec<DVec3>,
+    /// What the frame alone says for it.
+    pub(super) worth: f64,
+}
+
+/// Scores poses of the frame observed last.
+pub(super) struct Scorer<'a> {
+    pub(super) evaluator: &'a mut dyn Evaluator,
+    pub(super) objective: &'a Objective,
+    pub(super) space: &'a SearchSpace,
+    pub(super) shape: &'a Shape,
+    /// Decides all random numbers.
+    seed: u64,
+    /// The poses that a run scores a frame, over the usual ones.
+    share: f64,
+    /// Samples of a generation.
+    pub(super) generation: usize,
+}
+
+/// How widely and for how long to search.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Effort<'a> {
+    /// Standard deviation of each degree of freedom.
+    pub(super) spread: &'a [f32],
+    /// How many generations.
+    pub(super) generations: usize,
+    /// What tells the random numbers of searches of one frame apart.
+    pub(super) turn: u64,
+}
+
+/// Of the fitness, what the frame alone says for a pose.
+fn matched(fitness: f32) -> f64 {
+    MATCH * f64::from(fitness).max(LEAST).ln()
+}
+
+impl<'a> Scorer<'a> {
+    /// For a run with these settings.
+    pub(super) fn new(
+        evaluator: &'a mut dyn Evaluator,
+        objective: &'a Objective,
+        space: &'a SearchSpace,
+        shape: &'a Shape,
+        settings: &SearchSettings,
+    ) -> Self {
+        let usual = SearchSettings::default();
+        let poses = |settings: &SearchSettings| settings.particles as f64 * settings.iterations as f64;
+        let share = poses(settings) / poses(&usual);
+        Self {
+            evaluator,
+            objective,
+            space,
+            shape,
+            seed: settings.seed,
+            share,
+            generation: GENERATION.min(settings.particles),
+        }
+    }
+
+    /// What is `usual` where a run scores as many poses as it usually does, at least 1.
+    pub(super) fn generations(&self, usual: usize) -> usize {
+        ((usual as f64 * self.share).round() as usize).max(1)
+    }
+
+    pub(super) fn observe(&mut self, observations: &[Observation]) -> Result<()> {
+        self.evaluator.observe(observations)
+    }
+
+    /// Replaces each fitness by the worth of its pose.
+    fn weigh(&self, rows: &[f32], pull: Option<&Pull>, worth: &mut [f32]) {
+        let dofs = self.space.dof_count();
+        rows.par_chunks_exact(dofs).zip(worth.par_iter_mut()).with_min_len(16).for_each_init(
+            Posed::default,
+            |posed, (row, worth)| {
+                self.shape.pose(row, posed);
+                let cost = INTRUSION * self.shape.intrusion(posed) + pull.map_or(0.0, |pull| pull.cost(&posed.points));
+                *worth = (matched(*worth) - cost) as f32;
+            },
+        );
+    }
+
+    /// Poses of the frame as candidates.
+    pub(super) fn candidates(&mut self, poses: &[Vec<f32>]) -> Result<Vec<Candidate>> {
+        let mut fitness = vec![0.0; poses.len()];
+        if !poses.is_empty() {
+            self.evaluator.fitness(&poses.concat(), self.objective, &mut fitness)?;
+        }
+        let mut posed = Posed::default();
+        let candidates = poses.iter().zip(fitness).map(|(pose, fitness)| {
+            self.shape.pose(pose, &mut posed);
+            let worth = matched(fitness) - INTRUSION * self.shape.intrusion(&posed);
+            Candidate { pose: pose.clone(), points: posed.points.clone(), worth }
+        });
+        Ok(candidates.collect())
+    }
+
+    /// A pose of the frame as a candidate.
+    pub(super) fn candidate(&mut self, pose: Vec<f32>) -> Result<Candidate> {
+        Ok(self.candidates(&[pose])?.swap_remove(0))
+    }
+
+    /// [`Self::search`], moving all that has a spread.
+    pub(super) fn search_all(
+        &mut self,
+        frame: usize,
+        centre: &[f32],
+        effort: Effort<'_>,
+        pull: Option<&Pull>,
+    ) -> Result<Estimate> {
+        let moved: Vec<usize> = (0..centre.len()).filter(|&d| effort.spread[d] > 0.0).collect();
+        self.search(frame, centre, &moved, effort, pull)
+    }
+
+    /// Searches around `centre`, moving the degrees of freedom in `moved` alone, for what is worth most under `pull`.
+    pub(super) fn search(
+        &mut self,
+        frame: usize,
+        centre: &[f32],
+        moved: &[usize],
+        effort: Effort<'_>,
+        pull: Option<&Pull>,
+    ) -> Result<Estimate> {
+        let dofs = centre.len();
+        let part = |values: &[f32]| -> Vec<f32> { moved.iter().map(|&d| values[d]).collect() };
+        let space = SearchSpace::new(part(self.space.lower()), part(self.space.upper()), vec![1.0; moved.len()])?;
+        let (particles, iterations) = (self.generation, effort.generations);
+        let seed = self.seed.wrapping_add((effort.turn + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
+        let mut settings =
+            SearchSettings { kind: SearchKind::MaEs, particles, iterations, seed, ..SearchSettings::default() };
+        settings.matrix.generation = particles;
+        let mut search = settings.build(&space)?;
+        let mut whole = Vec::new();
+        let frame = u32::try_from(frame).unwrap_or(u32::MAX);
+        let mut estimate = search.search_frame(frame, &part(centre), &part(effort.spread), &mut |rows, worth| {
+            whole.clear();
+            for row in rows.chunks_exact(moved.len()) {
+                let begin = whole.len();
+                whole.extend_from_slice(centre);
+                moved.iter().zip(row).for_each(|(&d, value)| whole[begin + d] = *value);
+            }
+            self.evaluator.fitness(&whole, self.objective, worth)?;
+            self.weigh(&whole, pull, worth);
+            Ok(())
+        })?;
+        let mut pose = centre.to_vec();
+        let mut spread = vec![0.0; dofs];
+        for (at, &d) in moved.iter().enumerate() {
+            (pose[d], spread[d]) = (estimate.pose[at], estimate.spread[at]);
+        }
+        (estimate.pose, estimate.spread) = (pose, spread);
+        Ok(estimate)
+    }
+}

@@ -1,0 +1,108 @@
+//! Where a pose puts the body: its joints in space, and how far its parts would stand in each other (METHOD A14).
+
+use glam::{DAffine3, DVec3};
+
+use crate::body::Body;
+
+/// Share of the thinner part's radius by which parts may overlap: radii are measured roughly, and flesh gives way.
+const GIVES: f64 = 0.5;
+
+/// A body, for what of its poses time can judge.
+#[derive(Clone, Debug)]
+pub(super) struct Shape {
+    pub(super) body: Body,
+    /// Bones and places on them of the ends that no bone begins at.
+    ends: Vec<(usize, DVec3)>,
+    /// Pairs of parts that could stand in each other, and how deep they may.
+    pairs: Vec<(usize, usize, f64)>,
+}
+
+/// Memory that posing uses again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Posed {
+    pose: Vec<f64>,
+    bones: Vec<DAffine3>,
+    /// The joints, mm, in the order of [`Body::joint_names`].
+    pub(super) points: Vec<DVec3>,
+}
+
+impl Shape {
+    pub(super) fn new(body: &Body) -> Self {
+        let ends = body.free_ends().iter().map(|end| (end.bone, end.at)).collect();
+        let mut shape = Self { body: body.clone(), ends, pairs: Vec::new() };
+        let mut posed = Posed::default();
+        let rest: Vec<f32> = body.standing_pose().into_iter().map(|value| value as f32).collect();
+        shape.pose(&rest, &mut posed);
+        // Neighbours share a joint, and what overlaps at rest is made so.
+        let near = |one: usize, other: usize| {
+            let bones = [one, other].map(|part| body.parts[part].bone);
+            let parents = bones.map(|bone| body.bones[bone].parent);
+            bones[0] == bones[1] || parents[0] == Some(bones[1]) || parents[1] == Some(bones[0])
+        };
+        for one in 0..body.parts.len() {
+            for other in one + 1..body.parts.len() {
+                let [a, b] = [&body.parts[one], &body.parts[other]];
+                let gives = GIVES * a.radius_a.min(a.radius_b).min(b.radius_a).min(b.radius_b);
+                if !near(one, other) && shape.depth(&posed, one, other) <= gives {
+                    shape.pairs.push((one, other, gives));
+                }
+            }
+        }
+        shape
+    }
+
+    /// Poses the body. A pose of another length leaves what was there.
+    pub(super) fn pose(&self, pose: &[f32], posed: &mut Posed) {
+        posed.pose.clear();
+        posed.pose.extend(pose.iter().map(|value| f64::from(*value)));
+        if self.body.world_from_bones_into(&posed.pose, &mut posed.bones).is_err() {
+            return;
+        }
+        posed.points.clear();
+        posed.points.extend(posed.bones.iter().map(|matrix| matrix.translation));
+        posed.points.extend(self.ends.iter().map(|(bone, at)| posed.bones[*bone].transform_point3(*at)));
+    }
+
+    /// The joints of a pose.
+    pub(super) fn points(&self, pose: &[f32]) -> Vec<DVec3> {
+        let mut posed = Posed::default();
+        self.pose(pose, &mut posed);
+        posed.points
+    }
+
+    /// By how much parts stand in each other in a pose, mm, beyond what they may: the sum over pairs.
+    pub(super) fn intrusion(&self, posed: &Posed) -> f64 {
+        if posed.bones.is_empty() {
+            return 0.0;
+        }
+        self.pairs.iter().map(|&(one, other, gives)| (self.depth(posed, one, other) - gives).max(0.0)).sum()
+    }
+
+    /// How deep two parts stand in each other, mm; not above 0 where they do not.
+    fn depth(&self, posed: &Posed, one: usize, other: usize) -> f64 {
+        let [a, b] = [one, other].map(|part| &self.body.parts[part]);
+        let ends = |part: &crate::body::Part| {
+            let bone = &posed.bones[part.bone];
+            [bone.transform_point3(part.a), bone.transform_point3(part.b)]
+        };
+        let [at_a, at_b] = nearest(ends(a), ends(b));
+        let radius = |part: &crate::body::Part, at: f64| part.radius_a + at * (part.radius_b - part.radius_a);
+        let [p, q] = [ends(a), ends(b)];
+        let distance = p[0].lerp(p[1], at_a).distance(q[0].lerp(q[1], at_b));
+        radius(a, at_a) + radius(b, at_b) - distance
+    }
+}
+
+/// Where two segments are nearest to each other, as shares of their lengths.
+fn nearest([p0, p1]: [DVec3; 2], [q0, q1]: [DVec3; 2]) -> [f64; 2] {
+    let (u, v, w) = (p1 - p0, q1 - q0, p0 - q0);
+    let (a, b, c, d, e) = (u.length_squared(), u.dot(v), v.length_squared(), u.dot(w), v.dot(w));
+    let det = a * c - b * b;
+    let mut s = if det > 1e-9 * a * c { ((b * e - c * d) / det).clamp(0.0, 1.0) } else { 0.0 };
+    let mut t = if c > 0.0 { (b * s + e) / c } else { 0.0 };
+    if !(0.0..=1.0).contains(&t) {
+        t = t.clamp(0.0, 1.0);
+        s = if a > 0.0 { ((b * t - d) / a).clamp(0.0, 1.0) } else { 0.0 };
+    }
+    [s, t]
+}

@@ -1,0 +1,139 @@
+use rayon::ThreadPoolBuilder;
+
+use super::mending::Mending;
+use super::refining::Settled;
+use super::scorer::Scorer;
+use super::shape::{Posed, Shape};
+use super::window::Seen;
+use crate::body::Body;
+use crate::evaluate::cpu::Cpu;
+use crate::evaluate::{Objective, ObjectiveKind};
+use crate::search::{SearchSettings, SearchSpace};
+use crate::track::fit_tests::{cameras_around, seen};
+
+const FRAMES: usize = 10;
+
+/// A person who kicks, by three steps of the hip a frame, and what three cameras see of it.
+struct Kick {
+    body: Body,
+    space: SearchSpace,
+    truth: Vec<Vec<f32>>,
+    seen: Vec<Seen>,
+}
+
+impl Kick {
+    fn new() -> Self {
+        let body = Body::adult(1750.0).unwrap();
+        let space = SearchSpace::of(&body).unwrap();
+        let dof = |name: &str| body.dof_names().iter().position(|known| known == name).unwrap();
+        let steps = space.spread(1.0 / 25.0).unwrap();
+        let (hip, knee, lift) = (dof("right_hip.ry"), dof("right_knee.ry"), dof("left_shoulder.rx"));
+        let truth: Vec<Vec<f32>> = (0..FRAMES)
+            .map(|t| {
+                let mut pose: Vec<f32> = body.standing_pose().into_iter().map(|value| value as f32).collect();
+                // Up in five frames and down again.
+                let up = 5.0 - (t as f32 - 5.0).abs();
+                pose[hip] = 0.3 - 3.0 * steps[hip] * up;
+                pose[knee] = 0.2 + 0.05 * up;
+                pose[lift] = 0.9;
+                pose[0] += 10.0 * t as f32;
+                space.clamp(&mut pose);
+                pose
+            })
+            .collect();
+        let cameras = cameras_around();
+        let observed = truth.iter().enumerate().map(|(index, pose)| {
+            let pose: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
+            Seen { index, observations: seen(&body, &cameras, &pose), pictures: None }
+        });
+        let seen = observed.collect();
+        Self { body, space, truth, seen }
+    }
+
+    /// The second pass over a track.
+    fn mended(&self, given: &[Vec<f32>]) -> Vec<Vec<f32>> {
+        let mut cpu = Cpu::new(&self.body, &cameras_around()).unwrap();
+        let objective = Objective { w1: 1.0, w2: 0.0, ..Objective::of(ObjectiveKind::Ws) };
+        let shape = Shape::new(&self.body);
+        let scorer = Scorer::new(&mut cpu, &objective, &self.space, &shape, &SearchSettings::default());
+        let mut mending = Mending::new(scorer, &self.body, 25.0).unwrap();
+        let seen: Vec<&Seen> = self.seen.iter().collect();
+        let settled = mending.mend(&seen, given, &[]).unwrap();
+        settled.into_iter().map(|Settled { pose, .. }| pose).collect()
+    }
+
+    /// Distance of every joint from the truth in every frame, mm.
+    fn errors(&self, poses: &[Vec<f32>]) -> Vec<Vec<f64>> {
+        let shape = Shape::new(&self.body);
+        let pairs = poses.iter().zip(&self.truth);
+        let errors = pairs.map(|(pose, truth)| {
+            let (found, truth) = (shape.points(pose), shape.points(truth));
+            found.iter().zip(&truth).map(|(a, b)| a.distance(*b)).collect()
+        });
+        errors.collect()
+    }
+
+    /// The truth with every value off by up to `share` of a step, this way in one frame and that way in the next.
+    fn shaken(&self, share: f32) -> Vec<Vec<f32>> {
+        let steps = self.space.spread(1.0 / 25.0).unwrap();
+        let mut poses = self.truth.clone();
+        for (t, pose) in poses.iter_mut().enumerate() {
+            for (d, (value, step)) in pose.iter_mut().zip(&steps).enumerate() {
+                *value += share * step * (((t * 37 + d * 11) % 17) as f32 / 8.0 - 1.0);
+            }
+            self.space.clamp(pose);
+        }
+        poses
+    }
+}
+
+fn mean(values: &[Vec<f64>]) -> f64 {
+    values.iter().flatten().sum::<f64>() / values.iter().map(Vec::len).sum::<usize>() as f64
+}
+
+/// An arm that is somewhere else for some frames comes back, estimates that shake come to rest, and a kick stays a kick.
+#[test]
+fn a_lost_limb_is_mended_and_a_kick_is_not_flattened() {
+    let kick = Kick::new();
+    let mut given = kick.shaken(0.5);
+    let dofs = kick.body.dof_names();
+    for pose in &mut given[3..7] {
+        for (value, name) in pose.iter_mut().zip(&dofs) {
+            match name.as_str() {
+                "left_shoulder.rx" => *value = 0.0,
+                "left_shoulder.ry" => *value = -2.0,
+                _ => {}
+            }
+        }
+    }
+    let mended = kick.mended(&given);
+    let (before, after) = (kick.errors(&given), kick.errors(&mended));
+    let worst = |errors: &[Vec<f64>]| errors.iter().flatten().fold(0.0, |most: f64, error| most.max(*error));
+    assert!(worst(&before) > 300.0 && worst(&after) < 200.0, "{} to {}", worst(&before), worst(&after));
+    let still = [&before[..3], &before[7..]].concat();
+    assert!(mean(&after) < 0.8 * mean(&still), "{} to {}", mean(&still), mean(&after));
+    // The kicking foot, at the top above all.
+    let ankle = kick.body.joint_names().iter().position(|name| name == "right_ankle").unwrap();
+    let foot = |errors: &[Vec<f64>]| vec![errors.iter().map(|errors| errors[ankle]).collect::<Vec<_>>()];
+    assert!(mean(&foot(&after)) < mean(&foot(&before)), "{:?} to {:?}", foot(&before), foot(&after));
+    assert!(after[5][ankle] < 60.0, "{after:?}");
+
+    let one = ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    assert!(one.install(|| kick.mended(&given)) == mended, "the number of threads counts");
+}
+
+#[test]
+fn parts_that_stand_in_each_other_cost() {
+    let body = Body::adult(1750.0).unwrap();
+    let shape = Shape::new(&body);
+    let mut posed = Posed::default();
+    let mut pose: Vec<f32> = body.standing_pose().into_iter().map(|value| value as f32).collect();
+    shape.pose(&pose, &mut posed);
+    assert_eq!(shape.intrusion(&posed), 0.0, "standing");
+    let dof = |name: &str| body.dof_names().iter().position(|known| known == name).unwrap();
+    // A knee through the other.
+    pose[dof("left_hip.rx")] = -0.3;
+    pose[dof("right_hip.rx")] = 0.3;
+    shape.pose(&pose, &mut posed);
+    assert!(shape.intrusion(&posed) > 30.0, "{}", shape.intrusion(&posed));
+}

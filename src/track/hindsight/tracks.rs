@@ -1,0 +1,163 @@
+//! A track through a window, forwards or backwards: as a run's first pass, but with more starts at hand, and limbs looked for anew where
+//! the pictures say that something is wrong.
+
+use anyhow::Result;
+
+use super::hypotheses::{Limbs, best};
+use super::scorer::{Candidate, Effort, Pull, Scorer};
+use super::window::Seen;
+
+/// Generations of a frame's search, and of one round a limb found anew or a poor frame.
+const TRACKED: usize = 12;
+const ANEW: usize = 20;
+/// By how much a limb found anywhere must be worth more than the one that was tracked.
+const CONVINCING: f64 = 2.0;
+/// By how much less than the best frame of a window one is worth in which all limbs are looked for.
+const POOR: f64 = 12.0;
+/// Where a track expects joints: deviation at rest, mm, and as a share of the way in a frame.
+const EXPECTED: [f64; 2] = [30.0, 0.5];
+/// Share of a change that goes on in the next frame.
+const GOES_ON: f32 = 0.7;
+/// Distance of a joint from which poses are different, mm.
+const DIFFERENT: f64 = 30.0;
+
+/// How to track.
+pub(super) struct Track<'a> {
+    pub(super) limbs: &'a Limbs,
+    /// The track there is.
+    pub(super) given: &'a [Vec<f32>],
+    /// Width of the searches, and of those where something is wrong.
+    pub(super) spread: &'a [f32],
+    pub(super) steps: &'a [f32],
+    pub(super) is_back: bool,
+}
+
+impl Track<'_> {
+    /// Tracks the frames in this order. What is found is added to the candidates of each, which are starts too.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(super) fn follow(
+        &self,
+        scorer: &mut Scorer<'_>,
+        seen: &[&Seen],
+        order: &[usize],
+        candidates: &mut [Vec<Candidate>],
+    ) -> Result<()> {
+        let mut last: [Option<Candidate>; 2] = [None, None];
+        let mut most = candidates.iter().flatten().map(|candidate| candidate.worth).fold(f64::NEG_INFINITY, f64::max);
+        for &t in order {
+            scorer.observe(&seen[t].observations)?;
+            let index = seen[t].index;
+            let mut starts: Vec<Vec<f32>> = candidates[t].iter().map(|candidate| candidate.pose.clone()).collect();
+            let pull = self.lead(scorer, t, &last, &mut starts);
+            let start = most_under(&scorer.candidates(&starts)?, pull.as_ref());
+            let generations = scorer.generations(TRACKED);
+            let effort = Effort { spread: self.spread, generations, turn: self.turn(0) };
+            let chosen = scorer.search_all(index, &starts[start], effort, pull.as_ref())?.pose;
+            let mut chosen = scorer.candidate(chosen)?;
+            let mut others = self.mended(scorer, index, &mut chosen, most)?;
+            most = most.max(chosen.worth);
+            if !self.is_back {
+                let twins = self.limbs.twins.iter();
+                let poses: Vec<_> =
+                    twins.map(|twins| self.limbs.exchanged(*twins, &chosen.pose, scorer.space)).collect();
+                let mut exchanged = scorer.candidates(&poses)?;
+                if !exchanged.is_empty() {
+                    others.push(exchanged.swap_remove(best(&exchanged)));
+                }
+            }
+            others.retain(|other| is_different(other, &chosen));
+            others.insert(0, chosen.clone());
+            for other in others {
+                if candidates[t].iter().all(|known| is_different(known, &other)) || other.pose == chosen.pose {
+                    candidates[t].push(other);
+                }
+            }
+            last = [last[1].take(), Some(chosen)];
+        }
+        Ok(())
+    }
+
+    /// What tells the random numbers of this track's searches apart.
+    fn turn(&self, number: u64) -> u64 {
+        2 * number + u64::from(self.is_back)
+    }
+
+    /// Where the frames before lead: starts, among them ones with single limbs of the track there is, and where joints are expected.
+    fn lead(
+        &self,
+        scorer: &Scorer<'_>,
+        t: usize,
+        [earlier, last]: &[Option<Candidate>; 2],
+        starts: &mut Vec<Vec<f32>>,
+    ) -> Option<Pull> {
+        let last = last.as_ref()?;
+        let mut ahead = last.pose.clone();
+        let mut speeds = vec![0.0; last.points.len()];
+        if let Some(earlier) = earlier {
+            let changes = ahead.iter_mut().zip(&earlier.pose);
+            changes.for_each(|(value, earlier)| *value += GOES_ON * (*value - earlier));
+            scorer.space.clamp(&mut ahead);
+            speeds = last.points.iter().zip(&earlier.points).map(|(a, b)| a.distance(*b)).collect();
+        }
+        starts.extend([last.pose.clone(), ahead.clone()]);
+        for limb in 0..self.limbs.count() {
+            starts.push(self.limbs.with(limb, &ahead, &self.given[t]));
+            starts.push(self.limbs.with(limb, &self.given[t], &ahead));
+        }
+        let scales = speeds.iter().map(|speed| EXPECTED[0] + EXPECTED[1] * speed).collect();
+        Some(Pull { targets: scorer.shape.points(&ahead), scales })
+    }
+
+    /// Looks for limbs anew: another one every frame, and all where the frame is worth less than the `most` of others. What was found and
+    /// not `chosen`.
+    fn mended(
+        &self,
+        scorer: &mut Scorer<'_>,
+        index: usize,
+        chosen: &mut Candidate,
+        most: f64,
+    ) -> Result<Vec<Candidate>> {
+        let mut others = Vec::new();
+        let is_poor = chosen.worth < most - POOR;
+        let mut is_anew = is_poor;
+        let count = self.limbs.count();
+        for limb in (0..count).filter(|&limb| is_poor || limb == index % count) {
+            let elsewhere = self.limbs.anywhere(scorer, index, limb, &chosen.pose, self.turn(10 + limb as u64))?;
+            if elsewhere.worth > chosen.worth + CONVINCING {
+                others.push(std::mem::replace(chosen, elsewhere));
+                is_anew = true;
+            } else {
+                others.push(elsewhere);
+            }
+        }
+        if is_anew {
+            let generations = scorer.generations(ANEW);
+            let effort = Effort { spread: self.steps, generations, turn: self.turn(1) };
+            let pose = scorer.search_all(index, &chosen.pose, effort, None)?.pose;
+            let settled = scorer.candidate(pose)?;
+            if settled.worth > chosen.worth {
+                others.push(std::mem::replace(chosen, settled));
+            }
+        }
+        Ok(others)
+    }
+}
+
+/// The index of the candidate that is worth most under a pull.
+pub(super) fn most_under(candidates: &[Candidate], pull: Option<&Pull>) -> usize {
+    let worth = |candidate: &Candidate| candidate.worth - pull.map_or(0.0, |pull| pull.cost(&candidate.points));
+    let mut best = (f64::NEG_INFINITY, 0);
+    for (at, candidate) in candidates.iter().enumerate() {
+        let worth = worth(candidate);
+        if worth > best.0 {
+            best = (worth, at);
+        }
+    }
+    best.1
+}
+
+fn is_different(one: &Candidate, other: &Candidate) -> bool {
+    one.points.iter().zip(&other.points).any(|(a, b)| a.distance_squared(*b) > DIFFERENT * DIFFERENT)
+}
