@@ -34,6 +34,7 @@ impl Study {
                                             seed,
                                             frames: frames.clone(),
                                             spread,
+                                            passes: self.passes,
                                         });
                                     }
                                 }

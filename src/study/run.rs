@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
 use crate::search::SearchKind;
-use crate::track::Backend;
+use crate::track::{Backend, Passes};
 
 /// One run: everything that decides what it yields.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -31,6 +31,9 @@ pub struct Run {
     pub frames: String,
     /// Factor on the width of the search round the previous pose.
     pub spread: f64,
+    /// How often it goes over its frames, if not as it suits the search.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub passes: Option<Passes>,
 }
 
 impl Run {

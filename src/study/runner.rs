@@ -14,7 +14,7 @@ use super::settings::Study;
 use super::tables::{self, Table};
 use crate::files::OutputFolder;
 use crate::search::SearchSettings;
-use crate::track::{self, ObjectiveChoice, TrackSettings, TrackSummary, track};
+use crate::track::{self, ObjectiveChoice, Passes, TrackSettings, TrackSummary, track};
 
 /// A finished run's file in its folder.
 const ROW: &str = "row.json";
@@ -115,12 +115,14 @@ fn finished(run: &Run, output: &OutputFolder) -> Result<Option<Row>> {
     let row: Row = serde_json::from_str(&text).with_context(|| format!("{} is no row of a study", path.display()))?;
     if row.run != *run {
         bail!(
-            "{} was made with frames {} and spread {}, expected {} and {}: choose another folder for another study",
+            "{} was made with frames {}, spread {} and passes {}, expected {}, {} and {}: choose another folder for another study",
             path.display(),
             row.run.frames,
             row.run.spread,
+            row.run.passes.map_or("unset", Passes::name),
             run.frames,
-            run.spread
+            run.spread,
+            run.passes.map_or("unset", Passes::name)
         );
     }
     Ok(Some(row))
@@ -169,6 +171,7 @@ fn settings(run: &Run, folder: &Path) -> Result<TrackSettings> {
             ..SearchSettings::default()
         },
         spread: run.spread,
+        passes: run.passes,
         frames: run.frames.parse()?,
         overlay_every: 0,
         resume: folder.join(BEGUN).exists(),

@@ -12,7 +12,7 @@ use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
 use crate::files::{parse_toml, read_toml};
 use crate::search::{SearchKind, SearchSettings};
-use crate::track::{Backend, FrameRange};
+use crate::track::{Backend, FrameRange, Passes};
 
 /// More runs than anyone waits for are a slip of the pen.
 const MOST_RUNS: usize = 100_000;
@@ -46,6 +46,8 @@ pub struct Study {
     /// Factor on the width of the search round the previous pose.
     #[serde(default = "default_spread")]
     pub spread: f64,
+    /// How often runs go over their frames, if not as it suits their search.
+    pub passes: Option<Passes>,
     /// What is tracked; with a lottery also its scenes, behind these.
     #[serde(default, rename = "sequence")]
     pub sequences: Vec<SequenceSettings>,
