@@ -15,8 +15,8 @@ use crate::files::{OutputFolder, Overwrite};
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::{STALL_TIMEOUT, Sequence};
 use crate::track::{
-    Backend, FrameDone, FrameRange, Passes, Prediction, Progress, RealtimeSummary, RunStart, TrackSettings,
-    TrackSummary, Width, track,
+    Backend, FrameDone, FrameRange, Passes, PersonSummary, Prediction, Progress, RealtimeSummary, RunStart,
+    TrackSettings, TrackSummary, Width, track, track_people,
 };
 
 /// Tracks a person through a sequence: poses, joints and markers over time (CSV, TRC, C3D, BVH), how far they can be
@@ -159,9 +159,20 @@ pub(super) fn run(args: &TrackArgs) -> Result<()> {
         OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?
     };
     let mut bar = TrackProgress::new()?;
+    if !sequence.people.is_empty() {
+        let people = track_people(&sequence, &settings, &output, &mut bar);
+        bar.clear();
+        return print_people(&people?, args);
+    }
     let summary = track(&sequence, &settings, &output, &mut bar);
     bar.clear();
     let summary = summary?;
+    check_ended(&summary, args)?;
+    print_summary(&summary, &args.output, args.rerun);
+    Ok(())
+}
+
+fn check_ended(summary: &TrackSummary, args: &TrackArgs) -> Result<()> {
     if let Some(next) = summary.stopped_before {
         bail!(
             "stopped before frame {next}, {} frames are safe in {}: run the same command with --resume to go on",
@@ -169,7 +180,18 @@ pub(super) fn run(args: &TrackArgs) -> Result<()> {
             args.output.display()
         );
     }
-    print_summary(&summary, &args.output, args.rerun);
+    Ok(())
+}
+
+/// What the user sees of several people.
+fn print_people(people: &[PersonSummary], args: &TrackArgs) -> Result<()> {
+    for PersonSummary { summary, .. } in people {
+        check_ended(summary, args)?;
+    }
+    for PersonSummary { name, summary } in people {
+        println!("{name}:");
+        print_summary(summary, &args.output.join(name), args.rerun);
+    }
     Ok(())
 }
 

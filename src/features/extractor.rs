@@ -243,27 +243,12 @@ impl Extractor {
         })
     }
 
-    /// Has pixels of a frame's features count neither for nor against a candidate: no silhouette is there and no edge, so that none
-    /// of their edges is near a pixel that counts. One mask a view, or none.
+    /// Has pixels of a frame's features count neither for nor against a candidate, as [`Ignoring::apply`].
     ///
     /// # Errors
-    /// When there are not as many masks as views, or one is of another size.
+    /// As there.
     pub fn ignore(&self, features: &mut [ViewFeatures], ignored: &[Option<Arc<BitImage>>]) -> Result<()> {
-        if ignored.len() != features.len() {
-            bail!(
-                "{} views were given {} masks of ignored pixels or gaps, expected one each",
-                features.len(),
-                ignored.len()
-            );
-        }
-        features.par_iter_mut().zip(ignored).try_for_each(|(features, ignored)| {
-            let Some(ignored) = ignored else { return Ok(()) };
-            features.silhouette.and_not(ignored);
-            find_region(&self.settings, features);
-            features.edges.and_not(ignored);
-            measure_edges(&self.settings, &self.proximity, features);
-            features.observation.ignore(ignored)
-        })
+        apply(&self.settings, &self.proximity, features, ignored)
     }
 
     fn check_frame(&self, pictures: &[RgbImage], masks: Option<&[Option<GrayImage>]>) -> Result<()> {
@@ -284,6 +269,52 @@ impl Extractor {
         }
         Ok(())
     }
+}
+
+/// Leaves pixels out of features that are made already.
+#[derive(Clone, Debug)]
+pub struct Ignoring {
+    settings: FeatureSettings,
+    proximity: Vec<u8>,
+}
+
+impl Ignoring {
+    /// For features of these settings.
+    pub fn new(settings: &FeatureSettings) -> Self {
+        Self { settings: settings.clone(), proximity: settings.proximity.table(settings.distance.metric) }
+    }
+
+    /// Has pixels of a frame's features count neither for nor against a candidate: no silhouette is there and no edge, so that none of
+    /// their edges is near a pixel that counts. One mask a view, or none.
+    ///
+    /// # Errors
+    /// When there are not as many masks as views, or one is of another size.
+    pub fn apply(&self, features: &mut [ViewFeatures], ignored: &[Option<Arc<BitImage>>]) -> Result<()> {
+        apply(&self.settings, &self.proximity, features, ignored)
+    }
+}
+
+fn apply(
+    settings: &FeatureSettings,
+    proximity: &[u8],
+    features: &mut [ViewFeatures],
+    ignored: &[Option<Arc<BitImage>>],
+) -> Result<()> {
+    if ignored.len() != features.len() {
+        bail!(
+            "{} views were given {} masks of ignored pixels or gaps, expected one each",
+            features.len(),
+            ignored.len()
+        );
+    }
+    features.par_iter_mut().zip(ignored).try_for_each(|(features, ignored)| {
+        let Some(ignored) = ignored else { return Ok(()) };
+        features.silhouette.and_not(ignored);
+        find_region(settings, features);
+        features.edges.and_not(ignored);
+        measure_edges(settings, proximity, features);
+        features.observation.ignore(ignored)
+    })
 }
 
 fn same_size(what: &str, view: usize, found: (u32, u32), expected: (u32, u32)) -> Result<()> {

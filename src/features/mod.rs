@@ -32,7 +32,7 @@ pub use bit_image::BitImage;
 pub use distance::{DistanceMap, Metric};
 pub use edges::{EdgeSettings, Magnitude, Operator};
 pub use evidence::{Evidence, PartClasses};
-pub use extractor::{Extractor, ViewSource};
+pub use extractor::{Extractor, Ignoring, ViewSource};
 pub use likelihood::Likelihood;
 pub use mixture::{Adaptation, MixtureSettings};
 pub use morphology::Shape;

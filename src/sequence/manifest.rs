@@ -9,6 +9,7 @@ use super::calibration::read_cameras;
 use super::coverage::check_coverage;
 use super::ignored::Ignored;
 use super::live_options;
+use super::person::{Person, PersonTable, check_names};
 use super::pictures::{PicturePattern, picture_size, shown};
 use super::source::{LiveSource, Source};
 use super::video::{VideoInfo, probe_video};
@@ -32,7 +33,9 @@ pub struct Sequence {
     pub cameras: Vec<Camera>,
     /// The views' working sizes, pixels, width then height: the stored size times `scale`, rounded, at least 1.
     pub sizes: Vec<[u32; 2]>,
-    /// The body file; one that is yet to be made where [`Self::needs_body`].
+    /// The people where several are tracked ([`Self::of_person`]); else none, and the person is this sequence's own.
+    pub people: Vec<Person>,
+    /// The body file, the first person's where there are several; one that is yet to be made where [`Self::needs_body`].
     pub body: PathBuf,
     /// The height of the person, mm, where the manifest tells it.
     pub height: Option<f64>,
@@ -89,6 +92,8 @@ struct ManifestFile {
     scale: f64,
     #[serde(default)]
     view: Vec<ViewTable>,
+    #[serde(default)]
+    person: Vec<PersonTable>,
     objective: Option<toml::Table>,
     features: Option<toml::Table>,
 }
@@ -117,7 +122,13 @@ impl ManifestFile {
         if !(self.scale > 0.0 && self.scale <= 1.0) {
             bail!("{name}: scale is {}, expected more than 0 and at most 1", self.scale);
         }
-        if self.body.is_none() && self.height.is_none() {
+        let own = [("body", self.body.is_some()), ("start", self.start.is_some()), ("truth", self.truth.is_some())];
+        let own = own.into_iter().chain([("height", self.height.is_some())]).find(|(_, is_there)| *is_there);
+        if let (Some((key, _)), false) = (own, self.person.is_empty()) {
+            bail!("{name} has `{key}` and [[person]], expected a `body` and `start` in each [[person]] alone");
+        }
+        check_names(&self.person, name)?;
+        if self.body.is_none() && self.height.is_none() && self.person.is_empty() {
             bail!(
                 "{name} has neither `body` nor `height`, expected the file of the person's body or how tall the person is, mm"
             );
@@ -192,6 +203,13 @@ impl Sequence {
         !self.names_body
     }
 
+    /// The same sequence with one of its people alone.
+    #[must_use]
+    pub fn of_person(&self, person: &Person) -> Self {
+        let Person { body, start, truth, .. } = person.clone();
+        Self { people: Vec::new(), body, start: Some(start), truth, ..self.clone() }
+    }
+
     /// As [`Self::open`], but the files of the body and the start pose may be yet to be made.
     ///
     /// # Errors
@@ -219,10 +237,15 @@ impl Sequence {
         let fitted = |key: &str, relative: &Path| -> Result<PathBuf> {
             if is_fitted { existing(key, relative) } else { Ok(dir.join(relative)) }
         };
-        let names_body = file.body.is_some();
+        let people = file.person.iter().map(|person| person.open(&existing)).collect::<Result<Vec<Person>>>()?;
+        let first = people.first();
+        let names_body = file.body.is_some() || first.is_some();
         let body = file.body.as_deref().map_or_else(|| Ok(dir.join("body.toml")), |body| fitted("body", body))?;
         let start = file.start.as_deref().map(|start| fitted("start", start)).transpose()?;
         let truth = file.truth.as_deref().map(|truth| existing("truth", truth)).transpose()?;
+        let body = first.map_or(body, |person| person.body.clone());
+        let start = first.map(|person| person.start.clone()).or(start);
+        let truth = first.and_then(|person| person.truth.clone()).or(truth);
         let calibrated = read_cameras(&cameras_path)?;
 
         let mut opened = Vec::new();
@@ -248,6 +271,7 @@ impl Sequence {
             scale: file.scale,
             cameras,
             sizes,
+            people,
             body,
             height: file.height,
             names_body,

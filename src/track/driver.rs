@@ -2,17 +2,17 @@
 
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, ensure};
 use serde_json::json;
 
 use super::appearance::RunAppearance;
 use super::confidence::{Confidence, JointProbe, LossRule};
-use super::feed::Prepared;
+use super::feed::{Frames, Prepared};
 use super::hindsight::Hindsight;
 use super::journal::{Extent, FrameResult, Journal};
 use super::motion::LearntMotion;
 use super::overlay::Overlay;
-use super::pace::{Finished, Offline, Pace};
+use super::pace::{Finished, Offline, Pace, Turn};
 use super::plan::Plan;
 use super::progress::{FrameDone, Progress, RunStart};
 use super::realtime::Realtime;
@@ -51,83 +51,15 @@ pub fn track(
     output: &OutputFolder,
     progress: &mut dyn Progress,
 ) -> Result<TrackSummary> {
+    ensure!(
+        sequence.people.is_empty(),
+        "{} has [[person]], and people who are tracked together are no part of this: expected `body` and `start` of one",
+        sequence.path.display()
+    );
     let (sequence, found) = with_start(sequence, settings, output)?;
-    let sequence = sequence.as_ref();
-    // What auto once chose is kept to: another machine, or a moment of noise, must not change a run midway.
-    let recorded = match settings.backend {
-        Backend::Auto if settings.resume => run_record::recorded_backend(output)?,
-        _ => None,
-    };
-    let mut plan = Plan::new(sequence, settings, recorded.unwrap_or(settings.backend))?;
-    if let Some(backend) = recorded {
-        plan.backend.reason = format!("{}, which this run began with", backend.name());
-    }
-    let mut warnings: Vec<String> = found.into_iter().collect();
-    let truth = match &sequence.truth {
-        Some(path) => Truth::read(path, &plan.body, sequence.fps)?.map_err(|why| warnings.push(why)).ok(),
-        None => None,
-    };
-    let record = RunRecord::new(sequence, settings, &plan)?;
-    let journal_path = output.path().join(Journal::NAME);
-    let (journal, done) = if settings.resume {
-        record.check_same(output)?;
-        let extent = Extent::of(&plan.body, &sequence.cameras);
-        let (journal, done) = Journal::resume(&journal_path, settings.numbering(plan.range.start), extent)?;
-        if settings.search.kind.carries_on() && !done.is_empty() && done.len() < plan.range.len() {
-            warnings.push(
-                "the particle filter carries its particles on, so the run begins at its first frame again".into(),
-            );
-            (Journal::create(&journal_path)?, Vec::new())
-        } else {
-            (journal, done)
-        }
-    } else {
-        folder::clear(output)?;
-        record.write(output)?;
-        (Journal::create(&journal_path)?, Vec::new())
-    };
-    warnings.extend(plan.search.note(plan.backend.evaluator.as_mut()));
-    let timings = Timings::new(&output.file("trace.json")?)?;
-    let pace: Box<dyn Pace> = match &settings.realtime {
-        Some(realtime) => {
-            Box::new(Realtime::new(sequence, settings, realtime, output, &plan.body, &mut plan.range, &done)?)
-        }
-        None => Box::new(Offline::new(settings)),
-    };
-    progress.start(&RunStart {
-        first_frame: plan.range.start,
-        frames: (!sequence.is_live()).then_some(plan.range.len()),
-        done: done.len(),
-        backend: plan.backend.reason.clone(),
-        warnings: warnings.clone(),
-    });
-    plan.backend.evaluator.measure_passes(settings.trace)?;
-    let confidence = Confidence::new(&plan.body, LossRule::default());
-    let recovery = Recovery::new(&plan.body, &sequence.cameras, &settings.search, &plan.space);
-    let recovery = settings.may_recover().then_some(recovery);
-    let probe = JointProbe::new(&plan.body, &sequence.cameras);
-    let is_learnt = plan.features.likelihoods;
-    let appearance = is_learnt.then(|| RunAppearance::new(&plan.body, &sequence.cameras));
-    let motion = LearntMotion::new(plan.space.spread(1.0 / sequence.fps)?, settings.prediction() == Prediction::Learnt);
-    let mut run = Run {
-        appearance,
-        lost: Vec::new(),
-        sequence,
-        settings,
-        output,
-        plan,
-        truth,
-        journal,
-        frames: Vec::new(),
-        done: 0,
-        timings,
-        confidence,
-        probe,
-        recovery,
-        pace,
-        is_stopped: false,
-        motion,
-    };
+    let planned = Planned::new(sequence.as_ref(), settings, output, found.into_iter().collect())?;
+    let Begun { mut run, record, done, warnings } = planned.begin()?;
+    progress.start(&run.start(done.len(), &warnings));
     run.take_over(done)?;
     let searched = run.search_all(progress).and_then(|()| run.look_back(progress));
     if !run.pace.ends_anywhere() || run.done == 0 {
@@ -141,16 +73,127 @@ pub fn track(
     finished
 }
 
-/// A run in work.
-struct Run<'a> {
+/// A run whose inputs are read and checked; nothing is written yet.
+pub(super) struct Planned<'a> {
     sequence: &'a Sequence,
     settings: &'a TrackSettings,
     output: &'a OutputFolder,
-    plan: Plan,
+    pub(super) plan: Plan,
+    truth: Option<Truth>,
+    record: RunRecord,
+    warnings: Vec<String>,
+}
+
+/// A run that begins: the frames that an earlier one did are not taken over yet.
+pub(super) struct Begun<'a> {
+    pub(super) run: Run<'a>,
+    pub(super) record: RunRecord,
+    pub(super) done: Vec<FrameResult>,
+    pub(super) warnings: Vec<String>,
+}
+
+impl<'a> Planned<'a> {
+    /// Reads everything that a run of one person needs.
+    ///
+    /// # Errors
+    /// Anything wrong with an input, named.
+    pub(super) fn new(
+        sequence: &'a Sequence,
+        settings: &'a TrackSettings,
+        output: &'a OutputFolder,
+        mut warnings: Vec<String>,
+    ) -> Result<Self> {
+        // What auto once chose is kept to: another machine, or a moment of noise, must not change a run midway.
+        let recorded = match settings.backend {
+            Backend::Auto if settings.resume => run_record::recorded_backend(output)?,
+            _ => None,
+        };
+        let mut plan = Plan::new(sequence, settings, recorded.unwrap_or(settings.backend))?;
+        if let Some(backend) = recorded {
+            plan.backend.reason = format!("{}, which this run began with", backend.name());
+        }
+        let truth = match &sequence.truth {
+            Some(path) => Truth::read(path, &plan.body, sequence.fps)?.map_err(|why| warnings.push(why)).ok(),
+            None => None,
+        };
+        let record = RunRecord::new(sequence, settings, &plan)?;
+        Ok(Self { sequence, settings, output, plan, truth, record, warnings })
+    }
+
+    /// Begins the run in its folder.
+    ///
+    /// # Errors
+    /// When a run cannot be gone on with, or the folder cannot be written.
+    pub(super) fn begin(self) -> Result<Begun<'a>> {
+        let Self { sequence, settings, output, mut plan, truth, record, mut warnings } = self;
+        let journal_path = output.path().join(Journal::NAME);
+        let (journal, done) = if settings.resume {
+            record.check_same(output)?;
+            let extent = Extent::of(&plan.body, &sequence.cameras);
+            let (journal, done) = Journal::resume(&journal_path, settings.numbering(plan.range.start), extent)?;
+            if settings.search.kind.carries_on() && !done.is_empty() && done.len() < plan.range.len() {
+                warnings.push(
+                    "the particle filter carries its particles on, so the run begins at its first frame again".into(),
+                );
+                (Journal::create(&journal_path)?, Vec::new())
+            } else {
+                (journal, done)
+            }
+        } else {
+            folder::clear(output)?;
+            record.write(output)?;
+            (Journal::create(&journal_path)?, Vec::new())
+        };
+        warnings.extend(plan.search.note(plan.backend.evaluator.as_mut()));
+        let timings = Timings::new(&output.file("trace.json")?)?;
+        let pace: Box<dyn Pace> = match &settings.realtime {
+            Some(realtime) => {
+                Box::new(Realtime::new(sequence, settings, realtime, output, &plan.body, &mut plan.range, &done)?)
+            }
+            None => Box::new(Offline::new(settings)),
+        };
+        plan.backend.evaluator.measure_passes(settings.trace)?;
+        let confidence = Confidence::new(&plan.body, LossRule::default());
+        let recovery = Recovery::new(&plan.body, &sequence.cameras, &settings.search, &plan.space);
+        let recovery = settings.may_recover().then_some(recovery);
+        let probe = JointProbe::new(&plan.body, &sequence.cameras);
+        let is_learnt = plan.features.likelihoods;
+        let appearance = is_learnt.then(|| RunAppearance::new(&plan.body, &sequence.cameras));
+        let motion =
+            LearntMotion::new(plan.space.spread(1.0 / sequence.fps)?, settings.prediction() == Prediction::Learnt);
+        let run = Run {
+            appearance,
+            lost: Vec::new(),
+            sequence,
+            settings,
+            output,
+            plan,
+            truth,
+            journal,
+            frames: Vec::new(),
+            done: 0,
+            timings,
+            confidence,
+            probe,
+            recovery,
+            pace,
+            is_stopped: false,
+            motion,
+        };
+        Ok(Begun { run, record, done, warnings })
+    }
+}
+
+/// A run in work.
+pub(super) struct Run<'a> {
+    sequence: &'a Sequence,
+    settings: &'a TrackSettings,
+    output: &'a OutputFolder,
+    pub(super) plan: Plan,
     truth: Option<Truth>,
     journal: Journal,
     /// The frames done that the pace keeps in memory.
-    frames: Vec<FrameResult>,
+    pub(super) frames: Vec<FrameResult>,
     /// How many are done.
     done: usize,
     timings: Timings,
@@ -171,8 +214,19 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
+    /// How it begins, after so many frames that an earlier run did.
+    pub(super) fn start(&self, done: usize, warnings: &[String]) -> RunStart {
+        RunStart {
+            first_frame: self.plan.range.start,
+            frames: (!self.sequence.is_live()).then_some(self.plan.range.len()),
+            done,
+            backend: self.plan.backend.reason.clone(),
+            warnings: warnings.to_vec(),
+        }
+    }
+
     /// Frames that an earlier run did.
-    fn take_over(&mut self, done: Vec<FrameResult>) -> Result<()> {
+    pub(super) fn take_over(&mut self, done: Vec<FrameResult>) -> Result<()> {
         let name = self.journal_name();
         for result in done {
             let values: Vec<f64> = result.pose.iter().map(|value| f64::from(*value)).collect();
@@ -204,7 +258,7 @@ impl Run<'_> {
         self.output.path().join(Journal::NAME).display().to_string()
     }
 
-    fn next_frame(&self) -> usize {
+    pub(super) fn next_frame(&self) -> usize {
         self.frames.last().map_or(self.plan.range.start, |last| last.frame + 1)
     }
 
@@ -235,40 +289,16 @@ impl Run<'_> {
             let Some(mut prepared) = feed.next()? else { break };
             let waited = Span::since(start);
             let frame = prepared.index;
-            if let Some(appearance) = &self.appearance {
-                let start = Instant::now();
-                appearance.observe(&mut prepared)?;
-                if frame >= next {
-                    self.timings.record("evidence", Thread::Search, frame, Span::since(start))?;
-                }
-            }
+            self.observe(&mut prepared)?;
             if frame < next {
                 let result = self.frames.get(frame - self.plan.range.start).cloned();
                 result.map_or(Ok(()), |result| self.learn(&prepared, &result))?;
                 continue;
             }
-            self.timings.record("read", Thread::Features, frame, prepared.read)?;
-            self.timings.record("features", Thread::Features, frame, prepared.features)?;
-            self.timings.record("wait", Thread::Search, frame, waited)?;
-            let result = self.search(&prepared).map_err(|error| self.how_to_go_on(frame, error))?;
-            let start = Instant::now();
-            // The second pass draws its own.
-            let is_last = self.settings.passes() == Passes::Forward;
-            if is_last && self.settings.overlay_every > 0 && frame.is_multiple_of(self.settings.overlay_every) {
-                let body = self.plan.body.clone();
-                let overlay = Overlay::new(&body, self.plan.mesh.as_ref(), &self.sequence.cameras)?;
-                overlay.write(self.output, frame, &prepared.pictures, &result.pose)?;
-            }
-            self.journal.append(&result)?;
-            self.pace.deliver(&self.plan.body, &result, prepared.captured)?;
-            self.timings.record("output", Thread::Search, frame, Span::since(start))?;
-            let (confidence, mean_error) = self.judge(&result);
-            let fitness = result.fitness;
-            self.learn(&prepared, &result)?;
-            self.keep(result);
-            self.pace.judge(fitness, confidence);
-            let done = frame + 1 - self.plan.range.start;
-            progress.frame(&FrameDone { frame, done, fitness, confidence, mean_error });
+            self.note_features(&prepared, waited)?;
+            let result = self.search(&prepared)?;
+            let done = self.finish_frame(&prepared, result)?;
+            progress.frame(&done);
             if progress.should_stop() {
                 break;
             }
@@ -278,11 +308,21 @@ impl Run<'_> {
 
     /// Goes over all frames again, now that what comes after each is known; not where the run was stopped before its last.
     fn look_back(&mut self, progress: &mut dyn Progress) -> Result<()> {
-        if self.settings.passes() == Passes::Forward || self.next_frame() < self.plan.range.end {
+        if !self.looks_back() {
             return Ok(());
         }
-        let start = Instant::now();
         let mut feed = self.pace.feed(self.sequence, &self.plan, self.plan.range.start)?;
+        self.look_back_over(feed.as_mut(), progress)
+    }
+
+    /// Whether all frames are done and are to be gone over again.
+    pub(super) fn looks_back(&self) -> bool {
+        self.settings.passes() != Passes::Forward && self.next_frame() >= self.plan.range.end
+    }
+
+    /// Goes over all frames again as `feed` shows them.
+    pub(super) fn look_back_over(&mut self, feed: &mut dyn Frames, progress: &mut dyn Progress) -> Result<()> {
+        let start = Instant::now();
         let body = self.plan.body.clone();
         let overlay = Overlay::new(&body, self.plan.mesh.as_ref(), &self.sequence.cameras)?;
         let hindsight = Hindsight {
@@ -292,7 +332,7 @@ impl Run<'_> {
             pictures_every: self.settings.overlay_every,
         };
         let mut results = Vec::with_capacity(self.frames.len());
-        hindsight.look_back(feed.as_mut(), self.appearance.as_ref(), &self.frames, &mut |result, pictures| {
+        hindsight.look_back(feed, self.appearance.as_ref(), &self.frames, &mut |result, pictures| {
             if let Some(pictures) = pictures {
                 overlay.write(self.output, result.frame, pictures, &result.pose)?;
             }
@@ -313,8 +353,49 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// Takes note of how long a frame's features took.
+    pub(super) fn note_features(&mut self, prepared: &Prepared, waited: Span) -> Result<()> {
+        let frame = prepared.index;
+        self.timings.record("read", Thread::Features, frame, prepared.read)?;
+        self.timings.record("features", Thread::Features, frame, prepared.features)?;
+        self.timings.record("wait", Thread::Search, frame, waited)
+    }
+
+    /// Gives a frame's observations the evidence of the person's colours, where poses are compared by evidence.
+    pub(super) fn observe(&mut self, prepared: &mut Prepared) -> Result<()> {
+        let Some(appearance) = &self.appearance else { return Ok(()) };
+        let start = Instant::now();
+        appearance.observe(prepared)?;
+        if prepared.index < self.next_frame() {
+            // Of a frame that an earlier run did.
+            return Ok(());
+        }
+        self.timings.record("evidence", Thread::Search, prepared.index, Span::since(start))
+    }
+
+    /// Keeps a frame's result, gives it out and learns from it.
+    pub(super) fn finish_frame(&mut self, prepared: &Prepared, result: FrameResult) -> Result<FrameDone> {
+        let frame = prepared.index;
+        let start = Instant::now();
+        // The second pass draws its own.
+        let is_last = self.settings.passes() == Passes::Forward;
+        if is_last && self.settings.overlay_every > 0 && frame.is_multiple_of(self.settings.overlay_every) {
+            let overlay = Overlay::new(&self.plan.body, self.plan.mesh.as_ref(), &self.sequence.cameras)?;
+            overlay.write(self.output, frame, &prepared.pictures, &result.pose)?;
+        }
+        self.journal.append(&result)?;
+        self.pace.deliver(&self.plan.body, &result, prepared.captured)?;
+        self.timings.record("output", Thread::Search, frame, Span::since(start))?;
+        let (confidence, mean_error) = self.judge(&result);
+        let fitness = result.fitness;
+        self.learn(prepared, &result)?;
+        self.keep(result);
+        self.pace.judge(fitness, confidence);
+        Ok(FrameDone { frame, done: frame + 1 - self.plan.range.start, fitness, confidence, mean_error })
+    }
+
     /// Learns the person's colours from a frame, unless she is lost in it.
-    fn learn(&mut self, prepared: &Prepared, result: &FrameResult) -> Result<()> {
+    pub(super) fn learn(&mut self, prepared: &Prepared, result: &FrameResult) -> Result<()> {
         match &mut self.appearance {
             Some(appearance) if !self.lost.contains(&result.frame) => {
                 appearance.learn(result.frame.saturating_sub(self.plan.range.start), prepared, &result.pose)
@@ -334,8 +415,53 @@ impl Run<'_> {
         )
     }
 
+    /// Where a frame's search starts.
+    fn predicted(&self, turn: &Turn) -> Vec<f32> {
+        let Plan { start, space, .. } = &self.plan;
+        match &*self.frames {
+            _ if turn.starts_anew => start.clone(),
+            [] => start.clone(),
+            [.., last] if self.settings.prediction() == Prediction::Learnt => {
+                let mut pose = self.motion.start(&last.pose, turn.widen);
+                space.clamp(&mut pose);
+                pose
+            }
+            [only] => only.pose.clone(),
+            [.., earlier, last] => self.settings.prediction().start(space, &last.pose, Some(&earlier.pose)),
+        }
+    }
+
+    /// Where a frame shows her as far as is known before it is searched; none while she is lost.
+    pub(super) fn expected(&self, prepared: &Prepared) -> Option<Vec<f32>> {
+        let before = self.frames.last().map(|result| result.frame);
+        let is_lost = self.lost.last().is_some_and(|lost| Some(*lost) == before);
+        let turn = self.pace.turn(prepared, before, self.sequence.fps);
+        (!is_lost).then(|| self.predicted(&turn))
+    }
+
+    /// Where a result shows her; nowhere where it is a loss.
+    pub(super) fn shown(&self, result: &FrameResult) -> Option<Vec<f32>> {
+        let is_done = result.frame < self.next_frame();
+        let is_lost = if is_done { self.lost.contains(&result.frame) } else { self.confidence.is_loss_at(result) };
+        (!is_lost).then(|| result.pose.clone())
+    }
+
+    /// Forgets all but the first `count` of the frames that an earlier run did.
+    pub(super) fn go_back_to(&mut self, done: &mut Vec<FrameResult>, count: usize) -> Result<()> {
+        if done.len() > count {
+            done.truncate(count);
+            self.journal = Journal::create(&self.output.path().join(Journal::NAME))?;
+            done.iter().try_for_each(|result| self.journal.append(result))?;
+        }
+        Ok(())
+    }
+
     /// One frame: its search round the frame before, and the terms of the result in every view.
-    fn search(&mut self, prepared: &Prepared) -> Result<FrameResult> {
+    pub(super) fn search(&mut self, prepared: &Prepared) -> Result<FrameResult> {
+        self.search_frame(prepared).map_err(|error| self.how_to_go_on(prepared.index, error))
+    }
+
+    fn search_frame(&mut self, prepared: &Prepared) -> Result<FrameResult> {
         let frame = prepared.index;
         let begin = Instant::now();
         let before = self.frames.last().map(|result| result.frame);
@@ -349,18 +475,8 @@ impl Run<'_> {
         }
         let [particles, iterations] = turn.size;
         self.plan.resize(particles, iterations)?;
-        let Plan { start, objective, backend, search, space, .. } = &mut self.plan;
-        let predicted = match &*self.frames {
-            _ if turn.starts_anew => start.clone(),
-            [] => start.clone(),
-            [.., last] if self.settings.prediction() == Prediction::Learnt => {
-                let mut pose = self.motion.start(&last.pose, turn.widen);
-                space.clamp(&mut pose);
-                pose
-            }
-            [only] => only.pose.clone(),
-            [.., earlier, last] => self.settings.prediction().start(space, &last.pose, Some(&earlier.pose)),
-        };
+        let predicted = self.predicted(&turn);
+        let Plan { objective, backend, search, .. } = &mut self.plan;
         let evaluator = backend.evaluator.as_mut();
         let counter =
             u32::try_from(frame).map_err(|_| anyhow!("frame {frame} is beyond the counters of the search"))?;
@@ -413,7 +529,7 @@ impl Run<'_> {
     }
 
     /// Writes the results, unless the run was stopped.
-    fn finish(self, record: &RunRecord, warnings: Vec<String>) -> Result<TrackSummary> {
+    pub(super) fn finish(self, record: &RunRecord, warnings: Vec<String>) -> Result<TrackSummary> {
         let (sequence, output, body) = (self.sequence, self.output, &self.plan.body);
         let next = self.next_frame();
         let is_stopped = self.is_stopped || next < self.plan.range.end;

@@ -9,7 +9,7 @@ use anyhow::{Context, Result, bail};
 use image::RgbImage;
 
 use super::timings::Span;
-use crate::features::{FeatureSettings, Likelihood, Observation};
+use crate::features::{FeatureSettings, Likelihood, Observation, ViewFeatures};
 use crate::observe::{Observer, take_likelihoods, take_observations};
 use crate::sequence::Sequence;
 
@@ -26,6 +26,8 @@ pub(super) struct Prepared {
     pub(super) observations: Vec<Observation>,
     /// How likely each pixel is as background, one a view; none where poses are not compared by evidence.
     pub(super) likelihoods: Vec<Likelihood>,
+    /// All features of every view but the likelihoods, where several people are told apart by them; else none.
+    pub(super) features_kept: Vec<ViewFeatures>,
     /// Waiting for the pictures.
     pub(super) read: Span,
     /// Making the features.
@@ -50,7 +52,7 @@ pub(super) struct Feed {
 }
 
 impl Feed {
-    /// Prepares the frames of `range`, handing over those from `from` on.
+    /// Prepares the frames of `range`, handing over those from `from` on, with all their features where `keeps_features` says so.
     ///
     /// # Errors
     /// As [`Observer::new`], or when the thread cannot be started.
@@ -60,10 +62,11 @@ impl Feed {
         range: Range<usize>,
         from: usize,
         stall_timeout: Duration,
+        keeps_features: bool,
     ) -> Result<Self> {
         let observer = Observer::new(sequence, settings, range, from)?.with_stall_timeout(stall_timeout);
         let (sender, frames) = sync_channel(AHEAD);
-        let mut worker = Worker { observer, from };
+        let mut worker = Worker { observer, from, keeps_features };
         let thread = thread::Builder::new()
             .name("features".to_string())
             .spawn(move || worker.run(&sender))
@@ -101,6 +104,7 @@ impl Drop for Feed {
 struct Worker {
     observer: Observer,
     from: usize,
+    keeps_features: bool,
 }
 
 impl Worker {
@@ -124,10 +128,13 @@ impl Worker {
             let start = Instant::now();
             let Some(features) = self.observer.features(&frame, frame.index >= self.from)? else { continue };
             let made = Span::since(start);
+            let likelihoods = take_likelihoods(features);
+            let features_kept = if self.keeps_features { features.to_vec() } else { Vec::new() };
             return Ok(Some(Prepared {
                 index: frame.index,
                 observations: take_observations(features),
-                likelihoods: take_likelihoods(features),
+                likelihoods,
+                features_kept,
                 pictures: frame.pictures,
                 read,
                 features: made,

@@ -123,7 +123,7 @@ impl Offline {
 impl Pace for Offline {
     fn feed(&self, sequence: &Sequence, plan: &Plan, next: usize) -> Result<Box<dyn Frames>> {
         let Plan { features, range, .. } = plan;
-        Ok(Box::new(Feed::start(sequence, features.clone(), range.clone(), next, self.stall_timeout)?))
+        Ok(Box::new(Feed::start(sequence, features.clone(), range.clone(), next, self.stall_timeout, false)?))
     }
 
     fn turn(&self, _: &Prepared, before: Option<usize>, _: f64) -> Turn {

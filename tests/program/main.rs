@@ -24,6 +24,7 @@ mod features;
 mod losses;
 mod observe;
 mod obstacles;
+mod people;
 mod reliability;
 mod report_in_browser;
 #[cfg(feature = "rerun")]

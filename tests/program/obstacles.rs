@@ -79,6 +79,8 @@ fn error(folder: &Path, manifest: &str, objective: &str) -> f64 {
         "0",
         "--backend",
         "cpu",
+        "--passes",
+        "forward",
     ]);
     succeeded(&run);
     let text = stdout(&run);

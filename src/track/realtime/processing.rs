@@ -84,7 +84,8 @@ impl Processing {
             likelihoods.extend(likelihood);
         }
         let features = Span::since(begin);
-        Ok(Prepared { index, pictures, observations, likelihoods, read, features, captured: Some(at) })
+        let features_kept = Vec::new();
+        Ok(Prepared { index, pictures, observations, likelihoods, features_kept, read, features, captured: Some(at) })
     }
 }
 

@@ -1,0 +1,235 @@
+//! Several people of one sequence, tracked together frame by frame: the pictures are read once, and what shows one of them counts
+//! neither for nor against another (METHOD A8).
+
+use std::time::Instant;
+
+use anyhow::{Context, Result, bail, ensure};
+
+use super::crowd::Crowd;
+use super::driver::{Begun, Planned, Run};
+use super::feed::{Feed, Frames, Prepared};
+use super::journal::FrameResult;
+use super::progress::{FrameDone, Progress};
+use super::run_record::RunRecord;
+use super::summary::{TrackSummary, mean};
+use super::timings::Span;
+use super::{Backend, TrackSettings};
+use crate::body::Body;
+use crate::files::OutputFolder;
+use crate::sequence::Sequence;
+
+/// How often a frame is searched, the second time by where the first found the others.
+const ROUNDS: usize = 1;
+
+/// What a run yielded for one of several people.
+#[derive(Clone, Debug)]
+pub struct PersonSummary {
+    /// Her name, and that of her folder.
+    pub name: String,
+    /// What [`super::track`] yields for one person.
+    pub summary: TrackSummary,
+}
+
+/// Tracks the people of a sequence together and fills a folder of `output` for each, of her name, with what FORMATS calls a track's
+/// folder. In every frame a person's search is shown the pixels that nobody else explains, by where the others are expected.
+///
+/// With [`TrackSettings::resume`] it goes on from the last frame that all have.
+///
+/// # Errors
+/// As [`super::track`]; when the sequence has no [[person]], in real time, or when the settings name a start pose.
+pub fn track_people(
+    sequence: &Sequence,
+    settings: &TrackSettings,
+    output: &OutputFolder,
+    progress: &mut dyn Progress,
+) -> Result<Vec<PersonSummary>> {
+    let name = sequence.path.display();
+    ensure!(!sequence.people.is_empty(), "{name} has no [[person]], expected one or more to track together");
+    ensure!(
+        settings.realtime.is_none(),
+        "{name} has [[person]], and several people are not tracked in real time: leave out --realtime"
+    );
+    ensure!(settings.start.is_none(), "{name} has [[person]], each with a start of her own: leave out --start");
+    let alone: Vec<Sequence> = sequence.people.iter().map(|person| sequence.of_person(person)).collect();
+    let folders = sequence.people.iter().map(|person| OutputFolder::open(&output.path().join(&person.name)));
+    let folders = folders.collect::<Result<Vec<_>>>()?;
+    let [first_alone, other_alone @ ..] = alone.as_slice() else { bail!("{name} has no [[person]]") };
+    let first = Planned::new(first_alone, settings, &folders[0], Vec::new())?;
+    // What suits one suits all; it is not measured again.
+    let chosen = Backend::from_name(first.plan.backend.evaluator.name())?;
+    let others = TrackSettings { backend: chosen, ..settings.clone() };
+    let mut planned = vec![first];
+    for (alone, folder) in other_alone.iter().zip(&folders[1..]) {
+        let of_person = || format!("person {:?}", folder.path().file_name().unwrap_or_default());
+        planned.push(Planned::new(alone, &others, folder, Vec::new()).with_context(of_person)?);
+    }
+    let bodies: Vec<&Body> = planned.iter().map(|person| &person.plan.body).collect();
+    let crowd = Crowd::new(&bodies, &sequence.cameras, &planned[0].plan.features)?;
+    let begun = planned.into_iter().map(Planned::begin).collect::<Result<Vec<_>>>()?;
+    let done = begun.iter().map(|person| person.done.len()).min().unwrap_or(0);
+    let mut people = Vec::new();
+    for Begun { mut run, record, done: mut own, warnings } in begun {
+        run.go_back_to(&mut own, done)?;
+        if people.is_empty() {
+            progress.start(&run.start(done, &warnings));
+        }
+        run.take_over(own)?;
+        people.push(Tracked { run, record, warnings });
+    }
+    search_all(sequence, settings, &crowd, &mut people, progress)?;
+    look_back(sequence, settings, &crowd, &mut people, progress)?;
+    let named = people.into_iter().zip(&sequence.people);
+    let finish = |(Tracked { run, record, warnings }, person): (Tracked<'_>, &crate::sequence::Person)| {
+        let summary = run.finish(&record, warnings).with_context(|| format!("person {:?}", person.name))?;
+        Ok(PersonSummary { name: person.name.clone(), summary })
+    };
+    named.map(finish).collect()
+}
+
+/// One of the people, at work.
+struct Tracked<'a> {
+    run: Run<'a>,
+    record: RunRecord,
+    warnings: Vec<String>,
+}
+
+/// Searches the frames that are left, until the last or until asked to stop.
+fn search_all(
+    sequence: &Sequence,
+    settings: &TrackSettings,
+    crowd: &Crowd,
+    people: &mut [Tracked<'_>],
+    progress: &mut dyn Progress,
+) -> Result<()> {
+    let (range, features) = (people[0].run.plan.range.clone(), people[0].run.plan.features.clone());
+    let next = people[0].run.next_frame();
+    if next >= range.end {
+        return Ok(());
+    }
+    // Their colours are learnt again from the frames that an earlier run did.
+    let from = if features.likelihoods { range.start } else { next };
+    let mut feed = Feed::start(sequence, features, range.clone(), from, settings.stall_timeout, true)?;
+    loop {
+        let start = Instant::now();
+        let Some(mut prepared) = feed.next()? else { return Ok(()) };
+        let waited = Span::since(start);
+        if prepared.index < next {
+            let at = prepared.index - range.start;
+            let done = people.iter().filter_map(|person| person.run.frames.get(at).cloned()).collect();
+            settle(crowd, people, &mut prepared, done, |run, prepared, result| run.learn(prepared, result))?;
+            continue;
+        }
+        let results = search(crowd, people, &mut prepared, waited)?;
+        let mut done = Vec::new();
+        settle(crowd, people, &mut prepared, results, |run, prepared, result| {
+            done.push(run.finish_frame(prepared, result.clone())?);
+            Ok(())
+        })?;
+        progress.frame(&all_of(&done));
+        if progress.should_stop() {
+            return Ok(());
+        }
+    }
+}
+
+/// Goes over all frames again, a person after the other, now that what comes after each is known: each beside where the first pass found
+/// the others.
+fn look_back(
+    sequence: &Sequence,
+    settings: &TrackSettings,
+    crowd: &Crowd,
+    people: &mut [Tracked<'_>],
+    progress: &mut dyn Progress,
+) -> Result<()> {
+    if !people.iter().all(|person| person.run.looks_back()) {
+        return Ok(());
+    }
+    let found = people.iter().map(|person| {
+        let poses = person.run.frames.iter().map(|result| person.run.shown(result));
+        poses.collect::<Vec<Option<Vec<f32>>>>()
+    });
+    let found: Vec<_> = found.collect();
+    for (at, person) in people.iter_mut().enumerate() {
+        let (range, features) = (person.run.plan.range.clone(), person.run.plan.features.clone());
+        let feed = Feed::start(sequence, features, range.clone(), range.start, settings.stall_timeout, true)?;
+        let mut shares = Shares { feed, crowd, found: &found, first: range.start, person: at };
+        person.run.look_back_over(&mut shares, progress)?;
+    }
+    Ok(())
+}
+
+/// The frames as they are left to one of the people by where all were found.
+struct Shares<'a> {
+    feed: Feed,
+    crowd: &'a Crowd,
+    /// Where each person shows, `[person][frame]`.
+    found: &'a [Vec<Option<Vec<f32>>>],
+    first: usize,
+    person: usize,
+}
+
+impl Frames for Shares<'_> {
+    fn next(&mut self) -> Result<Option<Prepared>> {
+        let Some(mut prepared) = self.feed.next()? else { return Ok(None) };
+        let at = prepared.index - self.first;
+        let poses: Vec<_> = self.found.iter().map(|poses| poses.get(at).cloned().flatten()).collect();
+        self.crowd.share(&mut prepared, &self.crowd.owners(&poses), self.person)?;
+        Ok(Some(prepared))
+    }
+}
+
+/// Searches one frame for everybody, each by where the others are expected.
+fn search(
+    crowd: &Crowd,
+    people: &mut [Tracked<'_>],
+    prepared: &mut Prepared,
+    waited: Span,
+) -> Result<Vec<FrameResult>> {
+    let mut poses: Vec<Option<Vec<f32>>> = people.iter().map(|person| person.run.expected(prepared)).collect();
+    let mut results = Vec::new();
+    for round in 0..ROUNDS {
+        let owners = crowd.owners(&poses);
+        results.clear();
+        for (at, person) in people.iter_mut().enumerate() {
+            if round == 0 {
+                person.run.note_features(prepared, waited)?;
+            }
+            crowd.share(prepared, &owners, at)?;
+            person.run.observe(prepared)?;
+            results.push(person.run.search(prepared)?);
+        }
+        poses = people.iter().zip(&results).map(|(person, result)| person.run.shown(result)).collect();
+    }
+    Ok(results)
+}
+
+/// Hands every person's result on with the frame as the results leave it to her.
+fn settle(
+    crowd: &Crowd,
+    people: &mut [Tracked<'_>],
+    prepared: &mut Prepared,
+    results: Vec<FrameResult>,
+    mut take: impl FnMut(&mut Run<'_>, &Prepared, &FrameResult) -> Result<()>,
+) -> Result<()> {
+    let poses: Vec<Option<Vec<f32>>> =
+        people.iter().zip(&results).map(|(person, result)| person.run.shown(result)).collect();
+    let owners = crowd.owners(&poses);
+    for (at, (person, result)) in people.iter_mut().zip(&results).enumerate() {
+        crowd.share(prepared, &owners, at)?;
+        take(&mut person.run, prepared, result)?;
+    }
+    Ok(())
+}
+
+/// How a frame went on average.
+fn all_of(people: &[FrameDone]) -> FrameDone {
+    let [frame, done] = people.first().map_or([0, 0], |first| [first.frame, first.done]);
+    let errors: Option<Vec<f64>> = people.iter().map(|person| person.mean_error).collect();
+    FrameDone {
+        frame,
+        done,
+        fitness: mean(people.iter().map(|person| f64::from(person.fitness))) as f32,
+        confidence: mean(people.iter().map(|person| person.confidence)),
+        mean_error: errors.map(|errors| mean(errors.into_iter())),
+    }
+}

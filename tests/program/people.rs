@@ -1,0 +1,168 @@
+//! Several people of one sequence: `[[person]]`, each followed past the other, with a folder of her own.
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use image::{GrayImage, Luma, Rgb, RgbImage};
+use pantin::body::{Body, PoseTable};
+use pantin::evaluate::{Projector, draw_quads};
+use pantin::files::Overwrite;
+use pantin::motion::write_points;
+use pantin::sequence::write_cameras_toml;
+
+use super::support::{pantin, refused, stdout, succeeded};
+use super::walk;
+
+const FRAMES: usize = 12;
+const NAMES: [&str; 2] = ["anna", "ben"];
+
+/// Two people who walk past each other, an arm's length apart.
+fn write(folder: &Path) {
+    let bodies = [1750.0, 1650.0].map(|height| Body::adult(height).unwrap());
+    let pose = |person: usize, frame: usize| {
+        let body = &bodies[person];
+        let names = body.dof_names();
+        let index = |name: &str| names.iter().position(|dof| dof == name).unwrap();
+        let (sign, phase) = ([1.0, -1.0][person], 0.4 * frame as f64 + person as f64);
+        let mut pose = body.standing_pose();
+        pose[index("pelvis.tx")] += sign * 60.0 * (frame as f64 - 5.5);
+        pose[index("pelvis.ty")] += sign * 200.0;
+        pose[index("pelvis.rz")] += [0.0, std::f64::consts::PI][person];
+        for (side, sign) in [("left", 1.0), ("right", -1.0)] {
+            pose[index(&format!("{side}_hip.ry"))] += 0.4 * sign * phase.sin();
+            pose[index(&format!("{side}_knee.ry"))] += 0.2 * (1.0 + sign * phase.cos());
+            pose[index(&format!("{side}_shoulder.ry"))] -= 0.3 * sign * phase.sin();
+        }
+        body.clamp_to_limits(&mut pose);
+        pose
+    };
+    let cameras = walk::cameras();
+    write_cameras_toml(&folder.join("cameras.toml"), &cameras, Overwrite::Refuse).unwrap();
+    let mut people = String::new();
+    for (person, (name, body)) in NAMES.iter().zip(&bodies).enumerate() {
+        let own = folder.join(name);
+        fs::create_dir(&own).unwrap();
+        let table =
+            PoseTable { frames: (0..FRAMES).collect(), poses: (0..FRAMES).map(|frame| pose(person, frame)).collect() };
+        body.save(&own.join("body.toml"), Overwrite::Refuse).unwrap();
+        let start = PoseTable { frames: vec![0], poses: vec![table.poses[0].clone()] };
+        start.write(&own.join("start.csv"), Overwrite::Refuse, body).unwrap();
+        write_points(&own.join("truth.csv"), &body.joint_trajectory(&table, 25.0).unwrap(), Overwrite::Refuse).unwrap();
+        let files =
+            format!("body = \"{name}/body.toml\"\nstart = \"{name}/start.csv\"\ntruth = \"{name}/truth.csv\"\n");
+        people += &format!("[[person]]\nname = \"{name}\"\n{files}");
+        fs::write(folder.join(format!("{name}.toml")), files).unwrap();
+    }
+    fs::create_dir(folder.join("frames")).unwrap();
+    let projectors = bodies.each_ref().map(|body| Projector::new(body, &cameras));
+    let mut views = String::new();
+    for (view, camera) in cameras.iter().enumerate() {
+        let [width, height] = camera.size;
+        let name = &camera.name;
+        views += &format!(
+            "[[view]]\ncamera = \"{name}\"\nsource = \"frames/{name}_%04d.png\"\nmask = \"frames/{name}_mask_%04d.png\"\n"
+        );
+        for frame in 0..FRAMES {
+            let (mut quads, mut labels) = (Vec::new(), Vec::new());
+            for (person, projector) in projectors.iter().enumerate() {
+                let pose: Vec<f32> = pose(person, frame).iter().map(|value| *value as f32).collect();
+                quads.extend(projector.quads(&pose, view));
+                labels.extend(bodies[person].parts.iter().map(|part| part.label + 40 * person as u8));
+            }
+            let drawn = draw_quads(&quads, &labels, width, height);
+            let label = |x: u32, y: u32| drawn.bytes[(y * width + x) as usize] & 0x7f;
+            let picture = RgbImage::from_fn(width, height, |x, y| match label(x, y) {
+                0 => Rgb([40, 60, 50]),
+                label if label > 40 => Rgb([60 + 30 * (label % 3), 80, 250 - 9 * (label - 40)]),
+                label => Rgb([250 - 9 * label, 100 + 30 * (label % 5), 90]),
+            });
+            let mask = GrayImage::from_fn(width, height, |x, y| Luma([if label(x, y) > 0 { 255 } else { 0 }]));
+            picture.save(folder.join(format!("frames/{name}_{frame:04}.png"))).unwrap();
+            mask.save(folder.join(format!("frames/{name}_mask_{frame:04}.png"))).unwrap();
+        }
+    }
+    let head = "name = \"past\"\nfps = 25.0\ncameras = \"cameras.toml\"\n";
+    fs::write(folder.join("sequence.toml"), format!("{head}{people}{views}")).unwrap();
+    for name in NAMES {
+        let own = fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();
+        fs::write(folder.join(format!("{name}.toml")), format!("{head}{own}{views}")).unwrap();
+    }
+}
+
+fn track(folder: &Path, manifest: &str, output: &str, more: &[&str]) -> Output {
+    let [sequence, output] = [manifest, output].map(|name| folder.join(name).to_str().unwrap().to_owned());
+    let few =
+        ["--particles", "50", "--iterations", "8", "--overlay-every", "0", "--backend", "cpu", "--passes", "forward"];
+    pantin(&[&["track", &sequence, "-o", &output][..], &few, more].concat())
+}
+
+/// The errors that a run reports, mm.
+fn errors(run: &Output) -> Vec<f64> {
+    succeeded(run);
+    let text = stdout(run);
+    let errors = text.lines().filter_map(|line| line.strip_prefix("error "));
+    errors.map(|error| error.split_whitespace().next().unwrap().parse().unwrap()).collect()
+}
+
+#[test]
+fn two_people_are_followed_past_each_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    write(folder);
+    let together = errors(&track(folder, "sequence.toml", "together", &[]));
+    let alone =
+        ["anna", "ben"].map(|name| errors(&track(folder, &format!("{name}.toml"), &format!("alone_{name}"), &[]))[0]);
+    println!("together {together:?} mm, each alone {alone:?} mm");
+    assert!(together.len() == 2 && together.iter().all(|error| *error < 40.0), "{together:?}");
+    assert!(alone[0] + alone[1] > 1.5 * (together[0] + together[1]), "{alone:?} alone, {together:?} together");
+
+    // A folder each, with everything; gone on with, the same bytes, whoever was further.
+    let files = |name: &str| {
+        ["poses.csv", "journal.txt", "joints.csv", "confidence.csv"]
+            .map(|file| fs::read(folder.join("together").join(name).join(file)).unwrap())
+    };
+    let whole = NAMES.map(files);
+    assert!(whole[0] != whole[1]);
+    for file in ["report.html", "joints.trc", "motion.bvh", "run.toml", "stages.json"] {
+        assert!(NAMES.iter().all(|name| folder.join("together").join(name).join(file).is_file()), "{file}");
+    }
+    for (name, cut) in NAMES.iter().zip([5, 4]) {
+        let path = folder.join("together").join(name).join("journal.txt");
+        let journal = fs::read_to_string(&path).unwrap();
+        let lines: Vec<&str> = journal.split_inclusive('\n').collect();
+        fs::write(path, lines[..lines.len() - cut].concat()).unwrap();
+    }
+    succeeded(&track(folder, "sequence.toml", "together", &["--resume"]));
+    assert!(NAMES.map(files) == whole, "a run that went on differs");
+
+    // The second pass too sees each beside the other.
+    let both = ["--frames", "0..4", "--particles", "50", "--iterations", "4", "--overlay-every", "0"];
+    let paths = ["sequence.toml", "both"].map(|name| folder.join(name).to_str().unwrap().to_owned());
+    let both = errors(&pantin(&[&["track", &paths[0], "-o", &paths[1]][..], &both].concat()));
+    assert!(both.len() == 2 && both.iter().all(|error| *error < 60.0), "{both:?}");
+
+    let edited = |from: &str, to: &str| {
+        let text = fs::read_to_string(folder.join("sequence.toml")).unwrap();
+        assert!(text.contains(from));
+        fs::write(folder.join("edited.toml"), text.replacen(from, to, 1)).unwrap();
+        track(folder, "edited.toml", "refused", &["--force"])
+    };
+    refused(&edited("fps = 25.0", "fps = 25.0\nbody = \"anna/body.toml\""), &["edited.toml has `body` and [[person]]"]);
+    refused(
+        &edited("fps = 25.0", "fps = 25.0\nstart = \"anna/start.csv\""),
+        &["edited.toml has `start` and [[person]]"],
+    );
+    refused(&edited("name = \"ben\"", "name = \"Anna\""), &["two people are called \"Anna\""]);
+    refused(
+        &edited("name = \"ben\"", "name = \"../ben\""),
+        &["person 2 is \"../ben\"", "a name that a folder may have"],
+    );
+    refused(&edited("ben/start.csv", "ben/none.csv"), &["the start of person \"ben\"", "none.csv"]);
+    refused(&track(folder, "sequence.toml", "refused", &["--force", "--realtime"]), &["not tracked in real time"]);
+    let start = folder.join("anna/start.csv");
+    refused(
+        &track(folder, "sequence.toml", "refused", &["--force", "--start", start.to_str().unwrap()]),
+        &["each with a start of her own"],
+    );
+}
