@@ -21,6 +21,10 @@ impl Luminance {
         let y = 0.299 * r + 0.587 * g + 0.114 * b;
         Self { y, b: b - y, r: r - y }
     }
+
+    fn is_grey(&self) -> bool {
+        self.b.abs() <= GREY && self.r.abs() <= GREY
+    }
 }
 
 /// The least noise a channel, grey levels.
@@ -39,6 +43,8 @@ const PRIOR_PIXELS: f32 = 200.0;
 /// The darkest shadow and the brightest reflection, as multiples of the background's luma.
 const DARKEST: f32 = 0.45;
 const BRIGHTEST: f32 = 1.15;
+/// A camera sees in grey where no pixel's differences are larger than this, grey levels.
+const GREY: f32 = 2.5;
 /// How fast the density falls below 1 and above.
 const SHADOW_FALL: f32 = 0.12;
 const REFLECTION_FALL: f32 = 0.04;
@@ -58,6 +64,8 @@ pub(crate) struct BackgroundColours {
     log: Vec<f32>,
     /// The change of luma to the neighbours, grey levels.
     slopes: Vec<u8>,
+    /// Whether there is no colour in it.
+    is_grey: bool,
     /// What the last picture's noise and shadows make of every slope.
     of_light: OfLight,
 }
@@ -89,13 +97,15 @@ struct Light {
     /// Standard deviation a channel, grey levels.
     noise: [f32; 3],
     shadowed: f32,
+    /// Whether neither the picture nor the background has any colour: then luma alone tells them apart.
+    is_grey: bool,
 }
 
 impl Light {
-    fn new(noise: [f32; 3], shadowed: f32) -> Self {
+    fn new(noise: [f32; 3], shadowed: f32, is_grey: bool) -> Self {
         // Steps of an eighth of a grey level and of a factor of 1.19.
         let coarse = |shadowed: f32| 2.0_f32.powf((4.0 * shadowed.log2()).round() / 4.0);
-        Self { noise: noise.map(|noise| (8.0 * noise).round() / 8.0), shadowed: coarse(shadowed) }
+        Self { noise: noise.map(|noise| (8.0 * noise).round() / 8.0), shadowed: coarse(shadowed), is_grey }
     }
 }
 
@@ -105,6 +115,13 @@ pub(super) struct PictureLight {
     /// What to multiply the picture's channels with to have them in the background's light.
     dim: [f32; 3],
     light: Light,
+}
+
+impl PictureLight {
+    /// Whether neither the picture nor its background has any colour.
+    pub(super) fn is_grey(&self) -> bool {
+        self.light.is_grey
+    }
 }
 
 impl BackgroundColours {
@@ -131,6 +148,7 @@ impl BackgroundColours {
             inverse: bright().map(|bright| 1.0 / bright).collect(),
             log: bright().map(f32::ln).collect(),
             slopes,
+            is_grey: colours.iter().all(Luminance::is_grey),
             of_light: OfLight::default(),
         }
     }
@@ -141,6 +159,8 @@ impl BackgroundColours {
         let dim = gain.map(|gain| 1.0 / gain.max(1e-3));
         let mut deviations = [const { Vec::new() }; 3];
         let rows = || picture.as_raw().chunks_exact(self.width * 3).enumerate();
+        let pixels = || picture.as_raw().as_chunks::<3>().0.iter();
+        let is_grey = self.is_grey && pixels().all(|pixel| Luminance::of(pixel.map(f32::from)).is_grey());
         for (y, row) in rows().step_by(GRID) {
             for (x, seen) in row.as_chunks::<3>().0.iter().enumerate().step_by(GRID) {
                 let (colour, at) = (lit(*seen, dim), y * self.width + x);
@@ -158,7 +178,7 @@ impl BackgroundColours {
         }
         let (mut shadowed, mut all) = (SHADOWED * PRIOR_PIXELS, PRIOR_PIXELS);
         if let Some(near) = near {
-            let widths = widths(noise, SHADOWED);
+            let widths = widths(noise, SHADOWED, is_grey);
             let (columns, lines) = (near.x0 as usize..near.x1 as usize, near.y0 as usize..near.y1 as usize);
             for (y, row) in rows().take(lines.end).skip(lines.start).step_by(GRID / 2) {
                 for x in columns.clone().step_by(GRID / 2) {
@@ -173,7 +193,7 @@ impl BackgroundColours {
                 }
             }
         }
-        PictureLight { dim, light: Light::new(noise, (shadowed / all).clamp(0.02, 0.5)) }
+        PictureLight { dim, light: Light::new(noise, (shadowed / all).clamp(0.02, 0.5), is_grey) }
     }
 
     /// The log densities of the pixels of `region` of a picture as background; `planes` is room for one row's channels.
@@ -207,7 +227,7 @@ impl BackgroundColours {
 
 impl OfLight {
     fn set(&mut self, light: Light, slopes: &[u8]) {
-        let widths = widths(light.noise, light.shadowed);
+        let widths = widths(light.noise, light.shadowed, light.is_grey);
         let of = |value: &dyn Fn(&Widths) -> f32, plane: &mut Vec<f32>| {
             let values = widths.each_ref().map(value);
             plane.clear();
@@ -243,13 +263,22 @@ fn lit(seen: [u8; 3], dim: [f32; 3]) -> Luminance {
 }
 
 /// The constants for every slope, with this noise a channel and share of shadows.
-fn widths([y, b, r]: [f32; 3], shadowed: f32) -> [Widths; SLOPES] {
+fn widths([y, b, r]: [f32; 3], shadowed: f32, is_grey: bool) -> [Widths; SLOPES] {
     // A colour's cube in luma and differences is as large as in red, green and blue times the weight of green.
     let uniform = (256.0_f32.powi(3) * 0.587).ln();
     let normal = 0.5 * std::f32::consts::TAU.ln();
     std::array::from_fn(|slope| {
         let slope = slope as f32;
         let [vy, vc] = [y * y + (SLOPE[0] * slope).powi(2), b * r + (SLOPE[1] * slope).powi(2)];
+        if is_grey {
+            // Over the uniform density of greys.
+            return Widths {
+                y: 1.0 / vy,
+                c: 0.0,
+                lit: 256.0_f32.ln() - normal - 0.5 * vy.ln() + (1.0 - shadowed - OUTLIERS).ln(),
+                shadow: 256.0_f32.ln() + shadowed.ln(),
+            };
+        }
         Widths {
             y: 1.0 / vy,
             c: 1.0 / vc,
@@ -301,6 +330,29 @@ mod tests {
         assert!((11.0..13.0).contains(&at(5, 5)), "{}", at(5, 5));
         assert!(at(40, 30) > 4.0, "a shadow: {}", at(40, 30));
         assert!((at(20, 20) - OUTLIERS.ln()).abs() < 0.05, "neither: {}", at(20, 20));
+    }
+
+    #[test]
+    fn a_grey_camera_is_judged_by_luma_alone() {
+        let grey = |value: u32| image::Rgb([value as u8; 3]);
+        let plate = RgbImage::from_fn(64, 48, |x, _| grey(120 + x / 8));
+        let mut picture = plate.clone();
+        picture.put_pixel(20, 20, grey(60));
+        picture.put_pixel(40, 20, grey(112));
+        let judged = |picture: &RgbImage| {
+            let mut colours = BackgroundColours::new(&plate);
+            let light = colours.light(picture, [1.0; 3], None);
+            let mut densities = vec![0; 64 * 48];
+            colours.judge(picture, light, Region::whole(64, 48), &mut densities);
+            (light.is_grey(), [(5, 5), (20, 20), (40, 20)].map(|(x, y)| f32::from(densities[y * 64 + x]) / LOG_STEPS))
+        };
+        let (is_grey, [lit, dark, shaded]) = judged(&picture);
+        // What is half as bright is hardly a shadow, what is a little darker may well be one.
+        assert!(is_grey && lit > 3.0 && dark < -2.0 && shaded > -1.0, "{lit} {dark} {shaded}");
+        // With one coloured pixel the camera is no grey one, and no grey pixel of another colour than the wall's shadow.
+        picture.put_pixel(0, 0, image::Rgb([200, 20, 20]));
+        let (is_grey, [_, dark, _]) = judged(&picture);
+        assert!(!is_grey && dark > 3.0, "{dark}");
     }
 
     /// The formulas once more, in double precision and without tables.

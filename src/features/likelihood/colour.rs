@@ -16,6 +16,17 @@ impl ColourBin {
         Self(u16::from(r >> 4) << 8 | u16::from(g >> 4) << 4 | u16::from(b >> 4))
     }
 
+    /// The step of its luma among [`Self::SIDE`].
+    pub fn luma(self) -> usize {
+        let [r, g, b] = [self.0 >> 8, self.0 >> 4 & 15, self.0 & 15].map(usize::from);
+        (299 * r + 587 * g + 114 * b + 500) / 1000
+    }
+
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        (0..Self::COUNT as u16).map(Self)
+    }
+
     /// Its place in a table of [`Self::COUNT`] values, in which blue changes fastest.
     #[inline]
     pub fn index(self) -> usize {
@@ -33,5 +44,7 @@ mod tests {
         assert_eq!(ColourBin::of([15, 15, 15]).index(), 0);
         assert_eq!(ColourBin::of([16, 0, 0]).index(), 256);
         assert_eq!(ColourBin::of([0, 32, 48]).index(), 2 * 16 + 3);
+        assert_eq!([[0; 3], [100; 3], [255; 3], [0, 255, 0]].map(|pixel| ColourBin::of(pixel).luma()), [0, 6, 15, 9]);
+        assert!(ColourBin::all().enumerate().all(|(at, bin)| bin.index() == at));
     }
 }

@@ -71,6 +71,7 @@ impl LikelySilhouette {
         let (width, height) = picture.dimensions();
         let pixels = picture.as_raw().as_chunks::<3>().0;
         (likelihood.width, likelihood.height, likelihood.is_masked) = (width, height, mask.is_some());
+        likelihood.is_grey = false;
         likelihood.colours.clear();
         likelihood.colours.extend(pixels.iter().map(|&pixel| ColourBin::of(pixel)));
         likelihood.background.resize(pixels.len(), 0);
@@ -100,6 +101,7 @@ impl LikelySilhouette {
             let gain = if gain { gains(picture, image) } else { [1.0; 3] };
             // First as if shadows were as frequent everywhere, then round the person with those counted there.
             let mut light = colours.light(picture, gain, None);
+            likelihood.is_grey = light.is_grey();
             let mut region = Region::whole(width, height);
             for pass in 0..2 {
                 colours.judge(picture, light, region, &mut likelihood.background);

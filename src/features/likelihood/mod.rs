@@ -33,6 +33,8 @@ pub struct Likelihood {
     pub colours: Vec<ColourBin>,
     /// Whether a ready mask decides what is foreground: then colours only tell parts of the person apart.
     pub is_masked: bool,
+    /// Whether the camera sees in grey: densities are then those of luma, relative to the uniform one of all greys.
+    pub is_grey: bool,
     /// Where the person may be: the bounding box of what does not look like background, enlarged for motion; empty where nothing does.
     pub region: Region,
 }

@@ -49,14 +49,22 @@ impl Colours {
     /// `whole`.
     pub(super) fn table(&self, unknown: f32, whole: Option<&Self>) -> LogTable {
         let borrowed = whole.map_or(0.0, |_| (ENOUGH / (ENOUGH + self.total)).powi(2));
-        let mut shares = shares(self);
-        if let Some(whole) = whole {
-            for (share, whole) in shares.iter_mut().zip(self::shares(whole)) {
-                *share = (1.0 - borrowed) * *share + borrowed * whole;
+        let mix = |own: Vec<f32>, whole: Option<Vec<f32>>| match whole {
+            Some(whole) => {
+                own.iter().zip(whole).map(|(own, whole)| (1.0 - borrowed) * own + borrowed * whole).collect()
             }
-        }
+            None => own,
+        };
+        let logarithm = |density: f32| (density.ln() * LOG_STEPS).round() as i16;
         let density = |share: f32| (1.0 - unknown) * share * ColourBin::COUNT as f32 + unknown;
-        LogTable(shares.into_iter().map(|share| (density(share).ln() * LOG_STEPS).round() as i16).collect())
+        let colours = mix(shares(self), whole.map(shares));
+        let greys = mix(luma_shares(self), whole.map(luma_shares));
+        let grey = |share: f32| (1.0 - unknown) * share * ColourBin::SIDE as f32 + unknown;
+        let greys: Vec<i16> = greys.into_iter().map(|share| logarithm(grey(share))).collect();
+        LogTable {
+            colours: colours.into_iter().map(|share| logarithm(density(share))).collect(),
+            greys: ColourBin::all().map(|colour| greys[colour.luma()]).collect(),
+        }
     }
 
     /// Spread by 1 2 1 along each channel, sum unchanged.
@@ -86,19 +94,34 @@ fn shares(colours: &Colours) -> Vec<f32> {
     shares
 }
 
-/// The log density of every colour over the uniform one, in steps of 1/[`LOG_STEPS`].
+/// Shares of the steps of luma, spread by 1 2 1; uniform where nothing was seen.
+fn luma_shares(colours: &Colours) -> Vec<f32> {
+    if colours.total < 1.0 {
+        return vec![1.0 / ColourBin::SIDE as f32; ColourBin::SIDE];
+    }
+    let mut sums = [0.0; ColourBin::SIDE];
+    ColourBin::all().zip(&colours.counts).for_each(|(colour, count)| sums[colour.luma()] += count);
+    let spread = |at: usize| sums[at.saturating_sub(1)] + 2.0 * sums[at] + sums[(at + 1).min(ColourBin::SIDE - 1)];
+    (0..ColourBin::SIDE).map(|at| 0.25 * spread(at) / colours.total).collect()
+}
+
+/// The log density of every colour over the uniform one, in steps of 1/[`LOG_STEPS`]; and for cameras that see in grey, of its luma.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct LogTable(Vec<i16>);
+pub(super) struct LogTable {
+    colours: Vec<i16>,
+    greys: Vec<i16>,
+}
 
 impl LogTable {
     /// Every colour alike.
     pub(super) fn uniform() -> Self {
-        Self(vec![0; ColourBin::COUNT])
+        Self { colours: vec![0; ColourBin::COUNT], greys: vec![0; ColourBin::COUNT] }
     }
 
+    /// The values by a colour's index, for a camera that sees in grey or one that does not.
     #[inline]
-    pub(super) fn of(&self, colour: ColourBin) -> i32 {
-        i32::from(self.0[colour.index()])
+    pub(super) fn values(&self, is_grey: bool) -> &[i16] {
+        if is_grey { &self.greys } else { &self.colours }
     }
 }
 
@@ -113,9 +136,13 @@ mod tests {
             colours.add(ColourBin::of([(at % 256) as u8, 7, (at * 31 % 256) as u8]));
         }
         let table = colours.table(0.15, None);
-        let sum: f64 = table.0.iter().map(|&log| f64::from(log) / 64.0).map(f64::exp).sum();
+        let sum: f64 = table.values(false).iter().map(|&log| f64::from(log) / 64.0).map(f64::exp).sum();
         assert!((sum / ColourBin::COUNT as f64 - 1.0).abs() < 0.01, "{sum}");
-        assert!(table.of(ColourBin::of([0, 7, 0])) > 0 && table.of(ColourBin::of([255; 3])) < 0);
+        let of = |is_grey: bool, colour: [u8; 3]| table.values(is_grey)[ColourBin::of(colour).index()];
+        assert!(of(false, [0, 7, 0]) > 0 && of(false, [255; 3]) < 0);
+        // Whatever the colour, a grey camera has seen as much of its luma.
+        let greys: f64 = (0..16_u8).map(|step| (f64::from(of(true, [16 * step; 3])) / 64.0).exp()).sum();
+        assert!((greys / 16.0 - 1.0).abs() < 0.02 && of(true, [255; 3]) < 0 && of(true, [40; 3]) > 0, "{greys}");
         assert_eq!(Colours::default().table(0.35, None), LogTable::uniform());
     }
 

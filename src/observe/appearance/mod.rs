@@ -72,10 +72,11 @@ impl Appearance {
     pub fn learn(&mut self, views: &[Lesson<'_>], kept: f32) -> Result<()> {
         self.seen.iter_mut().for_each(|colours| colours.fade(kept));
         for Lesson { likelihood, drawn, observation } in views {
+            let person = self.person.values(likelihood.is_grey);
             let pixels = likelihood.background.iter().zip(&likelihood.colours).zip(*drawn);
             for (at, ((&background, colour), &byte)) in pixels.enumerate() {
                 // A border pixel may be its neighbour's, and what surely is background is nobody's colour.
-                let looks_empty = i32::from(background) - self.person.of(*colour) > MOST;
+                let looks_empty = i32::from(background) - i32::from(person[colour.index()]) > MOST;
                 if byte & 0x80 == 0
                     && !looks_empty
                     && let Some(group) = self.groups.of_label(byte)
@@ -128,15 +129,18 @@ impl Appearance {
             }
         }
         let codes: Vec<u32> = (-16 * MOST..=16 * MOST).map(code).collect();
+        let person = self.person.values(view.is_grey);
         for (class, table) in self.tables.iter().enumerate() {
+            let table = table.values(view.is_grey);
             let make = |y: usize, row: &mut [i16]| {
                 let at = (y + region.y0 as usize) * width;
                 let densities = &view.background[at..][..width][columns.clone()];
                 let colours = &view.colours[at..][..width][columns.clone()];
                 for ((ratio, &background), &colour) in row.iter_mut().zip(densities).zip(colours) {
                     // Inside of a ready mask it is the person's, and only which part is asked.
-                    let known = if view.is_masked && background < 0 { self.person.of(colour) } else { 0 };
-                    *ratio = (table.of(colour) - known - i32::from(background)).clamp(-MOST, MOST) as i16;
+                    let known = if view.is_masked && background < 0 { i32::from(person[colour.index()]) } else { 0 };
+                    *ratio =
+                        (i32::from(table[colour.index()]) - known - i32::from(background)).clamp(-MOST, MOST) as i16;
                 }
                 if let Some(ignored) = ignored {
                     for (x, ratio) in (region.x0..).zip(row) {
@@ -188,7 +192,7 @@ mod tests {
             (0..96).map(|at| ColourBin::of(if at % 12 < 6 { [200, 30, 30] } else { [30, 30, 200] })).collect();
         let background = (0..96).map(|at| if at < 72 { -64 } else { 700 }).collect();
         let region = Region::whole(12, 8);
-        Likelihood { width: 12, height: 8, background, colours, is_masked: false, region }
+        Likelihood { width: 12, height: 8, background, colours, is_masked: false, is_grey: false, region }
     }
 
     #[test]
