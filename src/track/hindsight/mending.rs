@@ -14,8 +14,9 @@ use crate::body::Body;
 /// Width of the searches, as a share of the track's changes, and of the body's steps at least and at most.
 const WIDTH: f32 = 0.5;
 const WIDTHS: [f32; 2] = [0.25, 2.0];
-/// What a joint may jerk along a path: deviation at rest, mm, and as a share of the way in a frame.
-const JERK: [f64; 2] = [10.0, 0.3];
+/// What a joint may jerk along a path: deviation at rest, mm, and as a share of the way in a frame. Small, since that way is long too where a
+/// path leaps from one candidate to another.
+const JERK: [f64; 2] = [10.0, 0.05];
 /// How far a joint may go from the first frame to the second, mm.
 const FIRST: f64 = 100.0;
 

@@ -11,7 +11,7 @@ use super::window::Seen;
 const TRACKED: usize = 12;
 const ANEW: usize = 20;
 /// By how much a limb found anywhere must be worth more than the one that was tracked.
-const CONVINCING: f64 = 2.0;
+const CONVINCING: f64 = 8.0;
 /// By how much less than the best frame of a window one is worth in which all limbs are looked for.
 const POOR: f64 = 12.0;
 /// Where a track expects joints: deviation at rest, mm, and as a share of the way in a frame.
