@@ -151,39 +151,16 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
 }
 
 #[test]
-fn a_lottery_is_a_folder_that_can_be_tracked_and_the_same_seed_the_same_bytes() {
+fn a_lottery_is_a_folder_that_can_be_tracked() {
     let temporary = tempfile::tempdir().unwrap();
-    let [first, second] = ["first", "second"].map(|name| temporary.path().join(name));
-    let arguments = ["--lottery", "5", "--frames", "2"];
-    let made = synth(&arguments, &first);
+    let first = temporary.path().join("first");
+    let made = synth(&["--lottery", "5", "--frames", "2"], &first);
     assert!(made.status.success(), "{}", message(&made));
     assert!(stdout(&made).contains("measured: body off by"), "{}", stdout(&made));
-    assert!(synth(&arguments, &second).status.success());
-    let names = [
-        "sequence.toml",
-        "exact.toml",
-        "true_sequence.toml",
-        "true_body.toml",
-        "true_start.csv",
-        "body.toml",
-        "start.csv",
-        "scene.toml",
-        "truth.trc",
-        "masks/cam2_0001.png",
-        "plates/cam4.png",
-        "t_pose/sequence.toml",
-        "t_pose/start.csv",
-        "t_pose/truth.trc",
-    ];
-    for name in names {
-        assert_eq!(fs::read(first.join(name)).unwrap(), fs::read(second.join(name)).unwrap(), "{name}");
-    }
-    for name in ["frames", "t_pose/frames"] {
-        for entry in fs::read_dir(first.join(name)).unwrap() {
-            let path = entry.unwrap().path();
-            let other = second.join(name).join(path.file_name().unwrap());
-            assert_eq!(fs::read(&path).unwrap(), fs::read(other).unwrap(), "{}", path.display());
-        }
+    for name in
+        ["true_body.toml", "true_start.csv", "truth.trc", "masks/cam2_0001.png", "plates/cam4.png", "t_pose/start.csv"]
+    {
+        assert!(first.join(name).is_file(), "{name}");
     }
     // What a user has is measured, not known, and each manifest opens.
     let read = |name: &str| fs::read_to_string(first.join(name)).unwrap();
@@ -195,7 +172,7 @@ fn a_lottery_is_a_folder_that_can_be_tracked_and_the_same_seed_the_same_bytes() 
         assert_eq!(sequence.views.iter().all(|view| view.mask.is_some()), has_masks, "{manifest}");
         assert!(sequence.views.iter().all(|view| view.background.is_some()) && sequence.truth.is_some(), "{manifest}");
     }
-    // The record makes the same pictures as any scene does.
+    // The record makes the same pictures as any scene does. (That a seed draws one record is a test of the lottery's own.)
     let again = temporary.path().join("again");
     let scene = first.join("scene.toml");
     assert!(synth(&[scene.to_str().unwrap()], &again).status.success());
