@@ -415,7 +415,7 @@ mod tests {
                 *pixel = Rgb([250, 150, 120]);
             } else if (46..60).contains(&x) && (48..52).contains(&y) {
                 // A shadow on the floor.
-                *pixel = Rgb(pixel.0.map(|v| (f32::from(v) * 0.8) as u8));
+                *pixel = Rgb(pixel.0.map(|v| (f32::from(v) * 0.75) as u8));
             } else if (x, y) == (5, 5) {
                 // A speck.
                 *pixel = Rgb([255; 3]);

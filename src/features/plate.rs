@@ -25,7 +25,7 @@ pub struct PlateSettings {
 
 impl Default for PlateSettings {
     fn default() -> Self {
-        Self { weak: 26.0, strong: 45.0, faint: 8.0, bridge: 15, gain: true }
+        Self { weak: 26.0, strong: 60.0, faint: 8.0, bridge: 15, gain: true }
     }
 }
 
@@ -149,7 +149,7 @@ mod tests {
     fn a_shadow_is_not_foreground_and_a_block_is() {
         let picture = RgbImage::from_fn(80, 60, |x, y| match (x, y) {
             (10..20, 10..30) => Rgb([250, 20, 20]),
-            (40..60, 20..40) => Rgb(room().get_pixel(x, y).0.map(|v| (f32::from(v) * 0.8) as u8)),
+            (40..60, 20..40) => Rgb(room().get_pixel(x, y).0.map(|v| (f32::from(v) * 0.7) as u8)),
             _ => *room().get_pixel(x, y),
         });
         let (weak, strong) = flags(&mut Plate::new(room()), &picture, [1.0; 3]);

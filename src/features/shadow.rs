@@ -18,7 +18,7 @@ pub struct ShadowSettings {
 
 impl Default for ShadowSettings {
     fn default() -> Self {
-        Self { suppress: true, darkest: 0.75, brightest: 1.35, chroma: 10.0 }
+        Self { suppress: true, darkest: 0.55, brightest: 1.6, chroma: 10.0 }
     }
 }
 
@@ -45,7 +45,7 @@ mod tests {
 
     #[test]
     fn darker_is_shadow_and_another_colour_is_not() {
-        let shadow = ShadowSettings { darkest: 0.55, brightest: 1.6, ..ShadowSettings::default() };
+        let shadow = ShadowSettings::default();
         let wall = [200.0, 180.0, 150.0];
         assert!(shadow.covers(wall.map(|v| v * 0.7), wall));
         assert!(!shadow.covers(wall.map(|v| v * 0.3), wall), "too dark");
