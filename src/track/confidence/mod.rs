@@ -25,15 +25,15 @@ const PROBE: f64 = 1e-3;
 /// When a person counts as lost and as found again. docs/CONFIDENCE.md measures these thresholds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LossRule {
-    /// A pose that is wrong with more than this probability is a loss.
-    pub wrong_above: f64,
-    /// After a loss a pose that is none is a find with an agreement of at least this.
+    /// An agreement below this is a loss.
+    pub lost_below: f64,
+    /// After a loss, an agreement of at least this is a find.
     pub found_from: f64,
 }
 
 impl Default for LossRule {
     fn default() -> Self {
-        Self { wrong_above: 0.5, found_from: 0.9 }
+        Self { lost_below: 0.8, found_from: 0.9 }
     }
 }
 
@@ -50,10 +50,9 @@ impl Default for LossRule {
 /// views in which the joint lies on the silhouette.
 ///
 /// How far a joint is expected to be off, and with which probability the pose is wrong, is calibrated (METHOD A13): by how far the joint
-/// could lie elsewhere before the fitness told, what the pictures say of its limbs, the fitness, and the agreement. Loss goes by that
-/// probability.
+/// could lie elsewhere before the fitness told, what the pictures say of its limbs, the fitness, and the agreement.
 ///
-/// The agreement: a view's `sqrt(f1 f2)` over its average in the sure frames so far (exponentially, 25 frames),
+/// Loss goes by the agreement: a view's `sqrt(f1 f2)` over its average in the sure frames so far (exponentially, 25 frames),
 /// at most 1, and of that the mean over the views that have such a reference, less the worst where three or more do.
 #[derive(Clone, Debug)]
 pub struct Confidence {
@@ -144,7 +143,7 @@ impl Confidence {
             JointConfidence { spread, seen, confidence: relative * balance * settled(spread) * seen, sigma }
         });
         let joints = joints.collect();
-        self.judge(result, agreement, wrong);
+        self.judge(result, agreement);
         FrameConfidence {
             position_spread,
             angle_spread: root_mean_square(&result.spread, &self.angles).to_degrees(),
@@ -168,17 +167,16 @@ impl Confidence {
 
     /// Whether the next frame would be a loss with this result, without taking note of it.
     pub(super) fn is_loss_at(&self, result: &FrameResult) -> bool {
-        let agreement = self.agreement(result);
-        self.is_loss(agreement, self.expected(result, agreement).1)
+        self.is_loss(self.agreement(result))
     }
 
-    fn is_loss(&self, agreement: f64, wrong: f64) -> bool {
-        wrong > self.rule.wrong_above || self.is_lost && agreement < self.rule.found_from
+    fn is_loss(&self, agreement: f64) -> bool {
+        agreement < if self.is_lost { self.rule.found_from } else { self.rule.lost_below }
     }
 
     /// Judges the next frame, and learns from it if it is a sure one.
-    fn judge(&mut self, result: &FrameResult, agreement: f64, wrong: f64) {
-        self.is_lost = self.is_loss(agreement, wrong);
+    fn judge(&mut self, result: &FrameResult, agreement: f64) {
+        self.is_lost = self.is_loss(agreement);
         if !self.is_lost {
             self.sure_frames += 1;
             let share = 1.0 / (self.sure_frames as f64).min(MEMORY);
