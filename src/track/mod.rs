@@ -6,6 +6,7 @@
 mod appearance;
 mod auto;
 mod backend;
+mod begin;
 mod confidence;
 mod crowd;
 mod driver;
@@ -30,6 +31,7 @@ mod progress;
 mod realtime;
 mod recovery;
 mod results;
+mod run;
 mod run_record;
 mod scoring;
 mod searcher;

@@ -5,11 +5,12 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 
+use super::begin::{Begun, Planned};
 use super::crowd::Crowd;
-use super::driver::{Begun, Planned, Run};
 use super::feed::{Feed, Frames, Prepared};
 use super::journal::FrameResult;
 use super::progress::{FrameDone, Progress};
+use super::run::Run;
 use super::run_record::RunRecord;
 use super::summary::{TrackSummary, mean};
 use super::timings::Span;

@@ -1,0 +1,489 @@
+//! A run in work: its frames searched one after the other, what is learnt from each, and the results at its end.
+
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, anyhow};
+use serde_json::json;
+
+use super::appearance::RunAppearance;
+use super::confidence::{Confidence, JointProbe, LossRule};
+use super::feed::{Frames, Prepared};
+use super::hindsight::Hindsight;
+use super::journal::{Extent, FrameResult, Journal};
+use super::motion::LearntMotion;
+use super::overlay::Overlay;
+use super::pace::{Finished, Pace, Turn};
+use super::plan::Plan;
+use super::progress::{FrameDone, Progress, RunStart};
+use super::recovery::{LostFrame, Recovery};
+use super::results::Held;
+use super::run_record::RunRecord;
+use super::searcher::{Searched, Start};
+use super::summary::{TrackSummary, lost_sentence, mean};
+use super::timings::{Span, Thread, Timings};
+use super::truth::Truth;
+use super::{Passes, Prediction, TrackSettings, Width, results};
+use crate::evaluate::{Evaluator, ViewCounts};
+use crate::files::OutputFolder;
+use crate::gpu::DeviceLost;
+use crate::sequence::Sequence;
+
+/// A run in work.
+pub(super) struct Run<'a> {
+    sequence: &'a Sequence,
+    settings: &'a TrackSettings,
+    output: &'a OutputFolder,
+    pub(super) plan: Plan,
+    truth: Option<Truth>,
+    journal: Journal,
+    /// The frames done that the pace keeps in memory.
+    pub(super) frames: Vec<FrameResult>,
+    /// How many are done.
+    done: usize,
+    timings: Timings,
+    confidence: Confidence,
+    /// What asks a frame about its joints.
+    probe: JointProbe,
+    /// The search for a lost person, where one is asked for.
+    recovery: Option<Recovery>,
+    pace: Box<dyn Pace>,
+    /// The person's colours, where poses are compared by evidence.
+    appearance: Option<RunAppearance>,
+    /// The frames that are lost.
+    lost: Vec<usize>,
+    /// Whether the second pass was stopped.
+    is_stopped: bool,
+    /// How the person moves, where a search starts by that.
+    motion: LearntMotion,
+}
+
+impl<'a> Run<'a> {
+    /// Before its first frame.
+    ///
+    /// # Errors
+    /// When the body has no search space.
+    pub(super) fn new(
+        sequence: &'a Sequence,
+        settings: &'a TrackSettings,
+        output: &'a OutputFolder,
+        plan: Plan,
+        truth: Option<Truth>,
+        journal: Journal,
+        timings: Timings,
+        pace: Box<dyn Pace>,
+    ) -> Result<Self> {
+        let (body, cameras) = (&plan.body, &sequence.cameras);
+        let recovery = settings.may_recover().then(|| Recovery::new(body, cameras, &settings.search, &plan.space));
+        let appearance = plan.features.likelihoods.then(|| RunAppearance::new(body, cameras));
+        let motion =
+            LearntMotion::new(plan.space.spread(1.0 / sequence.fps)?, settings.prediction() == Prediction::Learnt);
+        Ok(Self {
+            confidence: Confidence::new(body, LossRule::default()),
+            probe: JointProbe::new(body, cameras),
+            recovery,
+            appearance,
+            motion,
+            sequence,
+            settings,
+            output,
+            plan,
+            truth,
+            journal,
+            frames: Vec::new(),
+            done: 0,
+            timings,
+            pace,
+            lost: Vec::new(),
+            is_stopped: false,
+        })
+    }
+
+    /// How many frames are done.
+    pub(super) fn done(&self) -> usize {
+        self.done
+    }
+
+    /// Whether a run that ends before its last frame is a whole one.
+    pub(super) fn ends_anywhere(&self) -> bool {
+        self.pace.ends_anywhere()
+    }
+
+    /// How it begins, after so many frames that an earlier run did.
+    pub(super) fn start(&self, done: usize, warnings: &[String]) -> RunStart {
+        RunStart {
+            first_frame: self.plan.range.start,
+            frames: (!self.sequence.is_live()).then_some(self.plan.range.len()),
+            done,
+            backend: self.plan.backend.reason.clone(),
+            warnings: warnings.to_vec(),
+        }
+    }
+
+    /// Frames that an earlier run did.
+    pub(super) fn take_over(&mut self, done: Vec<FrameResult>) -> Result<()> {
+        let name = self.journal_name();
+        for result in done {
+            let values: Vec<f64> = result.pose.iter().map(|value| f64::from(*value)).collect();
+            self.plan.body.check_limits(&values).with_context(|| format!("{name}, frame {}", result.frame))?;
+            self.judge(&result);
+            self.keep(result);
+        }
+        Ok(())
+    }
+
+    /// Takes note of a frame that is done: its confidence, and the mean error so far.
+    fn judge(&mut self, result: &FrameResult) -> (f64, Option<f64>) {
+        let confidence = self.confidence.next(result);
+        if confidence.is_lost {
+            self.lost.push(result.frame);
+        }
+        let follows = self.motion.last_frame().is_some_and(|before| self.pace.follows(before, result.frame));
+        self.motion.note(result, follows && !confidence.is_lost);
+        let mut is_gap = false;
+        if let Some(recovery) = &mut self.recovery {
+            recovery.note(&result.pose, confidence.is_lost);
+            is_gap = confidence.is_lost;
+        }
+        let error = if is_gap { None } else { self.running_error(result) };
+        (confidence.confidence, error)
+    }
+
+    fn journal_name(&self) -> String {
+        self.output.path().join(Journal::NAME).display().to_string()
+    }
+
+    pub(super) fn next_frame(&self) -> usize {
+        self.frames.last().map_or(self.plan.range.start, |last| last.frame + 1)
+    }
+
+    fn keep(&mut self, result: FrameResult) {
+        self.pace.keep(&mut self.frames, result);
+        self.done += 1;
+    }
+
+    /// Mean error against the truth up to and with this frame, mm.
+    fn running_error(&mut self, result: &FrameResult) -> Option<f64> {
+        let frame = self.pace.in_sequence(result.frame);
+        self.truth.as_mut()?.running_error(&self.plan.body, frame, &result.pose, self.sequence.fps)
+    }
+
+    /// Searches the frames that are left, until the last or until asked to stop.
+    pub(super) fn search_all(&mut self, progress: &mut dyn Progress) -> Result<()> {
+        // The person's colours are learnt again from the frames that an earlier run did.
+        let next = self.next_frame();
+        let learns_again = self.appearance.is_some() && self.settings.realtime.is_none();
+        let looks_back = self.settings.passes() == Passes::Both;
+        if next >= self.plan.range.end && !(looks_back && learns_again) {
+            return Ok(());
+        }
+        let mut feed =
+            self.pace.feed(self.sequence, &self.plan, if learns_again { self.plan.range.start } else { next })?;
+        loop {
+            let start = Instant::now();
+            let Some(mut prepared) = feed.next()? else { break };
+            let waited = Span::since(start);
+            let frame = prepared.index;
+            self.observe(&mut prepared)?;
+            if frame < next {
+                let result = self.frames.get(frame - self.plan.range.start).cloned();
+                result.map_or(Ok(()), |result| self.learn(&prepared, &result))?;
+                continue;
+            }
+            self.note_features(&prepared, waited)?;
+            let result = self.search(&prepared)?;
+            let done = self.finish_frame(&prepared, result)?;
+            progress.frame(&done);
+            if progress.should_stop() {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes over all frames again, now that what comes after each is known; not where the run was stopped before its last.
+    pub(super) fn look_back(&mut self, progress: &mut dyn Progress) -> Result<()> {
+        if !self.looks_back() {
+            return Ok(());
+        }
+        let mut feed = self.pace.feed(self.sequence, &self.plan, self.plan.range.start)?;
+        self.look_back_over(feed.as_mut(), progress)
+    }
+
+    /// Whether all frames are done and are to be gone over again.
+    pub(super) fn looks_back(&self) -> bool {
+        self.settings.passes() != Passes::Forward && self.next_frame() >= self.plan.range.end
+    }
+
+    /// Goes over all frames again as `feed` shows them.
+    pub(super) fn look_back_over(&mut self, feed: &mut dyn Frames, progress: &mut dyn Progress) -> Result<()> {
+        let start = Instant::now();
+        let body = self.plan.body.clone();
+        let overlay = Overlay::new(&body, self.plan.mesh.as_ref(), &self.sequence.cameras)?;
+        let hindsight = Hindsight {
+            plan: &mut self.plan,
+            probe: &self.probe,
+            fps: self.sequence.fps,
+            pictures_every: self.settings.overlay_every,
+        };
+        let mut results = Vec::with_capacity(self.frames.len());
+        hindsight.look_back(feed, self.appearance.as_ref(), &self.frames, &mut |result, pictures| {
+            if let Some(pictures) = pictures {
+                overlay.write(self.output, result.frame, pictures, &result.pose)?;
+            }
+            results.push(result);
+            progress.looked_back(results.len());
+            Ok(!progress.should_stop())
+        })?;
+        if results.len() < self.frames.len() {
+            self.is_stopped = true;
+        } else {
+            self.frames = results;
+        }
+        // A finished run that is gone on with has no times to tell.
+        if !self.timings.is_empty() {
+            let each = start.elapsed() / u32::try_from(self.frames.len()).unwrap_or(u32::MAX).max(1);
+            self.frames.iter().for_each(|_| self.timings.count("hindsight", each));
+        }
+        Ok(())
+    }
+
+    /// Takes note of how long a frame's features took.
+    pub(super) fn note_features(&mut self, prepared: &Prepared, waited: Span) -> Result<()> {
+        let frame = prepared.index;
+        self.timings.record("read", Thread::Features, frame, prepared.read)?;
+        self.timings.record("features", Thread::Features, frame, prepared.features)?;
+        self.timings.record("wait", Thread::Search, frame, waited)
+    }
+
+    /// Gives a frame's observations the evidence of the person's colours, where poses are compared by evidence.
+    pub(super) fn observe(&mut self, prepared: &mut Prepared) -> Result<()> {
+        let Some(appearance) = &self.appearance else { return Ok(()) };
+        let start = Instant::now();
+        appearance.observe(prepared)?;
+        if prepared.index < self.next_frame() {
+            // Of a frame that an earlier run did.
+            return Ok(());
+        }
+        self.timings.record("evidence", Thread::Search, prepared.index, Span::since(start))
+    }
+
+    /// Keeps a frame's result, gives it out and learns from it.
+    pub(super) fn finish_frame(&mut self, prepared: &Prepared, result: FrameResult) -> Result<FrameDone> {
+        let frame = prepared.index;
+        let start = Instant::now();
+        // The second pass draws its own.
+        let is_last = self.settings.passes() == Passes::Forward;
+        if is_last && self.settings.overlay_every > 0 && frame.is_multiple_of(self.settings.overlay_every) {
+            let overlay = Overlay::new(&self.plan.body, self.plan.mesh.as_ref(), &self.sequence.cameras)?;
+            overlay.write(self.output, frame, &prepared.pictures, &result.pose)?;
+        }
+        self.journal.append(&result)?;
+        self.pace.deliver(&self.plan.body, &result, prepared.captured)?;
+        self.timings.record("output", Thread::Search, frame, Span::since(start))?;
+        let (confidence, mean_error) = self.judge(&result);
+        let fitness = result.fitness;
+        self.learn(prepared, &result)?;
+        self.keep(result);
+        self.pace.judge(fitness, confidence);
+        Ok(FrameDone { frame, done: frame + 1 - self.plan.range.start, fitness, confidence, mean_error })
+    }
+
+    /// Learns the person's colours from a frame, unless she is lost in it.
+    pub(super) fn learn(&mut self, prepared: &Prepared, result: &FrameResult) -> Result<()> {
+        match &mut self.appearance {
+            Some(appearance) if !self.lost.contains(&result.frame) => {
+                appearance.learn(result.frame.saturating_sub(self.plan.range.start), prepared, &result.pose)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// What became of a frame whose device was lost, and what the user can do; other errors stay as they are.
+    fn how_to_go_on(&self, frame: usize, error: anyhow::Error) -> anyhow::Error {
+        let Some(lost) = error.downcast_ref::<DeviceLost>() else { return error };
+        anyhow!(
+            "frame {frame}: {lost}; the {} frames before it are safe in {}: run the same command with --resume to go on, or \
+             begin another folder with --backend cpu, which needs no device",
+            self.done,
+            self.output.path().display()
+        )
+    }
+
+    /// Where a frame's search starts.
+    fn predicted(&self, turn: &Turn) -> Vec<f32> {
+        let Plan { start, space, .. } = &self.plan;
+        match &*self.frames {
+            _ if turn.starts_anew => start.clone(),
+            [] => start.clone(),
+            [.., last] if self.settings.prediction() == Prediction::Learnt => {
+                let mut pose = self.motion.start(&last.pose, turn.widen);
+                space.clamp(&mut pose);
+                pose
+            }
+            [only] => only.pose.clone(),
+            [.., earlier, last] => self.settings.prediction().start(space, &last.pose, Some(&earlier.pose)),
+        }
+    }
+
+    /// Where a frame shows her as far as is known before it is searched; none while she is lost.
+    pub(super) fn expected(&self, prepared: &Prepared) -> Option<Vec<f32>> {
+        let before = self.frames.last().map(|result| result.frame);
+        let is_lost = self.lost.last().is_some_and(|lost| Some(*lost) == before);
+        let turn = self.pace.turn(prepared, before, self.sequence.fps);
+        (!is_lost).then(|| self.predicted(&turn))
+    }
+
+    /// Where a result shows her; nowhere where it is a loss.
+    pub(super) fn shown(&self, result: &FrameResult) -> Option<Vec<f32>> {
+        let is_done = result.frame < self.next_frame();
+        let is_lost = if is_done { self.lost.contains(&result.frame) } else { self.confidence.is_loss_at(result) };
+        (!is_lost).then(|| result.pose.clone())
+    }
+
+    /// Forgets all but the first `count` of the frames that an earlier run did.
+    pub(super) fn go_back_to(&mut self, done: &mut Vec<FrameResult>, count: usize) -> Result<()> {
+        if done.len() > count {
+            done.truncate(count);
+            self.journal = Journal::create(&self.output.path().join(Journal::NAME))?;
+            done.iter().try_for_each(|result| self.journal.append(result))?;
+        }
+        Ok(())
+    }
+
+    /// One frame: its search round the frame before, and the terms of the result in every view.
+    pub(super) fn search(&mut self, prepared: &Prepared) -> Result<FrameResult> {
+        self.search_frame(prepared).map_err(|error| self.how_to_go_on(prepared.index, error))
+    }
+
+    fn search_frame(&mut self, prepared: &Prepared) -> Result<FrameResult> {
+        let frame = prepared.index;
+        let begin = Instant::now();
+        let before = self.frames.last().map(|result| result.frame);
+        let turn = self.pace.turn(prepared, before, self.sequence.fps);
+        let mut spread = self.plan.spread(turn.starts_anew)?;
+        spread.iter_mut().for_each(|deviation| *deviation *= turn.widen);
+        // Whoever is lost is searched for by the body's steps.
+        let steps = spread.clone();
+        if self.settings.width() == Width::Learnt && !turn.starts_anew {
+            spread.iter_mut().zip(self.motion.widths()).for_each(|(deviation, width)| *deviation *= width);
+        }
+        let [particles, iterations] = turn.size;
+        self.plan.resize(particles, iterations)?;
+        let predicted = self.predicted(&turn);
+        let Plan { objective, backend, search, .. } = &mut self.plan;
+        let evaluator = backend.evaluator.as_mut();
+        let counter =
+            u32::try_from(frame).map_err(|_| anyhow!("frame {frame} is beyond the counters of the search"))?;
+        let start = Start { frame: counter, centre: &predicted, spread: &spread, until: turn.until };
+        let observations = &prepared.observations;
+        let in_frame = || format!("frame {frame}");
+        let mut searched = search.search(evaluator, objective, observations, start).with_context(in_frame)?;
+        let probe = &self.probe;
+        let result = |evaluator: &mut dyn Evaluator, searched: &Searched| -> Result<FrameResult> {
+            let pose = searched.estimate.pose.clone();
+            Ok(FrameResult {
+                frame,
+                fitness: searched.estimate.fitness,
+                spread: searched.estimate.spread.clone(),
+                views: searched.views.iter().map(|view| objective.view_terms(view)).collect(),
+                joints: probe.ask(evaluator, objective, observations, &pose)?,
+                pose,
+            })
+        };
+        let mut found = result(evaluator, &searched).with_context(in_frame)?;
+        searched.passes.extend(evaluator.device_passes());
+        if let Some(recovery) =
+            self.recovery.as_ref().filter(|recovery| recovery.is_lost() || self.confidence.is_loss_at(&found))
+        {
+            let begin = Instant::now();
+            let is_sure = |views: &[ViewCounts]| {
+                let views = views.iter().map(|view| objective.view_terms(view)).collect();
+                !self.confidence.is_loss_at(&FrameResult { views, ..found.clone() })
+            };
+            let lost =
+                LostFrame { evaluator: &mut *evaluator, objective, observations, number: counter, spread: &steps };
+            recovery.search(lost, &mut searched, &is_sure).with_context(in_frame)?;
+            searched.evaluations.push(Span::since(begin));
+            found = result(evaluator, &searched).with_context(in_frame)?;
+            searched.passes.extend(evaluator.device_passes());
+        }
+        let Searched { estimate, evaluations, passes, .. } = searched;
+
+        let whole = Span::since(begin);
+        self.pace.searched(estimate.evaluations, whole);
+        self.timings.trace("frame", Thread::Search, frame, whole)?;
+        for evaluation in &evaluations {
+            self.timings.trace("evaluate", Thread::Search, frame, *evaluation)?;
+        }
+        let evaluating: Duration = evaluations.iter().map(|evaluation| evaluation.time).sum();
+        self.timings.count("evaluate", evaluating);
+        self.timings.record_passes(frame, &passes)?;
+        self.timings.count("search", whole.time.saturating_sub(evaluating));
+        Ok(found)
+    }
+
+    /// Writes the results, unless the run was stopped.
+    pub(super) fn finish(self, record: &RunRecord, warnings: Vec<String>) -> Result<TrackSummary> {
+        let (sequence, output, body) = (self.sequence, self.output, &self.plan.body);
+        let next = self.next_frame();
+        let is_stopped = self.is_stopped || next < self.plan.range.end;
+        let stopped_before = (!self.pace.ends_anywhere() && is_stopped).then_some(next);
+        let extent = Extent::of(body, &sequence.cameras);
+        let frames = self.pace.all_frames(self.frames, &output.path().join(Journal::NAME), extent, self.done)?;
+        let confidences = Confidence::of_all(body, LossRule::default(), &frames);
+        let held = Held::new(&frames, &confidences, self.recovery.is_some());
+        let mut summary = TrackSummary {
+            first_frame: self.plan.range.start,
+            new_frames: 0,
+            frames_per_second: 0.0,
+            mean_fitness: mean(frames.iter().map(|result| f64::from(result.fitness))),
+            mean_confidence: mean(confidences.iter().map(|frame| frame.confidence)),
+            error: None,
+            timings: Vec::new(),
+            backend: [self.plan.backend.evaluator.name(), self.plan.backend.evaluator.variant()],
+            warnings,
+            stopped_before,
+            realtime: None,
+            frames,
+        };
+        let has_passes = self.timings.has_device_passes();
+        summary.timings = self.timings.finish()?;
+        if self.settings.trace && summary.timings.iter().any(|timing| timing.name == "search") && !has_passes {
+            let [name, variant] = summary.backend;
+            summary.warnings.push(format!("the trace holds no device passes: {name} ({variant}) told of none"));
+        }
+        // Per frame: waiting for the features, searching, writing; the rest runs beside it.
+        let busy: f64 = ["wait", "evaluate", "search", "output", "hindsight"]
+            .iter()
+            .filter_map(|name| summary.timings.iter().find(|timing| timing.name == *name))
+            .map(|timing| timing.total)
+            .sum();
+        let searched = summary.timings.iter().find(|timing| timing.name == "search").map_or(0, |timing| timing.count);
+        summary.new_frames = searched as usize;
+        summary.frames_per_second = if busy > 0.0 { searched as f64 / busy * 1e3 } else { 0.0 };
+        if stopped_before.is_some() {
+            return Ok(summary);
+        }
+        summary.warnings.extend(lost_sentence(&held.runs(), summary.frames.len()));
+        if !summary.frames.is_empty() {
+            results::write(output, body, &sequence.cameras, &summary.frames, &confidences, &held, sequence.fps)?;
+        }
+        // A finished run that is gone on with has no times to tell; those of the run that did the work stay.
+        if summary.new_frames > 0 || !output.path().join("stages.json").exists() {
+            output.write("stages.json", |writer| {
+                let object = json!({
+                    "unit": "ms",
+                    "frames": summary.new_frames,
+                    "frames_per_second": summary.frames_per_second,
+                    "stages": summary.timings,
+                });
+                Ok(serde_json::to_writer_pretty(writer, &object)?)
+            })?;
+        }
+        let (settings, truth, done) = (self.settings, self.truth.as_ref(), self.done);
+        let run =
+            Finished { sequence, settings, output, body, confidences: &confidences, held: &held, truth, record, done };
+        self.pace.close(&run, &mut summary)?;
+        Ok(summary)
+    }
+}
