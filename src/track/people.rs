@@ -19,9 +19,6 @@ use crate::body::Body;
 use crate::files::OutputFolder;
 use crate::sequence::Sequence;
 
-/// How often a frame is searched, the second time by where the first found the others.
-const ROUNDS: usize = 1;
-
 /// What a run yielded for one of several people.
 #[derive(Clone, Debug)]
 pub struct PersonSummary {
@@ -186,20 +183,14 @@ fn search(
     prepared: &mut Prepared,
     waited: Span,
 ) -> Result<Vec<FrameResult>> {
-    let mut poses: Vec<Option<Vec<f32>>> = people.iter().map(|person| person.run.expected(prepared)).collect();
+    let poses: Vec<Option<Vec<f32>>> = people.iter().map(|person| person.run.expected(prepared)).collect();
+    let owners = crowd.owners(&poses);
     let mut results = Vec::new();
-    for round in 0..ROUNDS {
-        let owners = crowd.owners(&poses);
-        results.clear();
-        for (at, person) in people.iter_mut().enumerate() {
-            if round == 0 {
-                person.run.note_features(prepared, waited)?;
-            }
-            crowd.share(prepared, &owners, at)?;
-            person.run.observe(prepared)?;
-            results.push(person.run.search(prepared)?);
-        }
-        poses = people.iter().zip(&results).map(|(person, result)| person.run.shown(result)).collect();
+    for (at, person) in people.iter_mut().enumerate() {
+        person.run.note_features(prepared, waited)?;
+        crowd.share(prepared, &owners, at)?;
+        person.run.observe(prepared)?;
+        results.push(person.run.search(prepared)?);
     }
     Ok(results)
 }
