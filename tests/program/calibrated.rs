@@ -6,6 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use pantin::motion::read_points;
+use pantin::track::WRONG;
 use plotters::prelude::*;
 
 use super::support::{self, succeeded};
@@ -18,8 +19,6 @@ const TERMS: [&str; 5] = ["LOOSENESS", "SUPPORT", "FITNESS", "SEEN", "SPREAD"];
 const COUNT: usize = KINDS.len() + TERMS.len();
 /// Share of the joints that are to be within their expected error.
 const SHARE: f64 = 0.6827;
-/// Root mean square over the joints from which on a pose is wrong, mm.
-const WRONG: f64 = 150.0;
 /// How scenes are tracked: as by default, and worse, so that there are wrong poses.
 const RUNS: [&[&str]; 3] = [
     &[],

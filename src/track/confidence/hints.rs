@@ -3,6 +3,7 @@
 use anyhow::Result;
 use glam::DVec3;
 
+use super::levers::Levers;
 use crate::body::Body;
 use crate::evaluate::{Evaluator, Objective};
 use crate::features::{Evidence, Observation, evidence};
@@ -29,8 +30,6 @@ const NEAREST: f64 = 1.0;
 /// The loss of fitness, relative to it, that tells; and the least that is believed: noise of single pixels.
 const TELLING: f64 = 0.01;
 const NOISE: f64 = 0.0005;
-/// Step of a degree of freedom for its effect on the joints: mm, radians.
-const PROBE: f64 = 1e-3;
 /// Places along a limb's axis that are asked for support.
 const PLACES: usize = 6;
 
@@ -74,14 +73,12 @@ impl JointProbe {
         observations: &[Observation],
         pose: &[f32],
     ) -> Result<Vec<JointHints>> {
-        let values: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
-        let Ok(bones) = self.body.world_from_bones(&values) else {
+        let Some(levers) = Levers::of(&self.body, pose) else {
             return Ok(vec![JointHints::default(); self.bones.len()]);
         };
-        let joints = self.body.joint_positions(&bones);
-        let looseness = self.looseness(evaluator, objective, &values, &joints)?;
-        let support = self.support(observations, &bones);
-        let hints = joints.iter().zip(looseness).zip(support);
+        let looseness = self.looseness(evaluator, objective, pose, &levers)?;
+        let support = self.support(observations, &levers.bones);
+        let hints = levers.joints.iter().zip(looseness).zip(support);
         Ok(hints
             .map(|((&joint, looseness), support)| JointHints {
                 seen: self.seen(observations, joint),
@@ -96,36 +93,28 @@ impl JointProbe {
         &self,
         evaluator: &mut dyn Evaluator,
         objective: &Objective,
-        pose: &[f64],
-        joints: &[DVec3],
+        pose: &[f32],
+        levers: &Levers,
     ) -> Result<Vec<f32>> {
         // The pose itself, then each degree of freedom to both sides, as far as its limits let it.
-        let mut rows: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
-        let (mut tries, mut all_levers) = (Vec::new(), Vec::with_capacity(pose.len()));
-        let mut moved = pose.to_vec();
-        let mut matrices = Vec::new();
-        let mut positions = |pose: &[f64]| -> Vec<DVec3> {
-            match self.body.world_from_bones_into(pose, &mut matrices) {
-                Ok(()) => self.body.joint_positions(&matrices),
-                Err(_) => joints.to_vec(),
-            }
-        };
-        for (dof, &value) in pose.iter().enumerate() {
-            moved[dof] = value + PROBE;
-            let levers: Vec<f64> = positions(&moved).iter().zip(joints).map(|(a, b)| a.distance(*b) / PROBE).collect();
-            let longest = levers.iter().copied().fold(0.0, f64::max);
+        let mut rows = pose.to_vec();
+        let mut tries = Vec::new();
+        let longest: Vec<f64> =
+            levers.of_dofs.iter().map(|levers| levers.iter().copied().fold(0.0, f64::max)).collect();
+        for (dof, (&start, &longest)) in pose.iter().zip(&longest).enumerate() {
+            let value = f64::from(start);
             let largest = if self.is_turn[dof] { LARGEST_TURN } else { f64::INFINITY };
             for side in [-1.0, 1.0] {
-                moved[dof] =
+                let moved =
                     (value + side * (REACH / longest.max(1e-6)).min(largest)).clamp(self.lower[dof], self.upper[dof]);
-                let way = longest * (moved[dof] - value).abs();
+                let way = longest * (moved - value).abs();
                 if way >= NEAREST {
-                    rows.extend(moved.iter().map(|value| *value as f32));
+                    let begin = rows.len();
+                    rows.extend(pose);
+                    rows[begin + dof] = moved as f32;
                     tries.push((dof, way));
                 }
             }
-            all_levers.push(levers.into_iter().map(|lever| lever / longest.max(1e-6)).collect::<Vec<_>>());
-            moved[dof] = value;
         }
         let mut fitness = vec![0.0; rows.len() / pose.len()];
         evaluator.fitness(&rows, objective, &mut fitness)?;
@@ -135,9 +124,10 @@ impl JointProbe {
             let loss = (best - f64::from(*there)) / best.max(1e-6);
             ways[dof] = ways[dof].max(way * (TELLING / loss.max(NOISE)).sqrt());
         }
-        let mut variances = vec![0.0; joints.len()];
-        for (levers, way) in all_levers.iter().zip(ways) {
-            variances.iter_mut().zip(levers).for_each(|(variance, lever)| *variance += (lever * way).powi(2));
+        let mut variances = vec![0.0; levers.joints.len()];
+        for ((levers, longest), way) in levers.of_dofs.iter().zip(longest).zip(ways) {
+            let share = |lever: &f64| lever / longest.max(1e-6);
+            variances.iter_mut().zip(levers).for_each(|(variance, lever)| *variance += (share(lever) * way).powi(2));
         }
         Ok(variances.into_iter().map(|variance| variance.sqrt() as f32).collect())
     }

@@ -2,10 +2,10 @@
 
 mod calibration;
 mod hints;
-
-use glam::DVec3;
+mod levers;
 
 use self::calibration::{expected_error, wrong_probability};
+use self::levers::Levers;
 use super::FrameResult;
 use crate::body::Body;
 
@@ -19,8 +19,6 @@ const HALF_TRUST: f64 = 100.0;
 const MEMORY: f64 = 25.0;
 /// Views from which on the worst one is left out of the agreement: a camera that drops out is no loss of the person.
 const SPARE_VIEWS: usize = 3;
-/// Step of a degree of freedom for its effect on the joints: mm, radians.
-const PROBE: f64 = 1e-3;
 
 /// When a person counts as lost and as found again. docs/CONFIDENCE.md measures these thresholds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -136,8 +134,10 @@ impl Confidence {
         let balance = if mean > 0.0 { (f1().fold(f64::INFINITY, f64::min) / mean).clamp(0.0, 1.0).sqrt() } else { 0.0 };
         let position_spread = root_mean_square(&result.spread, &self.root);
         let agreement = self.agreement(result);
-        let (sigmas, wrong) = self.expected(result, agreement);
-        let joints = self.joint_spreads(result).into_iter().zip(&result.joints).zip(sigmas);
+        let spreads = Levers::of(&self.body, &result.pose).map(|levers| levers.joint_spreads(&result.spread));
+        let spreads = spreads.unwrap_or_default();
+        let (sigmas, wrong) = self.expected(result, &spreads, agreement);
+        let joints = spreads.into_iter().zip(&result.joints).zip(sigmas);
         let joints = joints.map(|((spread, hints), sigma)| {
             let seen = f64::from(hints.seen);
             JointConfidence { spread, seen, confidence: relative * balance * settled(spread) * seen, sigma }
@@ -156,11 +156,11 @@ impl Confidence {
     }
 
     /// The expected error of each joint, mm, and the probability that the pose is wrong.
-    fn expected(&self, result: &FrameResult, agreement: f64) -> (Vec<f64>, f64) {
+    fn expected(&self, result: &FrameResult, spreads: &[f64], agreement: f64) -> (Vec<f64>, f64) {
         let fitness = f64::from(result.fitness).clamp(0.0, 1.0);
-        let joints = self.joint_names.iter().zip(&result.joints).zip(self.joint_spreads(result));
+        let joints = self.joint_names.iter().zip(&result.joints).zip(spreads);
         let sigmas: Vec<f64> =
-            joints.map(|((name, hints), spread)| expected_error(name, hints, spread, fitness)).collect();
+            joints.map(|((name, hints), spread)| expected_error(name, hints, *spread, fitness)).collect();
         let wrong = wrong_probability(sigmas.iter().copied(), agreement);
         (sigmas, wrong)
     }
@@ -197,29 +197,6 @@ impl Confidence {
         ratios.sort_by(f64::total_cmp);
         let counted = &ratios[usize::from(ratios.len() >= SPARE_VIEWS)..];
         if counted.is_empty() { 0.0 } else { counted.iter().sum::<f64>() / counted.len() as f64 }
-    }
-
-    /// Standard deviation of every joint's position, mm, from those of the degrees of freedom, taken as independent.
-    fn joint_spreads(&self, result: &FrameResult) -> Vec<f64> {
-        let mut pose: Vec<f64> = result.pose.iter().map(|value| f64::from(*value)).collect();
-        let mut bones = Vec::new();
-        let mut positions = |pose: &[f64]| -> Vec<DVec3> {
-            match self.body.world_from_bones_into(pose, &mut bones) {
-                Ok(()) => self.body.joint_positions(&bones),
-                Err(_) => Vec::new(),
-            }
-        };
-        let still = positions(&pose);
-        let mut variances = vec![0.0; still.len()];
-        for (d, &spread) in result.spread.iter().enumerate().filter(|(_, spread)| **spread > 0.0) {
-            let Some(value) = pose.get(d).copied() else { break };
-            pose[d] = value + PROBE;
-            for ((variance, moved), still) in variances.iter_mut().zip(positions(&pose)).zip(&still) {
-                *variance += (moved.distance(*still) / PROBE * f64::from(spread)).powi(2);
-            }
-            pose[d] = value;
-        }
-        variances.into_iter().map(f64::sqrt).collect()
     }
 }
 
