@@ -26,8 +26,6 @@ const SURVIVORS: usize = 4;
 const NARROWING: [f32; 3] = [3.0, 2.0, 1.0];
 /// While the person stays lost, the hull is searched at a distance of 1, 2, 4, … frames, at most this.
 const LONGEST_WAIT: usize = 16;
-/// What makes the random numbers of one search after the other different: the golden ratio's 64 bits.
-const SEED_STEP: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// The search for a lost person.
 ///
@@ -150,8 +148,7 @@ impl Recovery {
         searches: &mut u64,
     ) -> Result<Estimate> {
         *searches += 1;
-        let seed = self.settings.seed.wrapping_add(searches.wrapping_mul(SEED_STEP));
-        let mut search = SearchSettings { iterations, seed, ..self.settings }.build(&self.space)?;
+        let mut search = SearchSettings { iterations, ..self.settings }.reseeded(*searches).build(&self.space)?;
         let LostFrame { evaluator, objective, number, .. } = frame;
         search.search_frame(*number, centre, spread, &mut |poses, fitness| evaluator.fitness(poses, objective, fitness))
     }

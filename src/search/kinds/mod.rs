@@ -32,6 +32,8 @@ use crate::files::choices;
 /// Most particles of a search. More is a slip of the keyboard, not a plan.
 const MOST_PARTICLES: usize = 1 << 20;
 const MOST_ITERATIONS: usize = 1 << 16;
+/// What makes the random numbers of one search after the other different: the golden ratio's 64 bits.
+const SEED_STEP: u64 = 0x9E37_79B9_7F4A_7C15;
 /// Most numbers one buffer of a search may hold (1 GiB of them).
 const LARGEST_BUFFER: usize = 1 << 28;
 
@@ -176,6 +178,12 @@ impl SearchSettings {
         let form =
             form.on_device().with_context(|| format!("the search {} has no form for devices", self.kind.name()))?;
         form.record(frame, space, self.iterations)
+    }
+
+    /// With random numbers of their own for a further search of the same frames: `turn` tells such searches apart, and 0 is the run's own.
+    #[must_use]
+    pub(crate) fn reseeded(self, turn: u64) -> Self {
+        Self { seed: self.seed.wrapping_add(turn.wrapping_mul(SEED_STEP)), ..self }
     }
 
     /// Makes the search.

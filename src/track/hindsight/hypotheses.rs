@@ -3,7 +3,7 @@
 
 use anyhow::Result;
 
-use super::scorer::{Candidate, Effort, Scorer};
+use super::scorer::{Candidate, Effort, Scorer, most_under};
 use crate::body::Body;
 use crate::search::SearchSpace;
 
@@ -89,18 +89,12 @@ impl Limbs {
             })
             .collect();
         let scattered = scorer.candidates(&rows)?;
-        let best = best(&scattered);
+        let best = most_under(&scattered, None);
         let spread: Vec<f32> = lower.iter().zip(upper).map(|(low, high)| WIDTH * (high - low)).collect();
         let effort = Effort { spread: &spread, generations: scorer.generations(GENERATIONS), turn };
         let found = scorer.search(frame, &scattered[best].pose, moved, effort, None)?;
         scorer.candidate(found.pose)
     }
-}
-
-/// The index of the candidate that is worth most by itself.
-pub(super) fn best(candidates: &[Candidate]) -> usize {
-    let worth = candidates.iter().enumerate();
-    worth.fold(0, |best, (at, candidate)| if candidate.worth > candidates[best].worth { at } else { best })
 }
 
 /// The root of x^(n + 1) = x + 1 above 1.

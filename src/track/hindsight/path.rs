@@ -10,11 +10,8 @@ pub(super) fn best_path(
     cost: &dyn Fn(usize, usize, usize, usize) -> f64,
 ) -> Vec<usize> {
     let count = worth.len();
-    let best_of = |values: &[f64]| {
-        values.iter().enumerate().fold(0, |best, (at, value)| if *value > values[best] { at } else { best })
-    };
     if count < 2 {
-        return worth.iter().map(|values| best_of(values)).collect();
+        return worth.iter().map(|values| greatest(values.iter().copied())).collect();
     }
     // sums[j][k]: the best worth of all paths that end with j, k.
     let mut sums: Vec<Vec<f64>> = worth[0]
@@ -41,8 +38,7 @@ pub(super) fn best_path(
         came.push(from);
     }
     let width = worth[count - 1].len();
-    let flat: Vec<f64> = sums.concat();
-    let end = best_of(&flat);
+    let end = greatest(sums.into_iter().flatten());
     let mut path = vec![end % width, end / width];
     for from in came.iter().rev() {
         let [.., k, j] = path[..] else { break };
@@ -50,6 +46,12 @@ pub(super) fn best_path(
     }
     path.reverse();
     path
+}
+
+/// The index of the greatest value; of equals the first, and of none 0.
+pub(super) fn greatest(values: impl Iterator<Item = f64>) -> usize {
+    let none = (f64::NEG_INFINITY, 0);
+    values.enumerate().fold(none, |best, (at, value)| if value > best.0 { (value, at) } else { best }).1
 }
 
 #[cfg(test)]

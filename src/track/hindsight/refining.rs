@@ -4,8 +4,7 @@
 use anyhow::Result;
 use glam::DVec3;
 
-use super::scorer::{Effort, Pull, Scorer};
-use super::tracks::most_under;
+use super::scorer::{Effort, Pull, Scorer, most_under};
 use super::window::Seen;
 
 /// Times that every frame is searched again, and generations of that.

@@ -5,6 +5,7 @@ use anyhow::Result;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::path::greatest;
 use super::shape::{Posed, Shape};
 use crate::evaluate::{Evaluator, Objective};
 use crate::features::Observation;
@@ -52,6 +53,12 @@ pub(super) struct Candidate {
     pub(super) points: Vec<DVec3>,
     /// What the frame alone says for it.
     pub(super) worth: f64,
+}
+
+/// The index of the candidate that is worth most under a pull, or by itself; of equals the first.
+pub(super) fn most_under(candidates: &[Candidate], pull: Option<&Pull>) -> usize {
+    let worth = |candidate: &Candidate| candidate.worth - pull.map_or(0.0, |pull| pull.cost(&candidate.points));
+    greatest(candidates.iter().map(worth))
 }
 
 /// Scores poses of the frame observed last.
@@ -174,11 +181,15 @@ impl<'a> Scorer<'a> {
         let part = |values: &[f32]| -> Vec<f32> { moved.iter().map(|&d| values[d]).collect() };
         let space = SearchSpace::new(part(self.space.lower()), part(self.space.upper()), vec![1.0; moved.len()])?;
         let (particles, iterations) = (self.generation, effort.generations);
-        let seed = self.seed.wrapping_add((effort.turn + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
-        let mut settings =
-            SearchSettings { kind: SearchKind::MaEs, particles, iterations, seed, ..SearchSettings::default() };
+        let mut settings = SearchSettings {
+            kind: SearchKind::MaEs,
+            particles,
+            iterations,
+            seed: self.seed,
+            ..SearchSettings::default()
+        };
         settings.matrix.generation = particles;
-        let mut search = settings.build(&space)?;
+        let mut search = settings.reseeded(effort.turn + 1).build(&space)?;
         let mut whole = Vec::new();
         let frame = u32::try_from(frame).unwrap_or(u32::MAX);
         let mut estimate = search.search_frame(frame, &part(centre), &part(effort.spread), &mut |rows, worth| {

@@ -80,21 +80,17 @@ impl Shape {
 
     /// How deep two parts stand in each other, mm; not above 0 where they do not.
     fn depth(&self, posed: &Posed, one: usize, other: usize) -> f64 {
-        let [a, b] = [one, other].map(|part| &self.body.parts[part]);
-        let ends = |part: &crate::body::Part| {
-            let bone = &posed.bones[part.bone];
-            [bone.transform_point3(part.a), bone.transform_point3(part.b)]
-        };
-        let [at_a, at_b] = nearest(ends(a), ends(b));
-        let radius = |part: &crate::body::Part, at: f64| part.radius_a + at * (part.radius_b - part.radius_a);
-        let [p, q] = [ends(a), ends(b)];
-        let distance = p[0].lerp(p[1], at_a).distance(q[0].lerp(q[1], at_b));
-        radius(a, at_a) + radius(b, at_b) - distance
+        let parts = [one, other].map(|part| &self.body.parts[part]);
+        let axes = parts.map(|part| [part.a, part.b].map(|end| posed.bones[part.bone].transform_point3(end)));
+        let places = nearest(axes);
+        let [p, q] = [0, 1].map(|at| axes[at][0].lerp(axes[at][1], places[at]));
+        let radius = |at: usize| parts[at].radius_a + places[at] * (parts[at].radius_b - parts[at].radius_a);
+        radius(0) + radius(1) - p.distance(q)
     }
 }
 
 /// Where two segments are nearest to each other, as shares of their lengths.
-fn nearest([p0, p1]: [DVec3; 2], [q0, q1]: [DVec3; 2]) -> [f64; 2] {
+fn nearest([[p0, p1], [q0, q1]]: [[DVec3; 2]; 2]) -> [f64; 2] {
     let (u, v, w) = (p1 - p0, q1 - q0, p0 - q0);
     let (a, b, c, d, e) = (u.length_squared(), u.dot(v), v.length_squared(), u.dot(w), v.dot(w));
     let det = a * c - b * b;

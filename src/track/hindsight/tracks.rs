@@ -3,8 +3,8 @@
 
 use anyhow::Result;
 
-use super::hypotheses::{Limbs, best};
-use super::scorer::{Candidate, Effort, Pull, Scorer};
+use super::hypotheses::Limbs;
+use super::scorer::{Candidate, Effort, Pull, Scorer, most_under};
 use super::window::Seen;
 
 /// Generations of a frame's search, and of one round a limb found anew or a poor frame.
@@ -64,7 +64,7 @@ impl Track<'_> {
                     twins.map(|twins| self.limbs.exchanged(*twins, &chosen.pose, scorer.space)).collect();
                 let mut exchanged = scorer.candidates(&poses)?;
                 if !exchanged.is_empty() {
-                    others.push(exchanged.swap_remove(best(&exchanged)));
+                    others.push(exchanged.swap_remove(most_under(&exchanged, None)));
                 }
             }
             others.retain(|other| is_different(other, &chosen));
@@ -143,19 +143,6 @@ impl Track<'_> {
         }
         Ok(others)
     }
-}
-
-/// The index of the candidate that is worth most under a pull.
-pub(super) fn most_under(candidates: &[Candidate], pull: Option<&Pull>) -> usize {
-    let worth = |candidate: &Candidate| candidate.worth - pull.map_or(0.0, |pull| pull.cost(&candidate.points));
-    let mut best = (f64::NEG_INFINITY, 0);
-    for (at, candidate) in candidates.iter().enumerate() {
-        let worth = worth(candidate);
-        if worth > best.0 {
-            best = (worth, at);
-        }
-    }
-    best.1
 }
 
 fn is_different(one: &Candidate, other: &Candidate) -> bool {
