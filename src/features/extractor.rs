@@ -12,7 +12,7 @@ use super::foreground::Foreground;
 use super::likelihood::LikelySilhouette;
 use super::morphology::Morphology;
 use super::segment::Segmenter;
-use super::{BitImage, FeatureSettings, ForegroundKind, Region, ViewFeatures};
+use super::{BitImage, FeatureSettings, ForegroundKind, ViewFeatures, ignoring};
 use crate::geometry::LARGEST_SIDE;
 use crate::gpu::{Device, PassTiming};
 
@@ -206,7 +206,7 @@ impl Extractor {
                             features.silhouette.copy_from(likely.silhouette());
                         }
                     }
-                    find_region(settings, features);
+                    features.find_region(settings);
                     view.find_edges(picture, settings, proximity, features);
                 });
             }
@@ -243,12 +243,12 @@ impl Extractor {
         })
     }
 
-    /// Has pixels of a frame's features count neither for nor against a candidate, as [`Ignoring::apply`].
+    /// Has pixels of a frame's features count neither for nor against a candidate, as [`super::Ignoring::apply`].
     ///
     /// # Errors
     /// As there.
     pub fn ignore(&self, features: &mut [ViewFeatures], ignored: &[Option<Arc<BitImage>>]) -> Result<()> {
-        apply(&self.settings, &self.proximity, features, ignored)
+        ignoring::apply(&self.settings, &self.proximity, features, ignored)
     }
 
     fn check_frame(&self, pictures: &[RgbImage], masks: Option<&[Option<GrayImage>]>) -> Result<()> {
@@ -269,52 +269,6 @@ impl Extractor {
         }
         Ok(())
     }
-}
-
-/// Leaves pixels out of features that are made already.
-#[derive(Clone, Debug)]
-pub struct Ignoring {
-    settings: FeatureSettings,
-    proximity: Vec<u8>,
-}
-
-impl Ignoring {
-    /// For features of these settings.
-    pub fn new(settings: &FeatureSettings) -> Self {
-        Self { settings: settings.clone(), proximity: settings.proximity.table(settings.distance.metric) }
-    }
-
-    /// Has pixels of a frame's features count neither for nor against a candidate: no silhouette is there and no edge, so that none of
-    /// their edges is near a pixel that counts. One mask a view, or none.
-    ///
-    /// # Errors
-    /// When there are not as many masks as views, or one is of another size.
-    pub fn apply(&self, features: &mut [ViewFeatures], ignored: &[Option<Arc<BitImage>>]) -> Result<()> {
-        apply(&self.settings, &self.proximity, features, ignored)
-    }
-}
-
-fn apply(
-    settings: &FeatureSettings,
-    proximity: &[u8],
-    features: &mut [ViewFeatures],
-    ignored: &[Option<Arc<BitImage>>],
-) -> Result<()> {
-    if ignored.len() != features.len() {
-        bail!(
-            "{} views were given {} masks of ignored pixels or gaps, expected one each",
-            features.len(),
-            ignored.len()
-        );
-    }
-    features.par_iter_mut().zip(ignored).try_for_each(|(features, ignored)| {
-        let Some(ignored) = ignored else { return Ok(()) };
-        features.silhouette.and_not(ignored);
-        find_region(settings, features);
-        features.edges.and_not(ignored);
-        measure_edges(settings, proximity, features);
-        features.observation.ignore(ignored)
-    })
 }
 
 fn same_size(what: &str, view: usize, found: (u32, u32), expected: (u32, u32)) -> Result<()> {
@@ -377,26 +331,13 @@ impl View {
         self.near.copy_from(&features.silhouette);
         self.morphology.dilate(&mut self.near, settings.dilation());
         self.detector.detect(picture, &self.near, &settings.edges, &mut features.edges);
-        measure_edges(settings, proximity, features);
+        features.measure_edges(settings, proximity);
     }
-}
-
-fn find_region(settings: &FeatureSettings, features: &mut ViewFeatures) {
-    let (width, height) = (features.silhouette.width(), features.silhouette.height());
-    let bounds = features.silhouette.bounds();
-    features.region = bounds
-        .map_or(Region::whole(width, height), |bounds| bounds.enlarged(settings.silhouette.motion, width, height));
-}
-
-/// From edges to distance and packed bytes.
-fn measure_edges(settings: &FeatureSettings, proximity: &[u8], features: &mut ViewFeatures) {
-    features.distance.measure(&features.edges, settings.distance.metric, settings.proximity.limit());
-    features.observation.pack(&features.silhouette, &features.distance, proximity);
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::Observation;
+    use super::super::{Observation, Region};
     use super::*;
     use image::{Luma, Rgb};
 

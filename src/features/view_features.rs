@@ -1,6 +1,6 @@
 //! Everything that is found in one view of a frame.
 
-use super::{BitImage, DistanceMap, Likelihood, Observation, Region};
+use super::{BitImage, DistanceMap, FeatureSettings, Likelihood, Observation, Region};
 
 /// What was found in one view of one frame; every intermediate picture can be looked at.
 #[derive(Clone, Debug)]
@@ -33,5 +33,19 @@ impl ViewFeatures {
             observation: Observation::empty(width, height),
             likelihood: None,
         }
+    }
+
+    /// The region from the silhouette.
+    pub(super) fn find_region(&mut self, settings: &FeatureSettings) {
+        let (width, height) = (self.silhouette.width(), self.silhouette.height());
+        let bounds = self.silhouette.bounds();
+        self.region = bounds
+            .map_or(Region::whole(width, height), |bounds| bounds.enlarged(settings.silhouette.motion, width, height));
+    }
+
+    /// From edges to distance and packed bytes.
+    pub(super) fn measure_edges(&mut self, settings: &FeatureSettings, proximity: &[u8]) {
+        self.distance.measure(&self.edges, settings.distance.metric, settings.proximity.limit());
+        self.observation.pack(&self.silhouette, &self.distance, proximity);
     }
 }
