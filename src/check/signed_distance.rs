@@ -25,8 +25,8 @@ pub(super) struct SignedDistance {
 
 impl SignedDistance {
     /// Measures a silhouette at every `step`-th pixel; None where it is empty. The border lies half way between a pixel
-    /// inside and one outside.
-    pub(super) fn of(silhouette: &BitImage, step: u32) -> Option<Self> {
+    /// inside and one outside. Of pixels that are `ignored` nothing is known: no border is beside one, and there is no distance there.
+    pub(super) fn of(silhouette: &BitImage, step: u32, ignored: Option<Arc<BitImage>>) -> Option<Self> {
         let bounds = silhouette.bounds()?;
         let (width, height) = (silhouette.width(), silhouette.height());
         let step = step.max(1);
@@ -52,17 +52,10 @@ impl SignedDistance {
             height: rows,
             values: outward.iter().zip(&inward).map(value).collect(),
             border: Vec::new(),
-            ignored: None,
+            ignored,
         };
         field.border = field.find_border();
         Some(field)
-    }
-
-    /// With pixels of which nothing is known: no border is beside one, and there is no distance there.
-    pub(super) fn ignoring(mut self, ignored: Option<Arc<BitImage>>) -> Self {
-        self.ignored = ignored;
-        self.border = self.find_border();
-        self
     }
 
     fn is_ignored(&self, pixel: DVec2) -> bool {
@@ -180,7 +173,7 @@ mod tests {
         let blob =
             |x: u32, y: u32| (x > 5 && x < 30 && y > 8 && y < 20 && (x * 7 + y * 5) % 11 > 1) || (x == 40 && y == 3);
         let silhouette = BitImage::from_fn(60, 40, blob);
-        let field = SignedDistance::of(&silhouette, 1).unwrap();
+        let field = SignedDistance::of(&silhouette, 1, None).unwrap();
         for (x, y) in (0..60).flat_map(|x| (0..40).map(move |y| (x, y))) {
             let here = blob(x, y);
             let nearest = (0..60)
@@ -196,6 +189,6 @@ mod tests {
         assert!(field.at(DVec2::new(-0.6, 3.0)).is_none() && field.at(DVec2::new(3.0, 39.6)).is_none());
         assert!(field.at(DVec2::NAN).is_none());
         assert!(field.border().iter().all(|p| blob(p.x as u32, p.y as u32)));
-        assert!(SignedDistance::of(&BitImage::new(9, 9), 1).is_none());
+        assert!(SignedDistance::of(&BitImage::new(9, 9), 1, None).is_none());
     }
 }

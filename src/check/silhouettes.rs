@@ -41,8 +41,8 @@ impl Silhouettes {
         while let Some(frame) = observer.read()? {
             if let Some(features) = observer.features(&frame, is_wanted(frame.index))? {
                 let field = |view: &ViewFeatures| {
-                    let distance = SignedDistance::of(&view.silhouette, view.silhouette.height().div_ceil(ROWS))?;
-                    Some(distance.ignoring(view.observation.ignored.clone()))
+                    let step = view.silhouette.height().div_ceil(ROWS);
+                    SignedDistance::of(&view.silhouette, step, view.observation.ignored.clone())
                 };
                 fields[frame.index - frames.start] = features.iter().map(field).collect();
             }
