@@ -117,13 +117,6 @@ pub(super) struct PictureLight {
     light: Light,
 }
 
-impl PictureLight {
-    /// Whether neither the picture nor its background has any colour.
-    pub(super) fn is_grey(&self) -> bool {
-        self.light.is_grey
-    }
-}
-
 impl BackgroundColours {
     /// Of a picture of the empty scene.
     pub(crate) fn new(plate: &RgbImage) -> Self {
@@ -153,14 +146,24 @@ impl BackgroundColours {
         }
     }
 
-    /// The light of a picture that is `gain` times as bright as the background: its noise, and how much of what looks like background is in
-    /// shadow in `near`, where the person may be.
-    pub(super) fn light(&self, picture: &RgbImage, gain: [f32; 3], near: Option<Region>) -> PictureLight {
+    /// Whether there is no colour in a picture and the background.
+    pub(super) fn is_grey(&self, picture: &RgbImage) -> bool {
+        let mut pixels = picture.as_raw().as_chunks::<3>().0.iter();
+        self.is_grey && pixels.all(|pixel| Luminance::of(pixel.map(f32::from)).is_grey())
+    }
+
+    /// The light of a picture that is `gain` times as bright as the background, by [`Self::is_grey`]: its noise, and how much of what looks
+    /// like background is in shadow in `near`, where the person may be.
+    pub(super) fn light(
+        &self,
+        picture: &RgbImage,
+        gain: [f32; 3],
+        is_grey: bool,
+        near: Option<Region>,
+    ) -> PictureLight {
         let dim = gain.map(|gain| 1.0 / gain.max(1e-3));
         let mut deviations = [const { Vec::new() }; 3];
         let rows = || picture.as_raw().chunks_exact(self.width * 3).enumerate();
-        let pixels = || picture.as_raw().as_chunks::<3>().0.iter();
-        let is_grey = self.is_grey && pixels().all(|pixel| Luminance::of(pixel.map(f32::from)).is_grey());
         for (y, row) in rows().step_by(GRID) {
             for (x, seen) in row.as_chunks::<3>().0.iter().enumerate().step_by(GRID) {
                 let (colour, at) = (lit(*seen, dim), y * self.width + x);
@@ -313,7 +316,7 @@ mod tests {
 
     fn judged(picture: &RgbImage) -> Vec<i16> {
         let mut colours = BackgroundColours::new(&plate());
-        let light = colours.light(picture, [1.0; 3], None);
+        let light = colours.light(picture, [1.0; 3], colours.is_grey(picture), None);
         let mut densities = vec![0; 64 * 48];
         colours.judge(picture, light, Region::whole(64, 48), &mut densities);
         densities
@@ -341,10 +344,13 @@ mod tests {
         picture.put_pixel(40, 20, grey(112));
         let judged = |picture: &RgbImage| {
             let mut colours = BackgroundColours::new(&plate);
-            let light = colours.light(picture, [1.0; 3], None);
+            let light = colours.light(picture, [1.0; 3], colours.is_grey(picture), None);
             let mut densities = vec![0; 64 * 48];
             colours.judge(picture, light, Region::whole(64, 48), &mut densities);
-            (light.is_grey(), [(5, 5), (20, 20), (40, 20)].map(|(x, y)| f32::from(densities[y * 64 + x]) / LOG_STEPS))
+            (
+                light.light.is_grey,
+                [(5, 5), (20, 20), (40, 20)].map(|(x, y)| f32::from(densities[y * 64 + x]) / LOG_STEPS),
+            )
         };
         let (is_grey, [lit, dark, shaded]) = judged(&picture);
         // What is half as bright is hardly a shadow, what is a little darker may well be one.
@@ -364,7 +370,7 @@ mod tests {
         });
         let plate = plate();
         let colours = BackgroundColours::new(&plate);
-        let light = colours.light(&picture, [1.0; 3], None).light;
+        let light = colours.light(&picture, [1.0; 3], colours.is_grey(&picture), None).light;
         let densities = judged(&picture);
         let luminance = |p: [u8; 3]| {
             let [r, g, b] = p.map(f64::from);

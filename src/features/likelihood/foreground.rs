@@ -100,8 +100,8 @@ impl LikelySilhouette {
             };
             let gain = if gain { gains(picture, image) } else { [1.0; 3] };
             // First as if shadows were as frequent everywhere, then round the person with those counted there.
-            let mut light = colours.light(picture, gain, None);
-            likelihood.is_grey = light.is_grey();
+            likelihood.is_grey = colours.is_grey(picture);
+            let mut light = colours.light(picture, gain, likelihood.is_grey, None);
             let mut region = Region::whole(width, height);
             for pass in 0..2 {
                 colours.judge(picture, light, region, &mut likelihood.background);
@@ -110,7 +110,7 @@ impl LikelySilhouette {
                 clean(&mut self.silhouette, settings, &mut self.morphology, &mut self.components);
                 let Some(bounds) = self.silhouette.bounds().filter(|_| pass == 0) else { break };
                 region = bounds.enlarged(motion, width, height);
-                light = colours.light(picture, gain, Some(region));
+                light = colours.light(picture, gain, likelihood.is_grey, Some(region));
             }
         }
         let bounds = self.silhouette.bounds();
