@@ -41,6 +41,8 @@ NEEDS_VULKAN = $$(if $(HAS_DRIVER) && $(HAS_LAYER); then echo PANTIN_NEEDS_VULKA
 test: export PROPTEST_RNG_SEED = 1
 # What an incremental build keeps for the next one takes a third longer to make.
 test: export CARGO_INCREMENTAL = 0
+# A failing test says its file and line without them; line tables are for profilers.
+test: export CARGO_PROFILE_DEV_DEBUG = 0
 # The crate's own tests are built as a user builds it. All that runs the program, and the benchmarks, of which each row runs once,
 # have the feature rerun too: 185 crates more, but no library is built a second time.
 test: toolchain shaderc ffmpeg vulkan
