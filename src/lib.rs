@@ -4,11 +4,13 @@
 //!
 //! The crate is a house of rooms (see `docs/ARCHITECTURE.md`); an import runs down the floors, never up:
 //! [`command`] → [`study`] → [`track`] → [`search`], [`bench`], [`check`] → [`evaluate`], [`synth`], [`report`],
-//! [`observe`] → [`features`], [`body`], [`sequence`], [`texture`], [`calibrate`] → [`gpu`], [`motion`], [`geometry`] → [`files`].
+//! [`observe`] → [`features`], [`body`], [`sequence`], [`texture`], [`calibrate`] → [`gpu`], [`motion`], [`geometry`] → [`files`],
+//! `arithmetic`.
 //!
 //! Lengths are millimetres, angles radians (degrees only in files people edit), images row-major with the origin in the
 //! centre of the top-left pixel. The world frame is right-handed with z up.
 
+mod arithmetic;
 pub mod bench;
 pub mod body;
 pub mod calibrate;

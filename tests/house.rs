@@ -34,6 +34,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("motion", 1),
     ("geometry", 1),
     ("files", 0),
+    ("arithmetic", 0),
 ];
 
 /// Places that may hold `unsafe`, as path prefixes under src/.

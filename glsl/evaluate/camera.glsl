@@ -5,12 +5,13 @@
 
 #include "evaluate/model.glsl"
 #include "evaluate/arithmetic.glsl"
+#include "arithmetic/rounding.glsl"
 
 // Pixels in x and y, and the depth along the axis in z; `has_image` says whether the point is in front of the camera, inside of
 // the distortion's branch and near enough.
 vec3 project_point(Camera camera, vec3 point, out bool has_image) {
     vec3 p = transform(camera.camera_from_world[0], camera.camera_from_world[1], camera.camera_from_world[2], point);
-    precise float inverse = 1.0 / p.z;
+    float inverse = quotient(1.0, p.z);
     precise float x = p.x * inverse;
     precise float y = p.y * inverse;
     precise float r2 = x * x + y * y;
@@ -24,8 +25,9 @@ vec3 project_point(Camera camera, vec3 point, out bool has_image) {
             precise float value = s + q * s * s * s - 1.0;
             precise float slope = 1.0 + 3.0 * q * s * s;
             precise float bend = 3.0 * q * s;
-            precise float move = value * slope / (slope * slope - value * bend);
-            s = s - move;
+            precise float rise = value * slope;
+            precise float run = slope * slope - value * bend;
+            s = s - quotient(rise, run);
         }
         pixel.x = camera.focal.x * (x * s) + camera.principal.x;
         pixel.y = camera.focal.y * (y * s) + camera.principal.y;

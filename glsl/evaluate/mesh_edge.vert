@@ -6,6 +6,7 @@
 // Two triangles an edge.
 
 #include "evaluate/draw_mesh.glsl"
+#include "arithmetic/rounding.glsl"
 
 layout(std430, set = 0, binding = 4) readonly buffer Edges { MeshEdge edges[]; };
 layout(std430, set = 0, binding = 5) readonly buffer Outlines { uint outlines[]; };
@@ -34,10 +35,10 @@ void main() {
     ivec2 start = turned ? to : from;
     ivec2 way = turned ? -d : d;
     float steps = float(along_x ? way.x : way.y);
-    float rise = steps == 0.0 ? 0.0 : float(along_x ? way.y : way.x) / steps;
+    float rise = steps == 0.0 ? 0.0 : quotient(float(along_x ? way.y : way.x), steps);
     float near = turned ? q.edge_depth : p.edge_depth;
     float far = turned ? p.edge_depth : q.edge_depth;
-    float slope = steps == 0.0 ? 0.0 : (far - near) / steps;
+    float slope = steps == 0.0 ? 0.0 : quotient(far - near, steps);
     bool at_end = corner == 1u || corner == 2u || corner == 4u;
     bool lower = corner == 2u || corner == 4u || corner == 5u;
     float along = at_end ? steps + 0.5 : -0.5;

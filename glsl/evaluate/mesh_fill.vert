@@ -22,5 +22,5 @@ void main() {
     Seen own = seen[image * batch.vertices + index];
     if (placement.low == placement.high || !has_image(own)) return;
     writes = uvec3(placement.low, placement.high, vertices[index].label * 0x01010101u);
-    gl_Position = to_clip_space(vec2(own.at + 256 * placement.shift) / 256.0, own.depth);
+    gl_Position = to_clip_space(vec2(own.at + 256 * placement.shift) * (1.0 / 256.0), own.depth);
 }

@@ -2,6 +2,8 @@
 
 #include "evaluate/constants.glsl"
 #include "evaluate/model.glsl"
+#include "arithmetic/elementary.glsl"
+#include "arithmetic/rounding.glsl"
 
 layout(local_size_x = OBJECTIVE_GROUP) in;
 
@@ -58,30 +60,32 @@ struct Terms {
 };
 
 float ratio(float numerator, float denominator) {
-    return denominator > 0.0 ? numerator / denominator : 0.0;
+    return denominator > 0.0 ? quotient(numerator, denominator) : 0.0;
 }
 
-// The base is 0 or more; what GLSL leaves undefined at 0 is what the processor computes there. Exponents in eighths are products of
-// square roots, in the order of the processor.
+// The base is from 0 to 1, the exponent over 0. Exponents in eighths are products of square roots, in the order of the processor.
 float power(float base, float exponent) {
     float eighths = 8.0 * exponent;
     if (eighths == floor(eighths) && eighths >= 1.0 && eighths <= 8.0) {
         uint bits = uint(eighths);
-        float half_power = sqrt(base);
-        float quarter = sqrt(half_power);
-        float product = 1.0;
+        float half_power = square_root(base);
+        float quarter = square_root(half_power);
+        precise float product = 1.0;
         if ((bits & 8u) != 0u) product *= base;
         if ((bits & 4u) != 0u) product *= half_power;
         if ((bits & 2u) != 0u) product *= quarter;
-        if ((bits & 1u) != 0u) product *= sqrt(quarter);
+        if ((bits & 1u) != 0u) product *= square_root(quarter);
         return product;
     }
-    if (base <= 0.0) return exponent == 0.0 ? 1.0 : 0.0;
-    return pow(base, exponent);
+    if (base <= 0.0) return 0.0;
+    precise float logarithm = exponent * ln(base);
+    return exp_of_negative(logarithm);
 }
 
 float silhouette(float overlap, float area_obs, float area_model) {
-    return push.beta * ratio(overlap, area_obs) + (1.0 - push.beta) * ratio(overlap, area_model);
+    precise float covered = push.beta * ratio(overlap, area_obs);
+    precise float sum = covered + (1.0 - push.beta) * ratio(overlap, area_model);
+    return sum;
 }
 
 bool is_nothing(Terms t) {
@@ -103,7 +107,7 @@ float views_area(Terms t, uint candidate, uint first_view, uint end_view) {
 #else
     if (is_nothing(t)) return -1.0;
 #ifdef SEGMENTED
-    float term = 0.0;
+    precise float term = 0.0;
     for (uint segment = 0u; segment < MOST_SEGMENTS; segment++) {
         float area_obs = 0.0;
         float area_model = 0.0;
@@ -124,21 +128,25 @@ float views_area(Terms t, uint candidate, uint first_view, uint end_view) {
 }
 
 float edge(Terms t) {
-    return ratio(t.proximity, 127.0 * t.edges);
+    precise float most = 127.0 * t.edges;
+    return ratio(t.proximity, most);
 }
 
 float score(Terms t, float f1) {
     if (f1 < 0.0) return 0.0;
-    if (push.terms == TERMS_SUM) return push.w1 * f1 + push.w2 * edge(t);
-    return power(f1, push.w1) * power(edge(t), push.w2);
+    float f2 = edge(t);
+    precise float together;
+    if (push.terms == TERMS_SUM) together = push.w1 * f1 + push.w2 * f2;
+    else together = power(f1, push.w1) * power(f2, push.w2);
+    return together;
 }
 
 void main() {
     uint candidate = gl_GlobalInvocationID.x;
     if (candidate >= push.candidates) return;
     Terms all = Terms(0.0, 0.0, 0.0, 0.0, 0.0);
-    float sum = 0.0;
-    float products = 1.0;
+    precise float sum = 0.0;
+    precise float products = 1.0;
     for (uint view = 0u; view < push.views; view++) {
         Sums seen = sums[candidate * push.views + view];
         Terms own = Terms(float(cameras[view].area_obs), float(seen.area_model), float(seen.overlap), float(seen.edges),
@@ -156,7 +164,7 @@ void main() {
     float together = score(all, views_area(all, candidate, 0u, push.views));
     float value = 0.0;
     if (push.over == OVER_TOGETHER) value = together;
-    else if (push.over == OVER_MEAN) value = sum / float(push.views);
+    else if (push.over == OVER_MEAN) value = quotient(sum, float(push.views));
     else if (push.over == OVER_PRODUCT) value = products;
     fitness[candidate] = value;
 }

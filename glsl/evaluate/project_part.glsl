@@ -27,7 +27,7 @@ Quad project_part(uint image, uint part_index) {
     float cc = dot3(c, c);
     precise float least = 1e-6 * (dot3(u, u) * dot3(n, n));
     if (cc >= least && cc > 0.0) {
-        precise float inverse = 1.0 / sqrt(cc);
+        float inverse = quotient(1.0, square_root(cc));
         vec3 r = scale3(c, inverse);
         precise vec3 ra = scale3(r, part.radius_a);
         precise vec3 rb = scale3(r, part.radius_b);
@@ -41,14 +41,14 @@ Quad project_part(uint image, uint part_index) {
         vec3 disc = a_is_larger ? a : b;
         float radius = a_is_larger ? part.radius_a : part.radius_b;
         precise vec3 view = camera.centre - disc;
-        precise float inverse = 1.0 / sqrt(dot3(view, view));
+        float inverse = quotient(1.0, square_root(dot3(view, view)));
         view = scale3(view, inverse);
         uint axis = 0u;
         if (abs(view.y) < abs(view[axis])) axis = 1u;
         if (abs(view.z) < abs(view[axis])) axis = 2u;
         vec3 unit = vec3(axis == 0u, axis == 1u, axis == 2u);
         precise vec3 side = unit - scale3(view, view[axis]);
-        precise float to_radius = radius / sqrt(dot3(side, side));
+        float to_radius = quotient(radius, square_root(dot3(side, side)));
         side = scale3(side, to_radius);
         vec3 up = cross3(view, side);
         precise vec3 plus = disc + side;

@@ -64,9 +64,9 @@ void main() {
             own.edge_depth = NO_IMAGE;
             if (is_seen) {
                 own.at = ivec2(snap(pixel.x), snap(pixel.y));
-                precise float depth = 1.0 - MESH_NEAR / pixel.z;
+                precise float depth = 1.0 - quotient(MESH_NEAR, pixel.z);
                 precise float nearer = pixel.z - MESH_EDGE_BIAS;
-                precise float edge_depth = 1.0 - MESH_NEAR / nearer;
+                precise float edge_depth = 1.0 - quotient(MESH_NEAR, nearer);
                 own.depth = depth;
                 own.edge_depth = edge_depth;
                 // Triangles and outlines stay within the vertices rounded to pixels.

@@ -5,6 +5,7 @@
 
 #include "features/constants.glsl"
 #include "features/shadow.glsl"
+#include "arithmetic/elementary.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -47,8 +48,9 @@ uint byte_at(uint at) {
 
 float normal_density(float distance_squared, float variance) {
     precise float norm = 6.28318531 * variance;
-    precise float exponent = -0.5 * distance_squared / variance;
-    return exp(exponent) / (norm * sqrt(norm));
+    precise float halved = -0.5 * distance_squared;
+    precise float volume = norm * square_root(norm);
+    return quotient(exp_of_negative(quotient(halved, variance)), volume);
 }
 
 void start(uint at, uint pixels, vec3 seen, uint components) {
@@ -118,7 +120,8 @@ bool learn(uint at, uint pixels, vec3 seen, uint components, uint adaptation) {
         float rho = 0.0;
         if (matched) {
             if (adaptation == ADAPTATION_DENSITY) {
-                rho = min(alpha * normal_density(distance_squared[k], variance[k]), 1.0);
+                precise float share = alpha * normal_density(distance_squared[k], variance[k]);
+                rho = min(share, 1.0);
             } else {
                 rho = min(quotient(alpha, max(new_weight, 1e-6)), 1.0);
             }

@@ -4,7 +4,7 @@
 // The colours of the most probable components on the grid that the light is measured on.
 
 #include "features/constants.glsl"
-#include "features/quotient.glsl"
+#include "arithmetic/rounding.glsl"
 
 layout(local_size_x = 64) in;
 

@@ -3,7 +3,7 @@
 #ifndef FEATURES_SHADOW
 #define FEATURES_SHADOW
 
-#include "features/quotient.glsl"
+#include "arithmetic/rounding.glsl"
 
 float product(vec3 a, vec3 b) {
     precise float sum = a.x * b.x + a.y * b.y + a.z * b.z;

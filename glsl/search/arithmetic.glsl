@@ -1,5 +1,7 @@
 // Arithmetic that every device repeats to the bit; src/search/arithmetic.rs holds the same operations and says why.
 
+#include "arithmetic/elementary.glsl"
+
 // Low word in x, high word in y; by halves, since reflection cannot read umulExtended.
 uvec2 wide_product(uint a, uint b) {
     uint a0 = a & 0xFFFFu, a1 = a >> 16;
@@ -42,45 +44,6 @@ float hold(float x, float low, float high) {
     return held <= high ? held : high;
 }
 
-float inverse_root(float x) {
-    precise float half_x = 0.5 * x;
-    precise float y = uintBitsToFloat(0x5F3759DFu - (floatBitsToUint(x) >> 1));
-    for (int i = 0; i < 3; i++) {
-        precise float correction = 1.5 - half_x * y * y;
-        y = y * correction;
-    }
-    return y;
-}
-
-float root(float x) {
-    precise float r = x * inverse_root(x);
-    return r;
-}
-
-float reciprocal(float x) {
-    precise float y = inverse_root(x);
-    precise float r = y * y;
-    precise float refined = r + r * (1.0 - x * r);
-    return refined;
-}
-
-float ln(float x) {
-    const uint SQRT_HALF = 0x3F3504F3u;
-    uint shifted = floatBitsToUint(x) - SQRT_HALF;
-    int exponent = int(shifted) >> 23;
-    float mantissa = uintBitsToFloat((shifted & 0x007FFFFFu) + SQRT_HALF);
-    precise float less = mantissa - 1.0;
-    precise float more = mantissa + 1.0;
-    precise float t = less * reciprocal(more);
-    precise float s = t * t;
-    precise float series =
-        1.0 + s * (0.333333343 + s * (0.2 + s * (0.142857149 + s * 0.111111112)));
-    precise float whole = float(exponent) * 0.693147182;
-    precise float twice = 2.0 * t;
-    precise float sum = whole + twice * series;
-    return sum;
-}
-
 // Sine in x, cosine in y.
 vec2 turn(uint word) {
     uint quarter = word >> 30;
@@ -102,17 +65,4 @@ vec2 box_muller(uint w0, uint w1) {
     vec2 both = turn(w1);
     precise vec2 normals = vec2(radius * both.y, radius * both.x);
     return normals;
-}
-
-float exp_of_negative(float x) {
-    const float ROUND = 12582912.0;
-    if (!(x >= -22.0)) return 0.0;
-    precise float shifted = x * 1.44269502 + ROUND;
-    precise float n = shifted - ROUND;
-    precise float r = (x - n * 0.693359375) - n * -2.1219444e-4;
-    precise float series =
-        0.166666672 + r * (4.16666679e-2 + r * (8.33333377e-3 + r * (1.38888892e-3 + r * 1.98412701e-4)));
-    precise float power = 1.0 + r * (1.0 + r * (0.5 + r * series));
-    precise float scaled = power * uintBitsToFloat(uint(int(n) + 127) << 23);
-    return scaled;
 }

@@ -8,6 +8,7 @@ use super::components::Components;
 use super::evidence::EvidenceSum;
 use super::segments::SegmentSums;
 use super::view_counts::ViewCounts;
+use crate::arithmetic::{exp_of_negative, ln};
 use crate::features::{Segment, Segments};
 use crate::files::choices;
 
@@ -233,11 +234,11 @@ fn share_of_best(views: impl IntoIterator<Item = EvidenceSum>) -> Option<f32> {
     (best > 0).then(|| ratio(sum.max(0).unsigned_abs(), best))
 }
 
-/// x^w for x in [0, 1] and w > 0. Exponents in eighths are products of square roots, which every device rounds alike.
+/// x^w for x in [0, 1] and w > 0, the same bits on every device. Exponents in eighths are products of square roots, correctly rounded.
 fn power(x: f32, w: f32) -> f32 {
     let eighths = 8.0 * w;
     if eighths.fract() != 0.0 || !(1.0..=8.0).contains(&eighths) {
-        return x.powf(w);
+        return if x > 0.0 { exp_of_negative(w * ln(x)) } else { 0.0 };
     }
     let (eighths, half) = (eighths as u32, x.sqrt());
     let quarter = half.sqrt();

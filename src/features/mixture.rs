@@ -7,6 +7,7 @@ use serde::Deserialize;
 use super::light::{GRID, Ratios};
 use super::plate::split_row;
 use super::shadow::ShadowSettings;
+use crate::arithmetic::exp_of_negative;
 use crate::files::choices;
 
 choices! {
@@ -364,7 +365,7 @@ fn update_block<const K: usize, const DENSITY: bool>(
 /// The density of a spherical Gaussian in three dimensions at a squared distance from its mean.
 fn normal_density(distance: f32, variance: f32) -> f32 {
     let norm = std::f32::consts::TAU * variance;
-    (-0.5 * distance / variance).exp() / (norm * norm.sqrt())
+    exp_of_negative(-0.5 * distance / variance) / (norm * norm.sqrt())
 }
 
 #[cfg(test)]

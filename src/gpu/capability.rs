@@ -62,6 +62,10 @@ pub struct Capabilities {
     pub timestamp_period_ns: f32,
     /// Timestamps on the host's clock.
     pub calibrated_timestamps: bool,
+    /// Sums and products can be asked to round to the nearest.
+    pub rounds_to_nearest: bool,
+    /// Numbers below 2^-126 can be asked to be kept.
+    pub keeps_denormals: bool,
     /// Largest side of a two-dimensional image or framebuffer, pixels.
     pub max_image: u32,
     /// Largest storage buffer, bytes.
@@ -157,13 +161,14 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
     let raw = &instance.shared.raw;
     let mut subgroups = vk::PhysicalDeviceSubgroupProperties::default();
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut floats = vk::PhysicalDeviceFloatControlsProperties::default();
     // The first query goes without structs that a 1.0 device would not know.
     // SAFETY: the handle comes from this instance; so in all calls below.
     let first = unsafe { raw.get_physical_device_properties(handle) };
     let is_recent = first.api_version >= vk::API_VERSION_1_3;
     let mut properties = vk::PhysicalDeviceProperties2::default();
     if is_recent {
-        properties = properties.push_next(&mut subgroups).push_next(&mut driver);
+        properties = properties.push_next(&mut subgroups).push_next(&mut driver).push_next(&mut floats);
     }
     // SAFETY: as above; the chained structs belong to versions the device has.
     unsafe { raw.get_physical_device_properties2(handle, &mut properties) };
@@ -218,6 +223,8 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
             && limits.timestamp_period > 0.0,
         timestamp_period_ns: limits.timestamp_period,
         calibrated_timestamps: has(ext::calibrated_timestamps::NAME) && has_host_clock(instance, handle),
+        rounds_to_nearest: floats.shader_rounding_mode_rte_float32 != 0,
+        keeps_denormals: floats.shader_denorm_preserve_float32 != 0,
         max_image: limits.max_image_dimension2_d.min(limits.max_framebuffer_width).min(limits.max_framebuffer_height),
         max_storage: u64::from(limits.max_storage_buffer_range),
         max_groups: limits.max_compute_work_group_count[0],

@@ -14,8 +14,10 @@ use gpu_allocator::vulkan::Allocator;
 use crate::files::{Overwrite, write_atomically};
 
 use super::capability::{Capabilities, DeviceFacts};
+use super::float_controls::controlled;
 use super::instance::Instance;
 use super::loss::DeviceLost;
+use super::shader::Shader;
 use super::transform_feedback::FeedbackFunctions;
 
 /// How a device is opened.
@@ -35,6 +37,9 @@ pub struct DeviceSettings {
     pub patience: Duration,
     /// Lose the device, as a crash would, when it has run so many passes: a fault for tests to inject.
     pub lose_after_passes: Option<u64>,
+    /// Changes the code of stages before they are compiled: how tests make a device inexact.
+    #[cfg(test)]
+    pub(crate) code: Option<fn(&Shader) -> Vec<u32>>,
 }
 
 impl Default for DeviceSettings {
@@ -46,6 +51,8 @@ impl Default for DeviceSettings {
             breadcrumbs: true,
             patience: Duration::from_secs(600),
             lose_after_passes: None,
+            #[cfg(test)]
+            code: None,
         }
     }
 }
@@ -162,6 +169,15 @@ impl DeviceShared {
         };
         // Outside of the lock: dropping frees memory, which may come back here.
         drop(done);
+    }
+
+    /// The code of a stage as this device takes it.
+    pub(super) fn code(&self, shader: &Shader) -> Vec<u32> {
+        #[cfg(test)]
+        if let Some(change) = self.settings.code {
+            return controlled(&change(shader), &self.facts.capabilities);
+        }
+        controlled(shader.spirv, &self.facts.capabilities)
     }
 
     /// An error if the device has been lost.

@@ -12,6 +12,7 @@ mod descriptors;
 mod device;
 mod device_shared;
 mod drawing;
+mod float_controls;
 mod hazards;
 mod image;
 mod instance;
@@ -22,9 +23,12 @@ mod pass;
 mod pipeline;
 mod recorder;
 mod recording;
+#[cfg(test)]
+pub(crate) mod rough;
 mod shader;
 #[cfg(any(feature = "reload", test))]
 pub mod shaders;
+mod spirv;
 mod staged;
 mod timing;
 mod transform_feedback;

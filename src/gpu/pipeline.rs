@@ -248,7 +248,8 @@ impl Pipeline {
                     .collect::<Vec<_>>(),
             );
             data.push(constants.iter().flat_map(|(_, bits)| bits.to_ne_bytes()).collect::<Vec<u8>>());
-            let info = vk::ShaderModuleCreateInfo::default().code(shader.spirv);
+            let code = device.code(shader);
+            let info = vk::ShaderModuleCreateInfo::default().code(&code);
             // SAFETY: the code was made and validated by the build.
             let module = unsafe { device.raw.create_shader_module(&info, None) }
                 .map_err(|result| device.failure(result, &format!("load the shader {}", shader.name), || None))?;

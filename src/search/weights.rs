@@ -2,9 +2,10 @@
 
 use anyhow::{Result, bail, ensure};
 
-use super::arithmetic::{Statistics, exp_of_negative};
+use super::arithmetic::Statistics;
 use super::shaders::{ANNEAL_LANES, HALVINGS, LEAST_SHARPNESS, MOST_SHARPNESS};
 use super::{Estimate, Fitness, Random, SearchSpace, Stream};
+use crate::arithmetic::exp_of_negative;
 
 /// What a share of 1 counts in the integer sums that resampling goes by.
 const WHOLE: f32 = 2_147_483_648.0;

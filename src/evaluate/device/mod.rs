@@ -1,6 +1,8 @@
 //! Evaluation on a Vulkan device: what a frame's candidates share, the memory a batch works in, and the two ways to draw and compare
 //! them, in compute alone and with the graphics pipeline.
 
+#[cfg(test)]
+mod any_device_tests;
 mod backend;
 mod compute;
 mod evidence;

@@ -1,6 +1,6 @@
 //! The passes of a frame on the device, in order. Each gives what its twin on the processor gives, bit by bit: most are whole
-//! numbers, and the rest adds, multiplies and divides (`glsl/features/quotient.glsl`) in the same order, nothing fused. Only a
-//! mixture that adapts by density needs an exponential, which devices round as they like.
+//! numbers, and the rest adds, multiplies, divides and takes roots (`glsl/arithmetic/rounding.glsl`) in the same order, nothing
+//! fused.
 
 use anyhow::Result;
 

@@ -9,6 +9,7 @@ use super::super::{
     PlateSettings, ProximitySettings, Shape, SilhouetteSettings, ViewSource,
 };
 use super::*;
+use crate::gpu::rough::rough;
 use crate::gpu::test_device::device;
 use crate::gpu::{Capabilities, DeviceSettings};
 
@@ -102,10 +103,17 @@ fn settings(case: usize) -> FeatureSettings {
 
 #[test]
 fn the_device_s_features_are_the_processor_s() {
-    let Some((device, log)) = device("the_device_s_features_are_the_processor_s", DeviceSettings::default()) else {
-        return;
-    };
-    for case in 0..14 {
+    features_are_the_processor_s(DeviceSettings::default(), 0..14);
+}
+
+#[test]
+fn an_inexact_device_s_features_are_the_processor_s() {
+    features_are_the_processor_s(DeviceSettings { code: Some(rough), ..DeviceSettings::default() }, 3..10);
+}
+
+fn features_are_the_processor_s(opened: DeviceSettings, cases: std::ops::Range<usize>) {
+    let Some((device, log)) = device("features_are_the_processor_s", opened) else { return };
+    for case in cases {
         let settings = settings(case);
         let mut host = Extractor::new(settings.clone(), sources()).unwrap();
         let mut chain = Extractor::on_device(settings.clone(), sources(), &device).unwrap();

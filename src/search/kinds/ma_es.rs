@@ -9,7 +9,8 @@ use serde::Serialize;
 
 use super::evolution::{Distribution, Evolution, generations};
 use super::form::{Answer, Budget, SearchForm};
-use crate::search::arithmetic::{exp_of_negative, reciprocal, root, sum_of_squares};
+use crate::arithmetic::{exp_of_negative, reciprocal, root};
+use crate::search::arithmetic::sum_of_squares;
 use crate::search::device::DeviceForm;
 use crate::search::shaders::{LEAST_SIGMA, MOST_SIGMA};
 use crate::search::{Search, SearchSpace};

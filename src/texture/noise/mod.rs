@@ -1,5 +1,5 @@
 //! Noise (METHOD B1): the same bits for the same argument on every processor, on any number of threads. A device has the same
-//! words on lattice points; its values are held to 1e-5 of these (docs/TEXTURE.md).
+//! words on lattice points and the same values (docs/TEXTURE.md).
 
 mod gradient;
 mod lattice;
