@@ -14,6 +14,7 @@ const uint MATERIAL_GRANITE = 4u;
 const uint MATERIAL_WOOD = 5u;
 const uint MATERIAL_BRICK = 6u;
 const uint MATERIAL_FABRIC = 7u;
+const uint MATERIAL_TIMBER = 8u;
 // Lattices of a material's space, its own first, and numbers that describe a material at most.
 const uint MATERIAL_LATTICES = 9u;
 const uint MATERIAL_NUMBERS = 16u;

@@ -80,19 +80,40 @@ vec3 granite_at(Material of, vec3 p) {
     return material_numbers(of, 0) * clamp(of.numbers[3] * material_octave(of, 3u, vec3(of.numbers[4]), p), 0.0, 1.0);
 }
 
+// Early and late wood of rings, `rings` being how many lie inside.
+vec3 rings_at(Material of, float rings) {
+    float saw = 2.0 * (rings - floor(rings));
+    return blend(material_numbers(of, 0), material_numbers(of, 3), saw > 1.0 ? 2.0 - saw : saw);
+}
+
+// Where in its grain a point is, from 0 to 1.
+float grain_at(Material of, vec3 p) {
+    float grains = p.x * of.numbers[11] + p.z * of.numbers[11] + 0.5;
+    return grains - floor(grains);
+}
+
 vec3 wood_at(Material of, vec3 p) {
-    vec3 light = material_numbers(of, 0);
-    vec3 scale = material_numbers(of, 8);
+    vec3 n;
+    for (uint k = 0u; k < 3u; k++) n[k] = of.numbers[7] * material_octave(of, k, material_numbers(of, 8), p);
+    float x = p.x + n.x;
+    float z = p.z + n.z;
+    vec3 colour = rings_at(of, sqrt(x * x + z * z) * of.numbers[6] + n.x + n.y + n.z);
+    float grain = grain_at(of, p);
+    n.z *= grain;
+    if (grain < of.numbers[12]) return colour + material_numbers(of, 0) * (of.numbers[13] * n.z);
+    return colour - material_numbers(of, 3) * (of.numbers[14] * n.z);
+}
+
+// Wood with its noise about the mean.
+vec3 timber_at(Material of, vec3 p) {
     vec3 octaves;
-    for (uint k = 0u; k < 3u; k++) octaves[k] = material_octave(of, k, scale, p);
+    for (uint k = 0u; k < 3u; k++) octaves[k] = material_octave(of, k, material_numbers(of, 8), p);
     float x = abs(p.x) + of.numbers[7] * (octaves.x - 0.25);
     float z = p.z + of.numbers[7] * (octaves.y - 0.125);
-    float rings = sqrt(x * x + z * z) * of.numbers[6] + octaves.x + octaves.y + octaves.z;
-    float saw = 2.0 * (rings - floor(rings));
-    vec3 colour = blend(light, material_numbers(of, 3), saw > 1.0 ? 2.0 - saw : saw);
-    float grains = p.x * of.numbers[11] + p.z * of.numbers[11] + 0.5;
-    float grain = grains - floor(grains);
-    return colour + light * ((grain < of.numbers[12] ? of.numbers[13] : -of.numbers[14]) * octaves.z * grain);
+    vec3 colour = rings_at(of, sqrt(x * x + z * z) * of.numbers[6] + octaves.x + octaves.y + octaves.z);
+    float grain = grain_at(of, p);
+    float change = (grain < of.numbers[12] ? of.numbers[13] : -of.numbers[14]) * octaves.z * grain;
+    return colour + material_numbers(of, 0) * change;
 }
 
 // 0 below `low`, 1 above `high`, a cubic between.
@@ -151,6 +172,7 @@ vec3 material_at(Material of, vec3 p) {
         case MATERIAL_MARBLE: colour = marble_at(of, p); break;
         case MATERIAL_GRANITE: colour = granite_at(of, p); break;
         case MATERIAL_WOOD: colour = wood_at(of, p); break;
+        case MATERIAL_TIMBER: colour = timber_at(of, p); break;
         case MATERIAL_BRICK: colour = brick_at(of, p); break;
         case MATERIAL_FABRIC: colour = fabric_at(of, p); break;
     }

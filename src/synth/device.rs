@@ -310,7 +310,9 @@ mod tests {
         let mut dressed = Scene { frames: 20, ..Scene::preset("p2d").unwrap() };
         dressed.rig.size = [320, 180];
         let finish = |material: &str| toml::from_str(&format!("material = \"{material}\"\nscale = 120.0")).unwrap();
-        for (garment, material) in [("skin", "clouds"), ("hair", "lava"), ("shirt", "wood"), ("shoes", "brick")] {
+        for (garment, material) in
+            [("skin", "clouds"), ("hair", "lava"), ("shirt", "wood"), ("trousers", "timber"), ("shoes", "brick")]
+        {
             dressed.actor[1].clothes.insert(garment.into(), finish(material));
         }
         check(&device, "dressed", &dressed, &[0.2]);

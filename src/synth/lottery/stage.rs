@@ -42,11 +42,11 @@ pub(super) fn stage(draws: Draws) -> Stage {
         (1.5, Make::Paint(Paint::Coloured)),
         (0.8, Make::Material("brick", [250.0, 350.0])),
         (0.6, Make::Material("marble", [500.0, 1500.0])),
-        (0.6, Make::Material("wood", [600.0, 1200.0])),
+        (0.6, Make::Material("timber", [600.0, 1200.0])),
     ];
     let floors = [
         (2.0, Make::Usual),
-        (2.5, Make::Material("wood", [350.0, 1000.0])),
+        (2.5, Make::Material("timber", [350.0, 1000.0])),
         (1.5, Make::Paint(Paint::Grey)),
         (1.0, Make::Paint(Paint::Beige)),
         (0.5, Make::Paint(Paint::Coloured)),
@@ -108,7 +108,7 @@ fn cut(material: &str, tone: f64) -> (Option<FinishParameters>, [f64; 3]) {
         Some(FinishParameters::Here(toml::Table::from_iter(entries)))
     };
     match material {
-        "wood" => {
+        "timber" => {
             let light = mix([0.42, 0.27, 0.16], [0.80, 0.66, 0.48]);
             (table([("light", light), ("dark", light.map(|channel| channel * 0.78))]), light.map(|c| c * 0.9))
         }

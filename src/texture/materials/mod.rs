@@ -3,6 +3,8 @@
 mod brick;
 mod clouds;
 mod fabric;
+#[cfg(test)]
+mod golden;
 mod granite;
 mod grass;
 mod lava;
@@ -14,6 +16,7 @@ mod space;
 mod terrain;
 #[cfg(test)]
 mod tests;
+mod timber;
 mod wood;
 
 use std::path::Path;
@@ -34,6 +37,7 @@ pub(crate) use solid::Solid;
 pub use solid::Texel;
 pub use space::Space;
 pub use terrain::{Band, Fractal, Map, Terrain};
+pub use timber::Timber;
 pub use wood::Wood;
 
 use super::shaders::{MATERIAL_LATTICES, MATERIAL_NUMBERS};
@@ -106,6 +110,8 @@ choices! {
         "granite" Granite => built::<Granite>,
         /// rings about the y axis, disturbed by noise, with a fine grain
         "wood" Wood => built::<Wood>,
+        /// wood of floors and furniture: even rings about the y axis
+        "timber" Timber => built::<Timber>,
         /// a wall in running bond with mortar
         "brick" Brick => built::<Brick>,
         /// blades over blades, fresh and dry

@@ -56,8 +56,13 @@ impl Space {
 
     /// The octaves as the thesis stores them: octave k is `(1 + n) / 2^(k + 2)`, so [0, 2^-(k+1)] about its mean.
     pub fn octave(&self, k: u32, scale: f32, p: [f32; 3]) -> f32 {
+        self.stretched_octave(k, [scale; 3], p)
+    }
+
+    /// [`Self::octave`] with a scale of its own along each axis.
+    pub fn stretched_octave(&self, k: u32, scale: [f32; 3], p: [f32; 3]) -> f32 {
         let rise = (1_u32 << k) as f32;
-        (1.0 + self.another(u64::from(k) + 1).fbm(1, scale * rise, p)) / (4.0 * rise)
+        (1.0 + self.another(u64::from(k) + 1).sum(Sum::Fbm, 1, scale.map(|s| s * rise), p)) / (4.0 * rise)
     }
 
     /// Cells a unit of length along an axis: `frequency`, or the next one that is whole for the tile, a multiple of `of`.
@@ -74,6 +79,11 @@ impl Space {
         } else {
             x.abs()
         }
+    }
+
+    /// Where a point is from a trunk at x = 0; with a tile how far it is from the nearest repetition of it.
+    pub fn from_trunk(&self, x: f32, axis: usize) -> f32 {
+        if self.tile[axis] > 0.0 { self.across(x, axis) } else { x }
     }
 
     /// A number in [0, 1) for a cell; `cells` is how many there are a tile along x and y (0: no tile), after which they repeat.

@@ -16,7 +16,7 @@ pub struct Wood {
     pub dark: [f32; 3],
     /// Rings a unit of length.
     pub frequency: f32,
-    /// How far noise moves the rings, units of length.
+    /// Factor of the noise: how far it moves the rings, units of length, shifts them in their sequence, and lightens grains.
     pub noisiness: f32,
     /// Cells of noise a unit of length, along x, y, z.
     pub scale: [f32; 3],
@@ -48,30 +48,22 @@ impl Default for Wood {
 
 impl Solid for Wood {
     fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
-        // The octaves as the thesis stores them, along the stretched axes.
-        let octave = |k: u32| {
-            let rise = (1_u32 << k) as f32;
-            let n = space.another(u64::from(k) + 1).sum(
-                crate::texture::noise::Sum::Fbm,
-                1,
-                self.scale.map(|s| s * rise),
-                p,
-            );
-            (1.0 + n) / (4.0 * rise)
-        };
-        let octaves: [f32; 3] = std::array::from_fn(|k| octave(k as u32));
-        let moved = self.noisiness * (octaves[0] - 0.25);
-        let (x, z) = (space.across(p[0], 0) + moved, p[2] + self.noisiness * (octaves[1] - 0.125));
-        let rings = (x * x + z * z).sqrt() * self.frequency + octaves.iter().sum::<f32>();
+        let mut n: [f32; 3] = std::array::from_fn(|k| self.noisiness * space.stretched_octave(k as u32, self.scale, p));
+        let (x, z) = (space.from_trunk(p[0], 0) + n[0], p[2] + n[2]);
+        let rings = (x * x + z * z).sqrt() * self.frequency + n.iter().sum::<f32>();
         let saw = 2.0 * (rings - rings.floor());
         let ring = if saw > 1.0 { 2.0 - saw } else { saw };
         let colour = blend(self.light, self.dark, ring);
         let grains = p[0] * space.whole(self.grain_scale, 0, 1.0) + p[2] * self.grain_scale + 0.5;
         let grain = grains - grains.floor();
-        let strength = octaves[2] * grain;
-        let change = if grain < self.grain_threshold { self.light_grains } else { -self.dark_grains } * strength;
+        n[2] *= grain;
+        let (tone, change) = if grain < self.grain_threshold {
+            (self.light, self.light_grains * n[2])
+        } else {
+            (self.dark, -self.dark_grains * n[2])
+        };
         Texel {
-            colour: std::array::from_fn(|i| (colour[i] + self.light[i] * change).clamp(0.0, 1.0)),
+            colour: std::array::from_fn(|i| (colour[i] + tone[i] * change).clamp(0.0, 1.0)),
             height: (1.0 - ring + change).clamp(0.0, 1.0),
         }
     }
