@@ -4,9 +4,9 @@ use std::path::Path;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use image::{GrayImage, Luma, Rgb, RgbImage};
 
-use super::{FitSettings, fit};
-use crate::body::{Body, Proportions};
-use crate::evaluate::Reference;
+use super::{FitSettings, ObjectiveChoice, fit};
+use crate::body::{Body, PoseTable, Proportions};
+use crate::evaluate::{ObjectiveKind, Reference};
 use crate::features::Observation;
 use crate::geometry::{BrownConrady, Camera, Lens};
 use crate::sequence::{Sequence, write_cameras_toml};
@@ -151,4 +151,70 @@ fn what_cannot_be_measured_is_said() {
     fs::write(&manifest, text.replace("mask = \"mask_c1_%02d.png\"\n", "")).unwrap();
     let bare = error(&FitSettings::default());
     assert!(bare.contains("camera \"c1\" has neither a background picture nor masks"), "{bare}");
+}
+
+/// Bare forearms before a wall of nearly their colour: silhouettes end at the elbows, evidence does not.
+#[test]
+fn forearms_like_the_wall_are_measured_by_evidence() {
+    let cameras = cameras_around();
+    let person = Body::adult(1700.0).unwrap();
+    let mut pose = person.standing_pose();
+    let dofs = person.dof_names();
+    for (name, degrees) in [("left_shoulder.rx", 80.0_f64), ("right_shoulder.rx", -80.0)] {
+        pose[dofs.iter().position(|dof| dof == name).unwrap()] = degrees.to_radians();
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let mut manifest = "name = \"wall\"\nfps = 25.0\ncameras = \"cameras.toml\"\nheight = 1700\n".to_string();
+    let reference = Reference::new(&person, &cameras);
+    let drawn_pose: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
+    let bare: Vec<u8> = person
+        .parts
+        .iter()
+        .filter(|part| part.name.contains("forearm") || part.name.contains("hand"))
+        .map(|part| part.label)
+        .collect();
+    for (view, camera) in cameras.iter().enumerate() {
+        let (name, drawn) = (&camera.name, reference.draw(&drawn_pose, view));
+        let wall = Rgb([176, 160, 140]);
+        RgbImage::from_pixel(drawn.width, drawn.height, wall).save(folder.path().join(format!("{name}.png"))).unwrap();
+        let colour = |x: u32, y: u32| match drawn.bytes[(y * drawn.width + x) as usize] & 0x7f {
+            0 => wall,
+            label if bare.contains(&label) => Rgb([190, 158, 134]),
+            _ => Rgb([40, 60, 120]),
+        };
+        RgbImage::from_fn(drawn.width, drawn.height, colour)
+            .save(folder.path().join(format!("{name}_00.png")))
+            .unwrap();
+        manifest +=
+            &format!("[[view]]\ncamera = \"{name}\"\nsource = \"{name}_%02d.png\"\nbackground = \"{name}.png\"\n");
+    }
+    fs::write(folder.path().join("sequence.toml"), manifest).unwrap();
+    write_cameras_toml(&folder.path().join("cameras.toml"), &cameras, crate::files::Overwrite::Refuse).unwrap();
+    let start = folder.path().join("start.csv");
+    let table = PoseTable { frames: vec![0], poses: vec![pose.clone()] };
+    table.write(&start, crate::files::Overwrite::Refuse, &person).unwrap();
+
+    let sequence = Sequence::open_unfitted(folder.path()).unwrap();
+    let wrists = |objective| {
+        let objective = ObjectiveChoice { kind: objective, ..ObjectiveChoice::default() };
+        let settings = FitSettings {
+            height: Some(1700.0),
+            start: Some(start.clone()),
+            objective,
+            particles: 120,
+            iterations: 12,
+            ..FitSettings::default()
+        };
+        let found = fit(&sequence, &settings).unwrap();
+        let off = |name: &str| {
+            let at = |body: &Body, pose: &[f64]| {
+                let hand = body.parts.iter().find(|part| part.name == name).unwrap();
+                body.world_from_bones(pose).unwrap()[hand.bone].transform_point3(hand.a)
+            };
+            at(&found.body, &found.poses.poses[0]).distance(at(&person, &pose))
+        };
+        off("left_hand").max(off("right_hand"))
+    };
+    let (by_silhouettes, by_evidence) = (wrists(Some(ObjectiveKind::Sp)), wrists(None));
+    assert!(by_evidence < 60.0 && by_silhouettes > 2.0 * by_evidence, "{by_silhouettes} and {by_evidence} mm");
 }

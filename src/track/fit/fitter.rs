@@ -1,0 +1,219 @@
+//! The searches of one fit.
+
+use anyhow::{Context, Result};
+
+use super::super::hull::Hull;
+use super::scorer::{Scorer, proportions};
+use crate::body::{Body, Proportions};
+use crate::search::{SearchSettings, SearchSpace};
+
+/// Headings a first pose is searched from, evenly round the circle.
+const HEADINGS: usize = 8;
+/// Angles the arms are lifted sideways to at first, degrees: hanging, half way, a T.
+const ARMS: [f64; 3] = [10.0, 45.0, 88.0];
+/// Spreads, in steps of the body, that a promising first pose is searched with one after the other: an arm on the wrong
+/// side of the trunk needs a wide one to come round.
+const SPREADS: [f32; 4] = [4.0, 3.0, 2.0, 1.0];
+/// First poses that are followed further.
+const SURVIVORS: usize = 3;
+/// Times they are searched round once more.
+const ENCORES: usize = 3;
+/// Rounds that proportions and poses are searched together in, each narrower than the one before by [`NARROWING`].
+const ROUNDS: i32 = 10;
+const NARROWING: f64 = 0.75;
+/// Rounds before which the person's colours are learnt anew.
+const RELOOKS: [i32; 2] = [2, 5];
+/// The searches of one fit.
+pub(super) struct Fitter {
+    space: SearchSpace,
+    search: SearchSettings,
+    pub(super) scorer: Scorer,
+    /// Searches done: each draws random numbers of its own.
+    searches: u32,
+}
+
+/// Gives a scorer anew what was seen, by the body and the poses found so far.
+pub(super) trait Relook: FnMut(&Body, &mut Scorer, &[Vec<f32>]) -> Result<()> {}
+
+impl<F: FnMut(&Body, &mut Scorer, &[Vec<f32>]) -> Result<()>> Relook for F {}
+
+impl Fitter {
+    pub(super) fn new(space: SearchSpace, search: SearchSettings, scorer: Scorer) -> Self {
+        Self { space, search, scorer, searches: 0 }
+    }
+
+    /// The best pose of one frame round `centre`; `spread` is in steps of the body.
+    fn pose(&mut self, frame: usize, centre: &[f32], spread: f32, iterations: usize) -> Result<(Vec<f32>, f32)> {
+        let mut search = SearchSettings { iterations, ..self.search }.build(&self.space)?;
+        let steps = self.space.spread(1.0 / 25.0)?;
+        let spread: Vec<f32> = steps.into_iter().map(|step| step * spread).collect();
+        self.searches += 1;
+        let dofs = self.space.dof_count();
+        let scorer = &self.scorer;
+        let found = search.search_frame(self.searches, centre, &spread, &mut |rows, results| {
+            scorer.poses(frame, dofs, rows, results)
+        })?;
+        Ok((found.pose, found.fitness))
+    }
+
+    /// The pose of a frame from nothing but the hull.
+    pub(super) fn first_pose(
+        &mut self,
+        body: &Body,
+        frame: usize,
+        hull: &Hull,
+        heading: Option<f64>,
+    ) -> Result<(Vec<f32>, f32)> {
+        let headings = match heading {
+            Some(heading) => vec![heading],
+            None => (0..HEADINGS).map(|turn| turn as f64 * 360.0 / HEADINGS as f64 - 180.0).collect(),
+        };
+        let iterations = self.search.iterations;
+        let by_fitness = |a: &(Vec<f32>, f32), b: &(Vec<f32>, f32)| b.1.total_cmp(&a.1);
+        let mut found = Vec::new();
+        // Of each heading the best arms go on: the best of all together would be one heading several times.
+        for heading in headings {
+            let mut tried = Vec::new();
+            for arms in ARMS {
+                let centre = rest_pose(body, hull, heading, arms)?;
+                tried.push(self.pose(frame, &centre, 2.0, iterations.div_ceil(3))?);
+            }
+            tried.sort_by(by_fitness);
+            if let Some(best) = tried.into_iter().next() {
+                found.push(self.narrowed(frame, best)?);
+            }
+        }
+        found.sort_by(by_fitness);
+        found.truncate(SURVIVORS);
+        for pose in &mut found {
+            for _ in 0..ENCORES {
+                *pose = self.narrowed(frame, std::mem::take(pose))?;
+            }
+        }
+        found.sort_by(by_fitness);
+        Ok(found.into_iter().next().unwrap_or_default())
+    }
+
+    /// First poses, each also searched round its neighbours', there and back: what fits better stays.
+    pub(super) fn follow(&mut self, mut poses: Vec<(Vec<f32>, f32)>) -> Result<Vec<(Vec<f32>, f32)>> {
+        let last = poses.len().saturating_sub(1);
+        let there = (0..last).map(|at| (at, at + 1));
+        let back = (0..last).rev().map(|at| (at + 1, at));
+        for (from, to) in there.chain(back) {
+            let round = (poses[from].0.clone(), f32::NEG_INFINITY);
+            let found = self.narrowed(to, round)?;
+            if found.1 > poses[to].1 {
+                poses[to] = found;
+            }
+        }
+        Ok(poses)
+    }
+
+    /// A pose searched round with one spread after the other. A swarm has its centre among its particles, so nothing gets
+    /// worse.
+    fn narrowed(&mut self, frame: usize, mut pose: (Vec<f32>, f32)) -> Result<(Vec<f32>, f32)> {
+        for spread in SPREADS {
+            pose = self.pose(frame, &pose.0, spread, self.search.iterations)?;
+        }
+        Ok(pose)
+    }
+
+    /// Poses of all frames improved from given ones.
+    pub(super) fn settle(&mut self, poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
+        let mut settled = Vec::new();
+        for (frame, mut pose) in poses.into_iter().enumerate() {
+            self.space.clamp(&mut pose);
+            settled.push(self.settled(frame, pose)?);
+        }
+        Ok(settled)
+    }
+
+    fn settled(&mut self, frame: usize, mut pose: Vec<f32>) -> Result<Vec<f32>> {
+        for spread in [2.0, 1.0] {
+            pose = self.pose(frame, &pose, spread, self.search.iterations)?.0;
+        }
+        Ok(pose)
+    }
+
+    /// Where another frame's pose explains a frame better than its own, the own is searched anew round that one: a limb that is lost in one
+    /// frame is found by the next, as in a pose that is held.
+    pub(super) fn lend(&mut self, poses: &mut [Vec<f32>]) -> Result<()> {
+        let mut fitness = vec![0.0_f32; poses.len()];
+        for frame in 0..poses.len() {
+            self.scorer.poses(frame, self.space.dof_count(), &poses.concat(), &mut fitness)?;
+            let best = (0..poses.len()).max_by(|a, b| fitness[*a].total_cmp(&fitness[*b])).unwrap_or(frame);
+            if fitness[best] > fitness[frame] {
+                poses[frame] = self.settled(frame, poses[best].clone())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The proportions of the body, with the poses moving along; now and then all is looked at anew.
+    pub(super) fn stretch(
+        &mut self,
+        body: &Body,
+        poses: &mut Vec<Vec<f32>>,
+        mut relook: Option<impl Relook>,
+    ) -> Result<Proportions> {
+        let (dofs, frames) = (self.space.dof_count(), poses.len());
+        let known = Proportions::ALL;
+        let joined = |shape: &dyn Fn(usize) -> f32, pose: &[f32]| -> Vec<f32> {
+            (0..known.len()).map(shape).chain(pose.repeat(frames)).collect()
+        };
+        let lower = joined(&|i| known[i].limits[0] as f32, self.space.lower());
+        let upper = joined(&|i| known[i].limits[1] as f32, self.space.upper());
+        let steps = joined(&|i| known[i].deviation as f32, &self.space.spread(1.0 / 25.0)?);
+        let space = SearchSpace::new(lower, upper, steps.clone())?;
+        let mut centre: Vec<f32> = vec![1.0; known.len()];
+        centre.extend(poses.concat());
+        for round in 0..ROUNDS {
+            if let Some(relook) = relook.as_mut().filter(|_| RELOOKS.contains(&round)) {
+                let (factors, settled) = centre.split_at(known.len());
+                let settled: Vec<Vec<f32>> = settled.chunks_exact(dofs).map(<[f32]>::to_vec).collect();
+                relook(&proportions(factors).apply(body), &mut self.scorer, &settled)?;
+            }
+            let narrow = NARROWING.powi(round) as f32;
+            let spread: Vec<f32> = steps.iter().map(|step| step * narrow).collect();
+            let mut search = self.search.build(&space)?;
+            self.searches += 1;
+            let scorer = &self.scorer;
+            let found = search.search_frame(self.searches, &centre, &spread, &mut |rows, results| {
+                scorer.people(body, dofs, rows, results)
+            })?;
+            centre = found.pose;
+            // The poses alone settle faster than with the proportions in tow.
+            self.scorer.set_body(&proportions(&centre[..known.len()]).apply(body))?;
+            for frame in 0..frames {
+                let row = known.len() + frame * dofs..known.len() + (frame + 1) * dofs;
+                let (pose, _) = self.pose(frame, &centre[row.clone()], narrow, self.search.iterations)?;
+                centre[row].copy_from_slice(&pose);
+            }
+        }
+        let (factors, settled) = centre.split_at(known.len());
+        *poses = settled.chunks_exact(dofs).map(<[f32]>::to_vec).collect();
+        Ok(proportions(factors))
+    }
+}
+
+/// Standing in the hull, facing `heading` (degrees), arms lifted by `arms` degrees.
+fn rest_pose(body: &Body, hull: &Hull, heading: f64, arms: f64) -> Result<Vec<f32>> {
+    let names = body.dof_names();
+    let mut pose = body.standing_pose();
+    for (name, value) in [
+        ("pelvis.tx", hull.centre.x),
+        ("pelvis.ty", hull.centre.y),
+        ("pelvis.rz", heading.to_radians()),
+        ("left_shoulder.rx", arms.to_radians()),
+        ("right_shoulder.rx", -arms.to_radians()),
+    ] {
+        let index = names.iter().position(|known| known == name);
+        pose[index.with_context(|| format!("the body has no {name}, expected the joints of the default body"))?] =
+            value;
+    }
+    if let Some(lift) = names.iter().position(|name| name == "pelvis.tz") {
+        pose[lift] += hull.span[0];
+    }
+    body.clamp_to_limits(&mut pose);
+    Ok(pose.into_iter().map(|value| value as f32).collect())
+}

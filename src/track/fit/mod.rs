@@ -1,0 +1,210 @@
+//! Measuring a person: body proportions and first poses from a few frames.
+//!
+//! The visual hull of the silhouettes says where the person stands and how tall; poses are searched from several headings and arm
+//! positions; then swarms move the proportions and all poses together, in ever narrower rounds, by soft evidence where nobody asks
+//! for another objective.
+
+mod fitter;
+mod scorer;
+mod seen;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail, ensure};
+
+pub use self::scorer::Coverage;
+
+use self::fitter::Fitter;
+use self::scorer::Scorer;
+use self::seen::Seen;
+use super::hull::Hull;
+use super::{FrameRange, ObjectiveChoice};
+use crate::body::{Body, PoseTable, Proportions};
+use crate::evaluate::{Objective, ObjectiveKind};
+use crate::search::{SearchKind, SearchSettings, SearchSpace};
+use crate::sequence::Sequence;
+
+/// How a person is measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitSettings {
+    /// Height of the person, mm; the visual hull's without it.
+    pub height: Option<f64>,
+    /// Which frames may be used.
+    pub frames: FrameRange,
+    /// How many of them at most, evenly spread.
+    pub samples: usize,
+    /// Poses to start from (one, or one a frame) instead of a search in all directions.
+    pub start: Option<PathBuf>,
+    /// The only heading to start from: degrees, 0 along x, 90 along y.
+    pub heading: Option<f64>,
+    /// Whether the body stays the sequence's and only poses are sought.
+    pub keep_body: bool,
+    /// Whether a frame's first pose is searched round those found in the frames beside it too: where limbs are apart in one of them,
+    /// they are told apart in all.
+    pub follow: bool,
+    /// What a good pose is, evidence where nobody says; over the sequence's `[objective]` table. Where no pose is known yet, it is
+    /// searched by silhouettes first.
+    pub objective: ObjectiveChoice,
+    /// Poses scored at once.
+    pub particles: usize,
+    /// Times that many poses are scored in a round.
+    pub iterations: usize,
+    /// Seed of all random numbers.
+    pub seed: u64,
+}
+
+impl Default for FitSettings {
+    fn default() -> Self {
+        Self {
+            height: None,
+            frames: FrameRange { start: Some(0), end: Some(1) },
+            samples: 6,
+            start: None,
+            heading: None,
+            keep_body: false,
+            follow: false,
+            objective: ObjectiveChoice::default(),
+            particles: 300,
+            iterations: 30,
+            seed: 1,
+        }
+    }
+}
+
+/// A measured person.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// The body.
+    pub body: Body,
+    /// Its proportions against the tables, where it was measured.
+    pub proportions: Option<Proportions>,
+    /// The height it was scaled to, mm; `None` where it was kept.
+    pub height: Option<f64>,
+    /// A pose a frame used.
+    pub poses: PoseTable,
+    /// Mean fitness of the poses.
+    pub fitness: f32,
+    /// Names of the views.
+    pub views: Vec<String>,
+    /// Coverage of each view with the first poses, and in the end.
+    pub coverage: [Vec<Coverage>; 2],
+}
+
+/// Measures the person in a sequence.
+///
+/// # Errors
+/// When the sequence has a view without background and masks, pictures cannot be read, the silhouettes have no volume in
+/// common, or the body lacks the joints of the default one.
+pub fn fit(sequence: &Sequence, settings: &FitSettings) -> Result<Fit> {
+    let name = sequence.path.display().to_string();
+    ensure!(settings.samples > 0, "0 frames were asked for, expected at least 1");
+    let objective = settings.objective.resolve_over(ObjectiveKind::Evidence, sequence.objective.as_ref(), &name)?;
+    let weighs_evidence = objective.weighs_evidence();
+    let frames = sampled(settings.frames.within(sequence.frame_count, &name)?, settings.samples);
+    let mut seen = Seen::look(sequence, &frames, weighs_evidence)?;
+    let in_frame = |at: usize| format!("{name}, frame {}", frames[at]);
+    let hulls: Vec<Hull> = seen
+        .observations
+        .iter()
+        .enumerate()
+        .map(|(at, seen)| Hull::carve(&sequence.cameras, seen).with_context(|| in_frame(at)))
+        .collect::<Result<_>>()?;
+    let height = match (settings.keep_body, settings.height) {
+        (true, _) => None,
+        (false, Some(height)) => Some(height),
+        (false, None) => Some(median(hulls.iter().map(|hull| hull.span[1] - hull.span[0]))),
+    };
+    let body = match height {
+        Some(height) => Body::adult(height).context("the height of the person")?,
+        None => Body::load(&sequence.body)?,
+    };
+    // Rounds that narrow by themselves; the swarm is what they were tried with.
+    let search = SearchSettings {
+        kind: SearchKind::Pso,
+        particles: settings.particles,
+        iterations: settings.iterations,
+        seed: settings.seed,
+        ..SearchSettings::default()
+    };
+    search.check()?;
+    let by_silhouettes = if weighs_evidence { Objective::of(ObjectiveKind::Sp) } else { objective };
+    let scorer = Scorer::new(&body, &sequence.cameras, &seen.observations, by_silhouettes)?;
+    let mut fitter = Fitter::new(SearchSpace::of(&body)?, search, scorer);
+    let mut poses = match &settings.start {
+        Some(path) => {
+            let poses = start_poses(path, &body, &frames)?;
+            if weighs_evidence { poses } else { fitter.settle(poses)? }
+        }
+        None => {
+            let found = hulls.iter().enumerate().map(|(at, hull)| fitter.first_pose(&body, at, hull, settings.heading));
+            let found = found.collect::<Result<Vec<_>>>()?;
+            let found = if settings.follow { fitter.follow(found)? } else { found };
+            found.into_iter().map(|(pose, _)| pose).collect()
+        }
+    };
+    let mut relook = |body: &Body, scorer: &mut Scorer, poses: &[Vec<f32>]| {
+        seen.weigh(body, &sequence.cameras, poses)?;
+        scorer.look_anew(&seen.observations, objective)
+    };
+    if weighs_evidence {
+        // By what is no background at first, then by the colours of the person there.
+        relook(&body, &mut fitter.scorer, &[])?;
+        poses = fitter.settle(poses)?;
+        fitter.lend(&mut poses)?;
+        relook(&body, &mut fitter.scorer, &poses)?;
+        poses = fitter.settle(poses)?;
+        fitter.lend(&mut poses)?;
+    }
+    let before = fitter.scorer.coverage(&poses)?;
+    let mut fitted = body.clone();
+    let proportions = match height {
+        Some(_) => {
+            let proportions = fitter.stretch(&body, &mut poses, weighs_evidence.then_some(relook))?;
+            fitted = proportions.apply(&body).rounded();
+            Some(proportions)
+        }
+        None => None,
+    };
+    let after = fitter.scorer.coverage(&poses)?;
+    let fitness = fitter.scorer.mean_fitness(&poses)?;
+    fitted.name.clone_from(&sequence.name);
+    let poses = poses.iter().map(|pose| pose.iter().map(|value| f64::from(*value)).collect()).collect();
+    Ok(Fit {
+        body: fitted,
+        proportions,
+        height,
+        poses: PoseTable { frames, poses },
+        fitness,
+        views: sequence.cameras.iter().map(|camera| camera.name.clone()).collect(),
+        coverage: [before, after],
+    })
+}
+
+/// At most `count` frames of a range, evenly spread, first and last among them.
+fn sampled(range: std::ops::Range<usize>, count: usize) -> Vec<usize> {
+    let last = range.len().saturating_sub(1);
+    let count = count.min(range.len());
+    (0..count).map(|i| range.start + if count > 1 { (i * last + (count - 1) / 2) / (count - 1) } else { 0 }).collect()
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// The poses of a file for some frames: its only one for all of them, or each frame's own.
+fn start_poses(path: &Path, body: &Body, frames: &[usize]) -> Result<Vec<Vec<f32>>> {
+    let table = PoseTable::read(path, body)?;
+    frames
+        .iter()
+        .map(|frame| {
+            let row = if table.poses.len() == 1 { Some(0) } else { table.frames.iter().position(|f| f == frame) };
+            let Some(row) = row else {
+                bail!("{} has no pose of frame {frame}, expected one pose or one for every frame used", path.display())
+            };
+            body.check_limits(&table.poses[row]).with_context(|| format!("{}, row {row}", path.display()))?;
+            Ok(table.poses[row].iter().map(|value| *value as f32).collect())
+        })
+        .collect()
+}

@@ -1,0 +1,166 @@
+//! How well poses, and bodies with their poses, explain all frames used.
+
+use std::sync::{Mutex, PoisonError};
+
+use anyhow::Result;
+use rayon::prelude::*;
+
+use crate::body::{Body, Proportions};
+use crate::evaluate::cpu::{Cpu, InstructionSet};
+use crate::evaluate::{Components, Evaluator, Objective};
+use crate::features::Observation;
+use crate::geometry::Camera;
+
+/// What a proportion one standard deviation off the tables costs in fitness: enough to settle what the silhouettes leave
+/// open (where a straight leg has its knee), too little to work against them.
+const PRIOR: f64 = 2e-4;
+
+/// How well the drawn and the seen silhouettes of a view cover each other, over all frames used.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Coverage {
+    /// Share of the seen silhouette that the model covers.
+    pub seen: f64,
+    /// Share of the drawn model that lies on the seen silhouette.
+    pub drawn: f64,
+}
+
+/// Scores poses, and bodies with their poses, against all frames used.
+pub(super) struct Scorer {
+    objective: Objective,
+    /// An evaluator of one thread for every frame, `[thread][frame]`: bodies differ from row to row.
+    threads: Vec<Mutex<Vec<Cpu>>>,
+}
+
+impl Scorer {
+    pub(super) fn new(
+        body: &Body,
+        cameras: &[Camera],
+        frames: &[Vec<Observation>],
+        objective: Objective,
+    ) -> Result<Self> {
+        let count = std::thread::available_parallelism().map_or(1, usize::from);
+        let thread = |_| -> Result<Mutex<Vec<Cpu>>> {
+            let evaluators = frames.iter().map(|observations| {
+                let mut cpu = Cpu::with(body, cameras, InstructionSet::best(), 1)?;
+                cpu.observe(observations)?;
+                Ok(cpu)
+            });
+            Ok(Mutex::new(evaluators.collect::<Result<_>>()?))
+        };
+        Ok(Self { objective, threads: (0..count).map(thread).collect::<Result<_>>()? })
+    }
+
+    /// Takes what was seen anew, and what a good pose is.
+    pub(super) fn look_anew(&mut self, frames: &[Vec<Observation>], objective: Objective) -> Result<()> {
+        self.objective = objective;
+        for thread in &mut self.threads {
+            let cpus = thread.get_mut().unwrap_or_else(PoisonError::into_inner);
+            cpus.iter_mut().zip(frames).try_for_each(|(cpu, observations)| cpu.observe(observations))?;
+        }
+        Ok(())
+    }
+
+    /// Shares rows of `width` values and their results among the threads.
+    fn share(
+        &self,
+        rows: &[f32],
+        width: usize,
+        results: &mut [f32],
+        score: impl Fn(&mut [Cpu], &[f32], &mut [f32]) -> Result<()> + Sync,
+    ) -> Result<()> {
+        let each = results.len().div_ceil(self.threads.len()).max(1);
+        let shares = rows.par_chunks(each * width).zip(results.par_chunks_mut(each)).zip(&self.threads);
+        shares.try_for_each(|((rows, results), thread)| {
+            score(&mut thread.lock().unwrap_or_else(PoisonError::into_inner), rows, results)
+        })
+    }
+
+    /// Fitness of poses in one frame.
+    pub(super) fn poses(&self, frame: usize, dofs: usize, rows: &[f32], results: &mut [f32]) -> Result<()> {
+        self.share(rows, dofs, results, |cpus, rows, results| cpus[frame].fitness(rows, &self.objective, results))
+    }
+
+    /// Mean fitness over the frames of rows of proportions and poses, less what unusual proportions cost.
+    pub(super) fn people(&self, body: &Body, dofs: usize, rows: &[f32], results: &mut [f32]) -> Result<()> {
+        let frames = self.frame_count();
+        self.share(rows, Proportions::COUNT + frames * dofs, results, |cpus, rows, results| {
+            for (row, result) in rows.chunks_exact(Proportions::COUNT + frames * dofs).zip(results) {
+                let (factors, poses) = row.split_at(Proportions::COUNT);
+                let proportions = proportions(factors);
+                let stretched = proportions.apply(body);
+                let mut sum = 0.0;
+                for (cpu, pose) in cpus.iter_mut().zip(poses.chunks_exact(dofs)) {
+                    let mut fitness = [0.0];
+                    cpu.set_body(&stretched)?;
+                    cpu.fitness(pose, &self.objective, &mut fitness)?;
+                    sum += f64::from(fitness[0]);
+                }
+                *result = (sum / frames as f64 - cost(&proportions)) as f32;
+            }
+            Ok(())
+        })
+    }
+
+    fn frame_count(&self) -> usize {
+        self.with_first(|cpus| cpus.len())
+    }
+
+    pub(super) fn set_body(&self, body: &Body) -> Result<()> {
+        for thread in &self.threads {
+            for cpu in thread.lock().unwrap_or_else(PoisonError::into_inner).iter_mut() {
+                cpu.set_body(body)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn with_first<T>(&self, look: impl FnOnce(&mut Vec<Cpu>) -> T) -> T {
+        look(&mut self.threads[0].lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Coverage of each view by one pose a frame.
+    pub(super) fn coverage(&self, poses: &[Vec<f32>]) -> Result<Vec<Coverage>> {
+        self.with_first(|cpus| {
+            let views = cpus.first().map_or(0, Evaluator::view_count);
+            let mut sums = vec![[0.0; 3]; views];
+            for (cpu, pose) in cpus.iter_mut().zip(poses) {
+                let mut components = vec![Components::default(); views];
+                cpu.components(pose, &mut components)?;
+                for (sum, view) in sums.iter_mut().zip(components) {
+                    for (sum, count) in sum.iter_mut().zip([view.overlap, view.area_obs, view.area_model]) {
+                        *sum += f64::from(count);
+                    }
+                }
+            }
+            let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
+            Ok(sums.into_iter().map(|[o, s, d]| Coverage { seen: share(o, s), drawn: share(o, d) }).collect())
+        })
+    }
+
+    pub(super) fn mean_fitness(&self, poses: &[Vec<f32>]) -> Result<f32> {
+        self.with_first(|cpus| {
+            let mut sum = 0.0;
+            for (cpu, pose) in cpus.iter_mut().zip(poses) {
+                let mut fitness = [0.0];
+                cpu.fitness(pose, &self.objective, &mut fitness)?;
+                sum += fitness[0];
+            }
+            Ok(sum / poses.len().max(1) as f32)
+        })
+    }
+}
+
+/// Proportions from a row of a search.
+pub(super) fn proportions(factors: &[f32]) -> Proportions {
+    let mut proportions = Proportions::default();
+    for (factor, value) in proportions.0.iter_mut().zip(factors) {
+        *factor = f64::from(*value);
+    }
+    proportions
+}
+
+/// What proportions off the tables cost.
+fn cost(proportions: &Proportions) -> f64 {
+    let off = proportions.0.iter().zip(&Proportions::ALL).map(|(factor, known)| (factor - 1.0) / known.deviation);
+    PRIOR * off.map(|off| off * off).sum::<f64>()
+}

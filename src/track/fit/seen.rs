@@ -1,0 +1,62 @@
+//! What was seen in the frames that a person is measured in.
+
+use anyhow::{Result, bail};
+
+use crate::body::Body;
+use crate::evaluate::Reference;
+use crate::features::{Likelihood, Observation};
+use crate::geometry::Camera;
+use crate::observe::{Appearance, Lesson, Observer, silhouette_settings, take_likelihoods, take_observations};
+use crate::sequence::Sequence;
+
+/// Observations and, where evidence is weighed, likelihoods: `[frame][view]`.
+pub(super) struct Seen {
+    pub(super) observations: Vec<Vec<Observation>>,
+    likelihoods: Vec<Vec<Likelihood>>,
+}
+
+impl Seen {
+    /// Looks at frames, which rise.
+    ///
+    /// # Errors
+    /// When a view has neither background nor masks, or pictures cannot be read.
+    pub(super) fn look(sequence: &Sequence, frames: &[usize], weighs_evidence: bool) -> Result<Self> {
+        if let Some(view) = sequence.views.iter().find(|view| view.learns_background()) {
+            bail!(
+                "{}: camera {:?} has neither a background picture nor masks, expected one of them to measure a person with",
+                sequence.path.display(),
+                view.camera
+            );
+        }
+        let mut seen = Self { observations: Vec::new(), likelihoods: Vec::new() };
+        let (Some(&first), Some(last)) = (frames.first(), frames.last()) else { return Ok(seen) };
+        let mut settings = silhouette_settings(sequence)?;
+        settings.likelihoods = weighs_evidence;
+        let mut observer = Observer::new(sequence, settings, first..last + 1, first)?;
+        while let Some(frame) = observer.read()? {
+            if let Some(features) = observer.features(&frame, frames.contains(&frame.index))? {
+                seen.observations.push(take_observations(features));
+                seen.likelihoods.push(take_likelihoods(features));
+            }
+        }
+        Ok(seen)
+    }
+
+    /// Gives every frame its evidence, by the colours that a person with this body has in these poses, one a frame; by none without poses.
+    ///
+    /// # Errors
+    /// When likelihoods do not fit their pictures.
+    pub(super) fn weigh(&mut self, body: &Body, cameras: &[Camera], poses: &[Vec<f32>]) -> Result<()> {
+        let mut appearance = Appearance::new(body);
+        let reference = Reference::new(body, cameras);
+        for ((pose, likelihoods), observations) in poses.iter().zip(&self.likelihoods).zip(&self.observations) {
+            let drawn: Vec<Vec<u8>> = (0..cameras.len()).map(|view| reference.draw(pose, view).bytes).collect();
+            let views = likelihoods.iter().zip(&drawn).zip(observations);
+            let lessons: Vec<Lesson<'_>> =
+                views.map(|((likelihood, drawn), observation)| Lesson { likelihood, drawn, observation }).collect();
+            appearance.learn(&lessons, 1.0)?;
+        }
+        let frames = self.likelihoods.iter().zip(&mut self.observations);
+        frames.into_iter().try_for_each(|(likelihoods, observations)| appearance.give(likelihoods, observations))
+    }
+}
