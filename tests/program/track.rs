@@ -18,6 +18,9 @@ use super::walk;
 /// Enough to follow the walk, little enough for the reference.
 const SEARCH: [&str; 6] = ["--particles", "40", "--iterations", "6", "--overlay-every", "2"];
 
+/// Slow enough to be caught at work.
+const SLOW: [&str; 8] = ["--particles", "48", "--iterations", "10", "--overlay-every", "2", "--backend", "reference"];
+
 fn track_with(sequence: &Path, output: &Path, more: &[&str]) -> Output {
     let mut arguments = vec!["track", sequence.to_str().unwrap(), "-o", output.to_str().unwrap()];
     arguments.extend(SEARCH);
@@ -217,7 +220,7 @@ fn a_kill_at_any_frame_loses_nothing_but_time() {
 fn caught_at_work(output: &Path) -> std::process::Child {
     let mut child = program()
         .args(["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap()])
-        .args(["--particles", "60", "--iterations", "16", "--overlay-every", "2", "--backend", "reference"])
+        .args(SLOW)
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
@@ -233,10 +236,9 @@ fn caught_at_work(output: &Path) -> std::process::Child {
 #[test]
 fn killed_or_interrupted_it_goes_on() {
     let folder = tempfile::tempdir().unwrap();
-    let slow = ["--particles", "60", "--iterations", "16", "--overlay-every", "2", "--backend", "reference"];
     let run = |output: &Path, more: &[&str]| {
         let mut arguments = vec!["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap()];
-        arguments.extend(slow);
+        arguments.extend(SLOW);
         arguments.extend(more);
         pantin(&arguments)
     };
@@ -248,7 +250,7 @@ fn killed_or_interrupted_it_goes_on() {
     // What was killed once may be interrupted next.
     let mut child = program()
         .args(["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap()])
-        .args(slow)
+        .args(SLOW)
         .arg("--resume")
         .stderr(Stdio::piped())
         .spawn()
