@@ -300,7 +300,7 @@ fn a_device_that_gets_on_is_waited_for() {
     let mut passes = 64;
     loop {
         let settings = DeviceSettings {
-            patience: Duration::from_millis(250),
+            patience: Duration::from_secs(1),
             breadcrumbs: Breadcrumbs::Always,
             ..DeviceSettings::default()
         };
