@@ -14,10 +14,10 @@ use gpu_allocator::vulkan::Allocator;
 use crate::files::{Overwrite, write_atomically};
 
 use super::capability::{Capabilities, DeviceFacts};
-use super::float_controls::controlled;
 use super::instance::Instance;
 use super::loss::DeviceLost;
-use super::shader::Shader;
+#[cfg(test)]
+use super::rough::Change;
 use super::transform_feedback::FeedbackFunctions;
 
 /// When passes leave marks.
@@ -51,7 +51,7 @@ pub struct DeviceSettings {
     pub lose_after_passes: Option<u64>,
     /// Changes the code of stages before they are compiled: how tests make a device inexact.
     #[cfg(test)]
-    pub(crate) code: Option<fn(&Shader) -> Vec<u32>>,
+    pub(crate) code: Option<Change>,
 }
 
 impl Default for DeviceSettings {
@@ -213,15 +213,6 @@ impl DeviceShared {
     /// Whether passes leave marks.
     pub(super) fn leaves_breadcrumbs(&self) -> bool {
         self.markers.is_some() || self.settings.breadcrumbs == Breadcrumbs::Always
-    }
-
-    /// The code of a stage as this device takes it.
-    pub(super) fn code(&self, shader: &Shader) -> Vec<u32> {
-        #[cfg(test)]
-        if let Some(change) = self.settings.code {
-            return controlled(&change(shader), &self.facts.capabilities);
-        }
-        controlled(shader.spirv, &self.facts.capabilities)
     }
 
     /// An error if the device has been lost.

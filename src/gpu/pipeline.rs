@@ -8,6 +8,7 @@ use ash::vk;
 
 use super::capability::Capabilities;
 use super::device_shared::DeviceShared;
+use super::float_controls::controlled;
 use super::hazards::Use;
 use super::image::Format;
 use super::interface::{Access, BindingKind, ShaderKind};
@@ -257,7 +258,7 @@ impl Pipeline {
                     .collect::<Vec<_>>(),
             );
             data.push(constants.iter().flat_map(|(_, bits)| bits.to_ne_bytes()).collect::<Vec<u8>>());
-            let code = device.code(shader);
+            let code = code(device, shader);
             let info = vk::ShaderModuleCreateInfo::default().code(&code);
             // SAFETY: the code was made and validated by the build.
             let module = unsafe { device.raw.create_shader_module(&info, None) }
@@ -358,6 +359,16 @@ fn slots(name: &str, stages: &[ShaderStage]) -> Result<Vec<Slot>> {
         }
     }
     Ok(slots)
+}
+
+/// The code of a stage as the device takes it.
+fn code(device: &DeviceShared, shader: &Shader) -> Vec<u32> {
+    let capabilities = &device.facts.capabilities;
+    #[cfg(test)]
+    if let Some(change) = device.settings.code {
+        return controlled(&change(shader.name, shader.spirv), capabilities);
+    }
+    controlled(shader.spirv, capabilities)
 }
 
 /// The subgroup size that a compute stage is held to, with all of its subgroups full: the device's own where the workgroup is a

@@ -19,9 +19,9 @@ use crate::evaluate::device_evaluator::DeviceEvaluator;
 use crate::evaluate::shaders::layout;
 use crate::evaluate::{Components, Evaluator, Objective, ObjectiveKind};
 use crate::features::Observation;
-use crate::gpu::rough::{rough, roughened};
+use crate::gpu::rough::rough;
 use crate::gpu::shaders::compile::compile;
-use crate::gpu::{Capabilities, DeviceSettings, Shader, Timing};
+use crate::gpu::{Capabilities, DeviceSettings, Timing};
 
 const GLSL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/glsl");
 
@@ -55,12 +55,12 @@ static UNCORRECTED: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
     folder
 });
 
-fn uncorrected_and_rough(shader: &Shader) -> Vec<u32> {
-    roughened(&compile(UNCORRECTED.path(), shader.name).unwrap().spirv)
+fn uncorrected_and_rough(name: &str, spirv: &[u32]) -> Vec<u32> {
+    rough(name, &uncorrected(name, spirv))
 }
 
-fn uncorrected(shader: &Shader) -> Vec<u32> {
-    compile(UNCORRECTED.path(), shader.name).unwrap().spirv
+fn uncorrected(name: &str, _spirv: &[u32]) -> Vec<u32> {
+    compile(UNCORRECTED.path(), name).unwrap().spirv
 }
 
 /// How many corners there are, and how many of them are not the reference's; the order of parts and what an image may touch count
