@@ -3,6 +3,7 @@
 #   make test    formatting, lints, all tests, every benchmark once
 #   make bench   the speed tables of docs/PERFORMANCE.md
 #   make portability   the GPU tests on lavapipe (three subgroup sizes), SwiftShader and Mesa 25
+#   make gpu-report    packs target/gpu-report, to be run on a machine with a graphics card; FROM=its results fills docs/PERFORMANCE.md
 #   make fuzz    a minute of fuzzing for every reader of a user's file (SECONDS_EACH=60)
 
 CARGO ?= cargo
@@ -17,7 +18,7 @@ SHADERC_PACKAGES := libshaderc-dev glslang-dev spirv-tools
 SHADERC_PARTS := shaderc_combined glslang SPIRV MachineIndependent GenericCodeGen OSDependent OGLCompiler HLSL SPIRV-Tools-opt \
 	SPIRV-Tools glslang-default-resource-limits
 
-.PHONY: demo test bench portability fuzz build ffmpeg vulkan shaderc toolchain help
+.PHONY: demo test bench portability gpu-report fuzz build ffmpeg vulkan shaderc toolchain help
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -58,6 +59,13 @@ bench: toolchain shaderc
 
 portability: toolchain shaderc vulkan
 	tests/portability.sh
+
+gpu-report: toolchain shaderc
+ifdef FROM
+	PANTIN_GPU_REPORT=$(abspath $(FROM)) $(CARGO) test --locked --test gpu_report
+else
+	tests/gpu-report/pack.sh
+endif
 
 fuzz: toolchain shaderc
 	tests/fuzz/run.sh all $(SECONDS_EACH)

@@ -5,6 +5,8 @@
 #   SwiftShader, from Debian's chromium-common package
 #   Mesa 25, from bookworm-backports (on Debian 12)
 #
+# Last the report of `make gpu-report` is packed and run.
+#
 # Each once with the installed validation layer and once with the newer one of chromium-common, which finds more hazards.
 # Packages are unpacked into target/portability; the system is left as it is. Words on the command line choose other tests.
 set -eu
@@ -115,6 +117,12 @@ left_out=
 if [ -d "$mesa" ]; then
     icd=$mesa/usr/share/vulkan/icd.d/lvp_icd.json
     check "mesa 25" LD_LIBRARY_PATH="$mesa/usr/lib/x86_64-linux-gnu" VK_ICD_FILENAMES="$icd" VK_DRIVER_FILES="$icd"
+fi
+# The folder for machines with a card, packed and run here as there: that it runs and packs no more than it may.
+say "packing and running target/gpu-report on the installed driver"
+if tests/gpu-report/pack.sh && sh target/gpu-report/run.sh "$work/gpu-report" 8 && [ "$(ls "$work/gpu-report" | wc -l)" -le 8 ]; then :; else
+    say "the GPU report failed: see target/portability/gpu-report"
+    failed=1
 fi
 [ $failed = 0 ] || say "the whole output of each run is in target/portability/*.log"
 exit $failed

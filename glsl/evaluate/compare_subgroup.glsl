@@ -1,5 +1,6 @@
 // Compares a tile by subgroups: an invocation reads a texel, four candidates' pixels; four invocations exchange bytes until
-// each holds four pixels of one candidate. Sums are reduced over the subgroup, whatever its size from 4 on.
+// each holds four pixels of one candidate. Sums are reduced over the subgroup, whatever its size from 4 on, and however much of it
+// there is: a device may tell another size than a subgroup has invocations.
 
 #ifndef EVALUATE_COMPARE_SUBGROUP
 #define EVALUATE_COMPARE_SUBGROUP
@@ -8,8 +9,14 @@
 
 layout(local_size_x = COMPARE_GROUP) in;
 
+// Places of the workgroup that subgroups have taken.
+shared uint taken;
+
+// Invocations of the own subgroup.
+uint lanes;
+
 uvec4 over_channel(uvec4 counted) {
-    for (uint distance = 4u; distance < gl_SubgroupSize; distance <<= 1) {
+    for (uint distance = 4u; distance < lanes; distance <<= 1) {
         counted.x += subgroupShuffleXor(counted.x, distance);
         counted.y += subgroupShuffleXor(counted.y, distance);
         counted.z += subgroupShuffleXor(counted.z, distance);
@@ -21,7 +28,12 @@ uvec4 over_channel(uvec4 counted) {
 void main() {
     Tile tile = own_tile();
     uint rows = own_rows(tile);
-    uint unit = gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
+    if (gl_LocalInvocationID.x == 0u) taken = 0u;
+    barrier();
+    lanes = subgroupAdd(1u);
+    uint first = 0u;
+    if (gl_SubgroupInvocationID == 0u) first = atomicAdd(taken, lanes);
+    uint unit = subgroupShuffle(first, 0u) + gl_SubgroupInvocationID;
     uint channel = gl_SubgroupInvocationID & 3u;
     uint texels = rows * tile.width;
     uint steps = (texels + COMPARE_GROUP - 1u) / COMPARE_GROUP;

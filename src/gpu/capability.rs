@@ -2,8 +2,10 @@
 
 use std::ffi::CStr;
 
+use std::time::Duration;
+
 use anyhow::{Context as _, Result};
-use ash::{ext, vk};
+use ash::{amd, ext, vk};
 
 use super::Instance;
 
@@ -40,12 +42,20 @@ impl DeviceKind {
 pub struct Capabilities {
     /// Invocations of a subgroup.
     pub subgroup_size: u32,
+    /// Least and largest subgroup that a compute stage can be held to, all of them full; none where it cannot.
+    pub subgroup_sizes: Option<[u32; 2]>,
+    /// Most subgroups of such a workgroup.
+    pub max_subgroups: u32,
     /// Arithmetic over a subgroup in compute stages.
     pub subgroup_arithmetic: bool,
     /// Ballots over a subgroup in compute stages.
     pub subgroup_ballot: bool,
     /// Shuffles over a subgroup in compute stages.
     pub subgroup_shuffle: bool,
+    /// A queue for the graphics pipeline.
+    pub graphics: bool,
+    /// Blending of four bytes a texel, by the largest value.
+    pub max_blend: bool,
     /// Geometry stages.
     pub geometry_shader: bool,
     /// VK_EXT_transform_feedback, with at least one stream.
@@ -58,10 +68,14 @@ pub struct Capabilities {
     pub fragment_stores: bool,
     /// Timestamps around passes.
     pub timestamps: bool,
+    /// Bits of a timestamp: it begins anew when they are full.
+    pub timestamp_bits: u32,
     /// Nanoseconds of a timestamp's tick.
     pub timestamp_period_ns: f32,
     /// Timestamps on the host's clock.
     pub calibrated_timestamps: bool,
+    /// VK_AMD_buffer_marker: marks between passes that cost next to nothing.
+    pub buffer_markers: bool,
     /// Sums and products can be asked to round to the nearest.
     pub rounds_to_nearest: bool,
     /// Numbers below 2^-126 can be asked to be kept.
@@ -82,6 +96,9 @@ pub struct Capabilities {
     pub sub_pixel_bits: u32,
     /// Memory the engine may take, bytes.
     pub memory: u64,
+    /// How long a submission should be at work at most, before the driver takes the device for hung and resets it; none where
+    /// nobody does.
+    pub longest_submission: Option<Duration>,
 }
 
 /// A device of this machine, and whether the engine can use it.
@@ -104,9 +121,25 @@ pub struct DeviceFacts {
     /// One sentence for each requirement it fails and each option it lacks.
     pub reasons: Vec<String>,
     pub(super) handle: vk::PhysicalDevice,
-    pub(super) queue_family: u32,
+    /// A family of queues for graphics and compute, and one for compute, alone where there is such a one.
+    pub(super) queues: [Option<Queue>; 2],
+    /// An implementation on another interface, whose extension must be asked for.
+    pub(super) is_portability_subset: bool,
     pub(super) has_memory_budget: bool,
 }
+
+/// A family of queues.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Queue {
+    pub(super) family: u32,
+    pub(super) timestamp_bits: u32,
+}
+
+/// What Vulkan implementations on top of another interface have in place of a full one; ash names it with its beta functions.
+pub(super) const PORTABILITY_SUBSET: &CStr = c"VK_KHR_portability_subset";
+
+/// Drivers reset a device that is at one submission for some seconds, some after half of one.
+const LONGEST_SUBMISSION: Duration = Duration::from_millis(200);
 
 /// A row of the capability table.
 struct Row {
@@ -126,6 +159,21 @@ const TABLE: &[Row] = &[
         required: false,
         present: |c| c.subgroup_arithmetic && c.subgroup_shuffle && c.subgroup_ballot && c.subgroup_size >= 4,
         without: "no subgroup arithmetic and shuffles of 4 or more: comparison goes through shared memory",
+    },
+    Row {
+        required: false,
+        present: |c| c.subgroup_sizes.is_some(),
+        without: "no choice of the subgroup size: stages take what the driver gives",
+    },
+    Row {
+        required: false,
+        present: |c| c.graphics,
+        without: "no queue for graphics: what draws with the graphics pipeline cannot run",
+    },
+    Row {
+        required: false,
+        present: |c| c.max_blend,
+        without: "no blending of 8-bit colours: candidates share a framebuffer by depth (the packing depth)",
     },
     Row {
         required: false,
@@ -161,6 +209,7 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
     let raw = &instance.shared.raw;
     let mut subgroups = vk::PhysicalDeviceSubgroupProperties::default();
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut sizes = vk::PhysicalDeviceSubgroupSizeControlProperties::default();
     let mut floats = vk::PhysicalDeviceFloatControlsProperties::default();
     // The first query goes without structs that a 1.0 device would not know.
     // SAFETY: the handle comes from this instance; so in all calls below.
@@ -168,7 +217,8 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
     let is_recent = first.api_version >= vk::API_VERSION_1_3;
     let mut properties = vk::PhysicalDeviceProperties2::default();
     if is_recent {
-        properties = properties.push_next(&mut subgroups).push_next(&mut driver).push_next(&mut floats);
+        properties =
+            properties.push_next(&mut subgroups).push_next(&mut driver).push_next(&mut floats).push_next(&mut sizes);
     }
     // SAFETY: as above; the chained structs belong to versions the device has.
     unsafe { raw.get_physical_device_properties2(handle, &mut properties) };
@@ -195,8 +245,21 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
 
     // SAFETY: as above.
     let families = unsafe { raw.get_physical_device_queue_family_properties(handle) };
-    let wanted = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
-    let family = families.iter().position(|family| family.queue_flags.contains(wanted));
+    let queue = |wanted: vk::QueueFlags, unwanted: vk::QueueFlags| {
+        let fits = |family: &vk::QueueFamilyProperties| {
+            family.queue_flags.contains(wanted) && !family.queue_flags.intersects(unwanted)
+        };
+        let family = families.iter().position(fits)?;
+        Some(Queue { family: family as u32, timestamp_bits: families[family].timestamp_valid_bits })
+    };
+    let (graphics, compute) = (vk::QueueFlags::GRAPHICS, vk::QueueFlags::COMPUTE);
+    let queues = [
+        queue(graphics | compute, vk::QueueFlags::empty()),
+        queue(compute, graphics).or_else(|| queue(compute, vk::QueueFlags::empty())),
+    ];
+    let timestamp_bits = queues.iter().flatten().next().map_or(0, |queue| queue.timestamp_bits);
+    // SAFETY: as above.
+    let texel = unsafe { raw.get_physical_device_format_properties(handle, vk::Format::R8G8B8A8_UNORM) };
     // SAFETY: as above.
     let memory = unsafe { raw.get_physical_device_memory_properties(handle) };
     let heaps = &memory.memory_heaps[..memory.memory_heap_count as usize];
@@ -211,18 +274,26 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
     let subgroup = |feature| in_compute && subgroups.supported_operations.contains(feature);
     let capabilities = Capabilities {
         subgroup_size: if is_recent { subgroups.subgroup_size } else { 1 },
+        subgroup_sizes: (vulkan_13.subgroup_size_control != 0
+            && vulkan_13.compute_full_subgroups != 0
+            && sizes.required_subgroup_size_stages.contains(vk::ShaderStageFlags::COMPUTE))
+        .then_some([sizes.min_subgroup_size, sizes.max_subgroup_size]),
+        max_subgroups: sizes.max_compute_workgroup_subgroups,
         subgroup_arithmetic: subgroup(vk::SubgroupFeatureFlags::ARITHMETIC),
         subgroup_ballot: subgroup(vk::SubgroupFeatureFlags::BALLOT),
         subgroup_shuffle: subgroup(vk::SubgroupFeatureFlags::SHUFFLE),
+        graphics: queues[0].is_some(),
+        max_blend: texel.optimal_tiling_features.contains(vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND),
         geometry_shader: core.geometry_shader != 0,
         transform_feedback: feedback.transform_feedback != 0,
         pipeline_statistics: core.pipeline_statistics_query != 0,
         vertex_stores: core.vertex_pipeline_stores_and_atomics != 0,
         fragment_stores: core.fragment_stores_and_atomics != 0,
-        timestamps: family.is_some_and(|family| families[family].timestamp_valid_bits > 0)
-            && limits.timestamp_period > 0.0,
+        timestamps: timestamp_bits > 0 && limits.timestamp_period > 0.0,
+        timestamp_bits,
         timestamp_period_ns: limits.timestamp_period,
-        calibrated_timestamps: has(ext::calibrated_timestamps::NAME) && has_host_clock(instance, handle),
+        calibrated_timestamps: has(ext::calibrated_timestamps::NAME) && has_own_clock(instance, handle),
+        buffer_markers: has(amd::buffer_marker::NAME),
         rounds_to_nearest: floats.shader_rounding_mode_rte_float32 != 0,
         keeps_denormals: floats.shader_denorm_preserve_float32 != 0,
         max_image: limits.max_image_dimension2_d.min(limits.max_framebuffer_width).min(limits.max_framebuffer_height),
@@ -234,6 +305,7 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
         sub_pixel_bits: limits.sub_pixel_precision_bits,
         // A fifth is left to others: the display, the driver's own.
         memory: device_local / 5 * 4,
+        longest_submission: (first.device_type != vk::PhysicalDeviceType::CPU).then_some(LONGEST_SUBMISSION),
     };
 
     let mut failures = Vec::new();
@@ -254,8 +326,8 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
             }
         }
     }
-    if family.is_none() {
-        failures.push("none of its queues takes both graphics and compute".to_string());
+    if queues[1].is_none() {
+        failures.push("none of its queues takes compute".to_string());
     }
     let mut lacks = Vec::new();
     for row in TABLE {
@@ -289,15 +361,16 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
         usable: failures.is_empty(),
         reasons: failures.into_iter().chain(lacks).collect(),
         handle,
-        queue_family: family.unwrap_or(0) as u32,
+        queues,
+        is_portability_subset: has(PORTABILITY_SUBSET),
         has_memory_budget: has(ext::memory_budget::NAME),
     }
 }
 
-/// Whether calibrated timestamps can be taken on the device and on the host's monotonic clock at once.
-fn has_host_clock(instance: &Instance, handle: vk::PhysicalDevice) -> bool {
+/// Whether timestamps of the device's clock can be taken at any moment; the host's is read beside them, whatever system it is.
+fn has_own_clock(instance: &Instance, handle: vk::PhysicalDevice) -> bool {
     let functions = ext::calibrated_timestamps::Instance::new(&instance.shared.entry, &instance.shared.raw);
     // SAFETY: the handle belongs to the instance and the device has the extension.
     let domains = unsafe { functions.get_physical_device_calibrateable_time_domains(handle) }.unwrap_or_default();
-    domains.contains(&vk::TimeDomainEXT::DEVICE) && domains.contains(&vk::TimeDomainEXT::CLOCK_MONOTONIC)
+    domains.contains(&vk::TimeDomainEXT::DEVICE)
 }

@@ -4,7 +4,7 @@ use anyhow::{Result, ensure};
 use ash::vk;
 
 use super::buffer::Buffer;
-use super::hazards::Use;
+use super::hazards::{Stages, Use};
 use super::image::Image;
 use super::recorder::Recorder;
 
@@ -24,7 +24,7 @@ impl Recorder {
         }
         self.begin(name)?;
         let uses = [Use { resource: from.0.id(), writes: false }, Use { resource: to.0.id(), writes: true }];
-        self.wait_for(&uses, &[]);
+        self.wait_for(&uses, &[], Stages::TRANSFER);
         self.keep_buffer(from.0);
         self.keep_buffer(to.0);
         let region = [vk::BufferCopy { src_offset: from.1, dst_offset: to.1, size: bytes }];
@@ -47,7 +47,7 @@ impl Recorder {
     /// None of its own; those of beginning a pass.
     pub fn fill(&mut self, name: &str, buffer: &Buffer, word: u32) -> Result<()> {
         self.begin(name)?;
-        self.wait_for(&[Use { resource: buffer.id(), writes: true }], &[]);
+        self.wait_for(&[Use { resource: buffer.id(), writes: true }], &[], Stages::TRANSFER);
         self.keep_buffer(buffer);
         // SAFETY: recording; the whole buffer is a multiple of four bytes long.
         unsafe {
@@ -98,7 +98,7 @@ impl Recorder {
         self.begin(name)?;
         let uses = [Use { resource: image.id(), writes: !reads }, Use { resource: buffer.id(), writes: reads }];
         let layout = if reads { vk::ImageLayout::TRANSFER_SRC_OPTIMAL } else { vk::ImageLayout::TRANSFER_DST_OPTIMAL };
-        self.wait_for(&uses, &[(image.clone(), layout)]);
+        self.wait_for(&uses, &[(image.clone(), layout)], Stages::TRANSFER);
         self.keep_buffer(buffer);
         self.keep_image(image);
         let region = [vk::BufferImageCopy {

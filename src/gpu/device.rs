@@ -5,14 +5,14 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
-use anyhow::{Result, anyhow, bail};
-use ash::{ext, vk};
+use anyhow::{Result, anyhow, bail, ensure};
+use ash::{amd, ext, vk};
 use bytemuck::Pod;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use rayon::prelude::*;
 
 use super::buffer::Buffer;
-use super::capability::{Capabilities, DeviceFacts, devices};
+use super::capability::{Capabilities, DeviceFacts, PORTABILITY_SUBSET, devices};
 use super::compiled::{Compiled, Source};
 use super::device_shared::{DeviceSettings, DeviceShared, cache_file};
 use super::image::{Format, Image, ImageUse};
@@ -20,7 +20,7 @@ use super::instance::Instance;
 use super::memory::Memory;
 use super::pipeline::{Drawing, Pipeline};
 use super::shader::ShaderStage;
-use super::timing::ClockPair;
+use super::timing::{ClockPair, tick_mask};
 use super::transform_feedback::FeedbackFunctions;
 use super::validation::ValidationLog;
 
@@ -76,10 +76,17 @@ impl Device {
         if let Some(lower) = settings.lower {
             lower(&mut facts.capabilities);
         }
-        Self::open_with(instance, facts, settings)
+        let [both, compute] = facts.queues;
+        let queue = both.filter(|_| settings.graphics && facts.capabilities.graphics).or(compute);
+        let Some(queue) = queue else { bail!("the Vulkan device {} has no queue for compute", facts.name) };
+        let own = &mut facts.capabilities;
+        own.graphics &= settings.graphics;
+        own.timestamp_bits = own.timestamp_bits.min(queue.timestamp_bits);
+        own.timestamps &= own.timestamp_bits > 0;
+        Self::open_with(instance, facts, settings, queue.family)
     }
 
-    fn open_with(instance: &Instance, facts: DeviceFacts, settings: DeviceSettings) -> Result<Self> {
+    fn open_with(instance: &Instance, facts: DeviceFacts, settings: DeviceSettings, family: u32) -> Result<Self> {
         let capabilities = facts.capabilities;
         let mut extensions = Vec::new();
         if capabilities.transform_feedback {
@@ -88,18 +95,26 @@ impl Device {
         if capabilities.calibrated_timestamps {
             extensions.push(ext::calibrated_timestamps::NAME.as_ptr());
         }
+        if facts.is_portability_subset {
+            extensions.push(PORTABILITY_SUBSET.as_ptr());
+        }
+        if capabilities.buffer_markers {
+            extensions.push(amd::buffer_marker::NAME.as_ptr());
+        }
         let core = vk::PhysicalDeviceFeatures::default()
             .geometry_shader(capabilities.geometry_shader)
             .pipeline_statistics_query(capabilities.pipeline_statistics)
             .vertex_pipeline_stores_and_atomics(capabilities.vertex_stores)
             .fragment_stores_and_atomics(capabilities.fragment_stores);
         let mut vulkan_12 = vk::PhysicalDeviceVulkan12Features::default().timeline_semaphore(true);
-        let mut vulkan_13 =
-            vk::PhysicalDeviceVulkan13Features::default().dynamic_rendering(true).synchronization2(true);
+        let mut vulkan_13 = vk::PhysicalDeviceVulkan13Features::default()
+            .dynamic_rendering(true)
+            .synchronization2(true)
+            .subgroup_size_control(capabilities.subgroup_sizes.is_some())
+            .compute_full_subgroups(capabilities.subgroup_sizes.is_some());
         let mut feedback = vk::PhysicalDeviceTransformFeedbackFeaturesEXT::default().transform_feedback(true);
         let priorities = [1.0];
-        let queues =
-            [vk::DeviceQueueCreateInfo::default().queue_family_index(facts.queue_family).queue_priorities(&priorities)];
+        let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(family).queue_priorities(&priorities)];
         let mut info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
             .enabled_extension_names(&extensions)
@@ -138,7 +153,7 @@ impl Device {
             }
         };
         // SAFETY: the family was found on this device, and one queue of it was asked for.
-        let queue = unsafe { raw.get_device_queue(facts.queue_family, 0) };
+        let queue = unsafe { raw.get_device_queue(family, 0) };
         let saved = settings.pipeline_cache.as_ref().and_then(|folder| fs::read(cache_file(folder, &facts)).ok());
         let info = vk::PipelineCacheCreateInfo::default().initial_data(saved.as_deref().unwrap_or_default());
         // A driver refuses data that is not its own, and no cache is as good as an empty one.
@@ -147,6 +162,7 @@ impl Device {
         let shared = Arc::new(DeviceShared {
             debug: instance.shared.has_debug_utils.then(|| ext::debug_utils::Device::new(vulkan, &raw)),
             feedback: capabilities.transform_feedback.then(|| FeedbackFunctions::load(vulkan, &raw)).flatten(),
+            markers: capabilities.buffer_markers.then(|| amd::buffer_marker::Device::new(vulkan, &raw)),
             calibrated: capabilities
                 .calibrated_timestamps
                 .then(|| ext::calibrated_timestamps::Device::new(vulkan, &raw)),
@@ -158,7 +174,9 @@ impl Device {
             memory_used: AtomicU64::new(0),
             pipelines,
             timeline,
+            queue_family: family,
             queue: Mutex::new(queue),
+            pass_time: AtomicU64::new(0),
             submitted: AtomicU64::new(0),
             passes_run: AtomicU64::new(0),
             is_lost: AtomicBool::new(false),
@@ -195,12 +213,16 @@ impl Device {
         let domain = [vk::CalibratedTimestampInfoEXT::default().time_domain(vk::TimeDomainEXT::DEVICE)];
         let period = f64::from(self.shared.facts.capabilities.timestamp_period_ns);
         // The quickest of three: another thread may have had the processor between the two clocks.
+        let mask = tick_mask(self.shared.facts.capabilities.timestamp_bits);
         let pairs = (0..3).filter_map(|_| {
             let before = Instant::now();
             // SAFETY: the extension is enabled and offers the domain.
             let (ticks, _) = unsafe { functions.get_calibrated_timestamps(&domain) }.ok()?;
             let between = before.elapsed();
-            Some((between, ClockPair { device_ns: *ticks.first()? as f64 * period, host: before + between / 2 }))
+            Some((
+                between,
+                ClockPair { device_ns: (*ticks.first()? & mask) as f64 * period, host: before + between / 2 },
+            ))
         });
         pairs.min_by_key(|(between, _)| *between).map(|(_, pair)| pair)
     }
@@ -239,8 +261,13 @@ impl Device {
     /// draw.
     ///
     /// # Errors
-    /// When the driver refuses it.
+    /// When the device has no queue for graphics, or its driver refuses the pipeline.
     pub fn graphics_pipeline(&self, name: &str, stages: &[ShaderStage], drawing: &Drawing) -> Result<Pipeline> {
+        ensure!(
+            self.capabilities().graphics,
+            "the Vulkan device {} has no queue for graphics, which {name} needs",
+            self.shared.facts.name
+        );
         let source = Source { stages: stages.to_vec(), drawing: Some(*drawing) };
         self.owner.compiled.of(source, |source| Pipeline::graphics(&self.shared, name, &source.stages, drawing))
     }

@@ -8,17 +8,27 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, anyhow};
-use ash::{ext, vk};
+use ash::{amd, ext, vk};
 use gpu_allocator::vulkan::Allocator;
 
 use crate::files::{Overwrite, write_atomically};
 
 use super::capability::{Capabilities, DeviceFacts};
-use super::float_controls::controlled;
 use super::instance::Instance;
 use super::loss::DeviceLost;
-use super::shader::Shader;
+#[cfg(test)]
+use super::rough::Change;
 use super::transform_feedback::FeedbackFunctions;
+
+/// When passes leave marks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Breadcrumbs {
+    /// Where that costs next to nothing: on devices with VK_AMD_buffer_marker.
+    #[default]
+    WhereCheap,
+    /// Always, elsewhere by a fill of four bytes a pass.
+    Always,
+}
 
 /// How a device is opened.
 #[derive(Clone, Debug)]
@@ -29,8 +39,10 @@ pub struct DeviceSettings {
     pub lower: Option<fn(&mut Capabilities)>,
     /// Folder that keeps compiled pipelines between runs; without one they are compiled anew.
     pub pipeline_cache: Option<PathBuf>,
-    /// Whether every pass leaves a mark that tells how far a lost device came.
-    pub breadcrumbs: bool,
+    /// Whether passes leave marks that tell how far a lost device came.
+    pub breadcrumbs: Breadcrumbs,
+    /// Whether the graphics pipeline is wanted; without, a queue for compute alone is taken where there is one.
+    pub graphics: bool,
     /// How long a device may be at work without beginning another pass (or, without breadcrumbs, without coming to an end)
     /// before it is given up. Drivers reset a graphics card that hangs after seconds and say so; a software device may take
     /// minutes for one pass.
@@ -39,7 +51,7 @@ pub struct DeviceSettings {
     pub lose_after_passes: Option<u64>,
     /// Changes the code of stages before they are compiled: how tests make a device inexact.
     #[cfg(test)]
-    pub(crate) code: Option<fn(&Shader) -> Vec<u32>>,
+    pub(crate) code: Option<Change>,
 }
 
 impl Default for DeviceSettings {
@@ -48,7 +60,8 @@ impl Default for DeviceSettings {
             index: None,
             lower: None,
             pipeline_cache: None,
-            breadcrumbs: true,
+            breadcrumbs: Breadcrumbs::default(),
+            graphics: true,
             patience: Duration::from_secs(600),
             lose_after_passes: None,
             #[cfg(test)]
@@ -64,13 +77,17 @@ pub(super) struct DeviceShared {
     pub(super) facts: DeviceFacts,
     pub(super) debug: Option<ext::debug_utils::Device>,
     pub(super) feedback: Option<FeedbackFunctions>,
+    pub(super) markers: Option<amd::buffer_marker::Device>,
     pub(super) settings: DeviceSettings,
     pub(super) allocator: Mutex<Option<Allocator>>,
     /// Bytes taken of `facts.capabilities.memory`.
     pub(super) memory_used: AtomicU64,
     pub(super) pipelines: vk::PipelineCache,
     pub(super) timeline: vk::Semaphore,
+    pub(super) queue_family: u32,
     pub(super) queue: Mutex<vk::Queue>,
+    /// Nanoseconds that a pass took on average in the slowest recording so far.
+    pub(super) pass_time: AtomicU64,
     /// Value the timeline takes when the last submission is done.
     pub(super) submitted: AtomicU64,
     pub(super) passes_run: AtomicU64,
@@ -84,8 +101,8 @@ pub(super) struct DeviceShared {
 }
 
 impl DeviceShared {
-    /// Submits a command buffer that runs `passes`. Gives the timeline value that marks its end.
-    pub(super) fn submit(&self, commands: vk::CommandBuffer, passes: &[String]) -> Result<u64> {
+    /// Submits command buffers that run `passes`, one after the other. Gives the timeline value that marks their end.
+    pub(super) fn submit(&self, commands: &[vk::CommandBuffer], passes: &[String]) -> Result<u64> {
         self.check_alive()?;
         let before = self.passes_run.fetch_add(passes.len() as u64, Ordering::Relaxed);
         if let Some(limit) = self.settings.lose_after_passes
@@ -101,18 +118,36 @@ impl DeviceShared {
         }
         self.collect();
         let queue = lock(&self.queue);
-        let value = self.submitted.load(Ordering::Relaxed) + 1;
-        let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(commands)];
-        let signal = [vk::SemaphoreSubmitInfo::default()
-            .semaphore(self.timeline)
-            .value(value)
-            .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
-        let submit = [vk::SubmitInfo2::default().command_buffer_infos(&commands).signal_semaphore_infos(&signal)];
-        // SAFETY: the queue is locked; the recording keeps its command buffer and all it uses until the value is reached.
-        unsafe { self.raw.queue_submit2(*queue, &submit, vk::Fence::null()) }
-            .map_err(|result| self.failure(result, "submit work", || passes.first().cloned()))?;
-        self.submitted.store(value, Ordering::Relaxed);
+        let mut value = self.submitted.load(Ordering::Relaxed);
+        for commands in commands {
+            value += 1;
+            let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(*commands)];
+            let signal = [vk::SemaphoreSubmitInfo::default()
+                .semaphore(self.timeline)
+                .value(value)
+                .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
+            let submit = [vk::SubmitInfo2::default().command_buffer_infos(&commands).signal_semaphore_infos(&signal)];
+            // SAFETY: the queue is locked; the recording keeps its command buffers and all they use until the value is reached.
+            unsafe { self.raw.queue_submit2(*queue, &submit, vk::Fence::null()) }
+                .map_err(|result| self.failure(result, "submit work", || passes.first().cloned()))?;
+            self.submitted.store(value, Ordering::Relaxed);
+        }
         Ok(value)
+    }
+
+    /// Most passes of a submission, so that it is not at work for too long, by what passes have taken so far.
+    pub(super) fn passes_a_submission(&self) -> usize {
+        /// What a pass is taken to need before any has run: few on a graphics card need as much.
+        const AT_FIRST: Duration = Duration::from_millis(2);
+        let Some(longest) = self.facts.capabilities.longest_submission else { return usize::MAX };
+        let pass = Duration::from_nanos(self.pass_time.load(Ordering::Relaxed)).max(AT_FIRST);
+        (longest.as_nanos() / pass.as_nanos()).max(1) as usize
+    }
+
+    /// Takes note of how long a recording of so many passes was waited for.
+    pub(super) fn note_pass_time(&self, taken: Duration, passes: usize) {
+        let each = taken.as_nanos() as u64 / passes.max(1) as u64;
+        self.pass_time.fetch_max(each, Ordering::Relaxed);
     }
 
     /// Waits until the timeline has reached `value`, as long as the device gets on. `begun` tells the last one of `passes` that
@@ -126,11 +161,15 @@ impl DeviceShared {
         let info = vk::SemaphoreWaitInfo::default().semaphores(&semaphores).values(&values);
         let last_pass = || begun().and_then(|pass| passes.get(pass).cloned());
         // The breadcrumbs are first read when the first look is due: most work is done by then.
-        let (mut seen, mut since) = (None, Instant::now());
+        let (mut seen, mut since, begin) = (None, Instant::now(), Instant::now());
         loop {
             // SAFETY: the semaphore is a timeline of this device.
             match unsafe { self.raw.wait_semaphores(&info, between_looks) } {
-                Ok(()) => return Ok(()),
+                Ok(()) => {
+                    // At least so long: the host may have come late.
+                    self.note_pass_time(begin.elapsed(), passes.len());
+                    return Ok(());
+                }
                 Err(vk::Result::TIMEOUT) => {}
                 Err(result) => return Err(self.failure(result, "finish its work", last_pass)),
             }
@@ -171,13 +210,9 @@ impl DeviceShared {
         drop(done);
     }
 
-    /// The code of a stage as this device takes it.
-    pub(super) fn code(&self, shader: &Shader) -> Vec<u32> {
-        #[cfg(test)]
-        if let Some(change) = self.settings.code {
-            return controlled(&change(shader), &self.facts.capabilities);
-        }
-        controlled(shader.spirv, &self.facts.capabilities)
+    /// Whether passes leave marks.
+    pub(super) fn leaves_breadcrumbs(&self) -> bool {
+        self.markers.is_some() || self.settings.breadcrumbs == Breadcrumbs::Always
     }
 
     /// An error if the device has been lost.

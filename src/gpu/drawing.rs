@@ -3,7 +3,7 @@
 use anyhow::{Result, bail, ensure};
 use ash::vk;
 
-use super::hazards::Use;
+use super::hazards::{Stages, Use};
 use super::image::Image;
 use super::pass::{Clear, Draw, Feedback, Target};
 use super::pipeline::{Resource, uses};
@@ -37,7 +37,7 @@ impl Recorder {
             layouts.push((depth.clone(), vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL));
             self.keep_image(depth);
         }
-        self.wait_for(&all, &layouts);
+        self.wait_for(&all, &layouts, Stages::GRAPHICS);
         let sets = self.prepare(name, draws, &resources)?;
         let attachment = |image: &Image, clear: Clear, layout, is_depth: bool| {
             let info = vk::RenderingAttachmentInfo::default()
@@ -97,7 +97,7 @@ impl Recorder {
         all.push(Use { resource: buffer.id(), writes: true });
         self.keep_buffer(buffer);
         let layouts: Vec<_> = resources.iter().flat_map(|own| readable(own)).collect();
-        self.wait_for(&all, &layouts);
+        self.wait_for(&all, &layouts, Stages::GRAPHICS);
         let sets = self.prepare(name, draws, &resources)?;
         let info = vk::RenderingInfo::default().render_area(rectangle([0, 0, 1, 1])).layer_count(1);
         let commands = self.parts.commands;

@@ -4,7 +4,7 @@ use std::ffi::CStr;
 use std::sync::Arc;
 
 use anyhow::{Context as _, Result, anyhow, bail};
-use ash::{ext, vk};
+use ash::{ext, khr, vk};
 
 use super::validation::{Validation, ValidationLog};
 
@@ -56,9 +56,12 @@ impl Instance {
         // SAFETY: as above.
         let extensions = unsafe { entry.enumerate_instance_extension_properties(None) }
             .context("the Vulkan loader does not list its extensions")?;
-        let has_debug_utils = extensions
-            .iter()
-            .any(|extension| extension.extension_name_as_c_str().is_ok_and(|name| name == ext::debug_utils::NAME));
+        let has = |wanted: &CStr| {
+            extensions.iter().any(|extension| extension.extension_name_as_c_str().is_ok_and(|name| name == wanted))
+        };
+        let has_debug_utils = has(ext::debug_utils::NAME);
+        // Without being asked the loader leaves out implementations on top of another interface, such as Apple's.
+        let lists_portable = has(khr::portability_enumeration::NAME);
         let mut layers = Vec::new();
         if validation != Validation::Off {
             // SAFETY: as above.
@@ -78,11 +81,21 @@ impl Instance {
             .application_name(c"pantin")
             .engine_name(c"pantin")
             .api_version(vk::API_VERSION_1_3);
-        let names: Vec<_> = has_debug_utils.then(|| ext::debug_utils::NAME.as_ptr()).into_iter().collect();
+        let names: Vec<_> =
+            [(has_debug_utils, ext::debug_utils::NAME), (lists_portable, khr::portability_enumeration::NAME)]
+                .into_iter()
+                .filter_map(|(has, name)| has.then_some(name.as_ptr()))
+                .collect();
+        let flags = if lists_portable {
+            vk::InstanceCreateFlags::ENUMERATE_PORTABILITY_KHR
+        } else {
+            vk::InstanceCreateFlags::empty()
+        };
         let mut messenger = log.messenger();
         let enabled = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
         let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&enabled);
         let mut info = vk::InstanceCreateInfo::default()
+            .flags(flags)
             .application_info(&application)
             .enabled_layer_names(&layers)
             .enabled_extension_names(&names);

@@ -8,7 +8,7 @@ use std::time::Duration;
 pub struct DeviceLost {
     /// Name of the device.
     pub device: String,
-    /// The last pass that had begun, when a breadcrumb tells.
+    /// The last pass that had begun, where a breadcrumb tells.
     pub pass: Option<String>,
     /// How long it had not got on, where it was given up and not known to be gone.
     pub given_up_after: Option<Duration>,
@@ -23,7 +23,7 @@ impl fmt::Display for DeviceLost {
         }
         match pass {
             Some(pass) => write!(f, " in pass {pass}"),
-            None => write!(f, " before any pass began"),
+            None => write!(f, " in a pass that no breadcrumb names (PANTIN_BREADCRUMBS=1 leaves them)"),
         }
     }
 }

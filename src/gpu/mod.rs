@@ -37,7 +37,7 @@ mod validation;
 pub use buffer::Buffer;
 pub use capability::{Capabilities, DeviceFacts, DeviceKind, devices};
 pub use device::Device;
-pub use device_shared::DeviceSettings;
+pub use device_shared::{Breadcrumbs, DeviceSettings};
 pub use image::{Format, Image, ImageUse};
 pub use instance::Instance;
 pub use interface::{Access, BindingKind, ShaderKind};

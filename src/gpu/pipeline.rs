@@ -6,11 +6,14 @@ use std::sync::Arc;
 use anyhow::{Result, anyhow, bail, ensure};
 use ash::vk;
 
+use super::capability::Capabilities;
 use super::device_shared::DeviceShared;
+use super::float_controls::controlled;
 use super::hazards::Use;
 use super::image::Format;
 use super::interface::{Access, BindingKind, ShaderKind};
-use super::shader::{Binding, BindingLayout, Bound, ShaderStage};
+use super::shader::{Binding, BindingLayout, Bound, Shader, ShaderStage};
+use super::spirv::uses_subgroups;
 
 /// A compiled pipeline; clones are the same pipeline.
 #[derive(Clone)]
@@ -114,7 +117,14 @@ impl Pipeline {
         ensure!(shader.kind == ShaderKind::Compute, "{} is not a compute stage", shader.name);
         ensure!(group <= most, "{} wants workgroups of {group}, and this device allows {most}", shader.name);
         Self::new(device, shader.name, std::slice::from_ref(stage), |device, layout, stages| {
-            let info = [vk::ComputePipelineCreateInfo::default().stage(stages[0]).layout(layout)];
+            let pinned = pinned_subgroup(stage.shader, &device.facts.capabilities);
+            let mut size = vk::PipelineShaderStageRequiredSubgroupSizeCreateInfo::default()
+                .required_subgroup_size(pinned.unwrap_or_default());
+            let mut stage = stages[0];
+            if pinned.is_some() {
+                stage = stage.flags(vk::PipelineShaderStageCreateFlags::REQUIRE_FULL_SUBGROUPS).push_next(&mut size);
+            }
+            let info = [vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout)];
             // SAFETY: the stage and layout live through the call.
             unsafe { device.raw.create_compute_pipelines(device.pipelines, &info, None) }
         })
@@ -248,7 +258,7 @@ impl Pipeline {
                     .collect::<Vec<_>>(),
             );
             data.push(constants.iter().flat_map(|(_, bits)| bits.to_ne_bytes()).collect::<Vec<u8>>());
-            let code = device.code(shader);
+            let code = code(device, shader);
             let info = vk::ShaderModuleCreateInfo::default().code(&code);
             // SAFETY: the code was made and validated by the build.
             let module = unsafe { device.raw.create_shader_module(&info, None) }
@@ -351,6 +361,30 @@ fn slots(name: &str, stages: &[ShaderStage]) -> Result<Vec<Slot>> {
     Ok(slots)
 }
 
+/// The code of a stage as the device takes it.
+fn code(device: &DeviceShared, shader: &Shader) -> Vec<u32> {
+    let capabilities = &device.facts.capabilities;
+    #[cfg(test)]
+    if let Some(change) = device.settings.code {
+        return controlled(&change(shader.name, shader.spirv), capabilities);
+    }
+    controlled(shader.spirv, capabilities)
+}
+
+/// The subgroup size that a compute stage is held to, with all of its subgroups full: the device's own where the workgroup is a
+/// whole number of such, else the largest that fits. None for stages that use no subgroups, and where the device does not let one.
+fn pinned_subgroup(shader: &Shader, capabilities: &Capabilities) -> Option<u32> {
+    let [least, most] = capabilities.subgroup_sizes?;
+    let groups: u32 = shader.workgroup_size.iter().product();
+    let fits = |size: &u32| {
+        shader.workgroup_size[0].is_multiple_of(*size) && groups <= size.saturating_mul(capabilities.max_subgroups)
+    };
+    let sizes = (0..32).map(|power| 1 << power).filter(|size| (least..=most).contains(size));
+    let largest = sizes.filter(fits).max();
+    let own = Some(capabilities.subgroup_size).filter(|size| (least..=most).contains(size)).filter(fits);
+    if uses_subgroups(shader.spirv) { own.or(largest) } else { None }
+}
+
 /// Objects on the way to a pipeline, destroyed should it not be reached.
 struct Parts<'a> {
     device: &'a DeviceShared,
@@ -409,5 +443,39 @@ pub(super) fn descriptor_type(kind: BindingKind) -> vk::DescriptorType {
         BindingKind::UniformBuffer => vk::DescriptorType::UNIFORM_BUFFER,
         BindingKind::SampledImage => vk::DescriptorType::SAMPLED_IMAGE,
         BindingKind::StorageImage => vk::DescriptorType::STORAGE_IMAGE,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::test_device::device;
+    use crate::gpu::{DeviceSettings, generated};
+
+    #[test]
+    fn subgroups_are_pinned_where_the_workgroup_is_a_whole_number_of_them() {
+        let Some((device, _)) = device("subgroups_are_pinned", DeviceSettings::default()) else { return };
+        let plain = &generated::double_comp::SHADER;
+        // The capability GroupNonUniform, before all else.
+        let mut code = plain.spirv.to_vec();
+        code.splice(5..5, [2 << 16 | 17, 61]);
+        let size = |group: u32, own: u32, sizes: Option<[u32; 2]>, most: u32, spirv: &'static [u32]| {
+            let shader = Shader { workgroup_size: [group, 1, 1], spirv, ..*plain };
+            let capabilities = Capabilities {
+                subgroup_size: own,
+                subgroup_sizes: sizes,
+                max_subgroups: most,
+                ..*device.capabilities()
+            };
+            pinned_subgroup(&shader, &capabilities)
+        };
+        let code: &'static [u32] = code.leak();
+        assert_eq!(size(128, 32, Some([32, 32]), 32, code), Some(32));
+        assert_eq!(size(128, 64, Some([32, 64]), 32, code), Some(64));
+        assert_eq!(size(32, 64, Some([32, 64]), 32, code), Some(32), "a smaller one for a small workgroup");
+        assert_eq!(size(32, 128, Some([64, 128]), 32, code), None, "none is full");
+        assert_eq!(size(128, 8, Some([8, 32]), 8, code), Some(32), "so many subgroups are too many");
+        assert_eq!(size(128, 32, None, 32, code), None);
+        assert_eq!(size(128, 32, Some([32, 32]), 32, plain.spirv), None, "nothing is done over subgroups");
     }
 }

@@ -9,7 +9,7 @@ use ash::vk;
 use super::buffer::Buffer;
 use super::descriptors::Descriptors;
 use super::device::Device;
-use super::hazards::{Hazards, Use};
+use super::hazards::{Barrier, Hazards, Stages, Use};
 use super::image::{Image, whole};
 use super::memory::Memory;
 use super::pass::{Dispatch, Groups};
@@ -27,6 +27,10 @@ pub struct Recorder {
     pub(super) parts: RecordingParts,
     timing: Timing,
     hazards: Hazards,
+    /// First pass of the submission that is being recorded.
+    first_pass: usize,
+    /// Whether the pass that is being recorded has left its mark.
+    is_marked: bool,
     /// Layouts of images that are not in GENERAL.
     layouts: HashMap<u64, (Image, vk::ImageLayout)>,
     descriptors: Descriptors,
@@ -56,7 +60,7 @@ impl Device {
             timing => timing,
         };
         let timing = if capabilities.timestamps { timing } else { Timing::Off };
-        let info = vk::CommandPoolCreateInfo::default().queue_family_index(device.facts.queue_family);
+        let info = vk::CommandPoolCreateInfo::default().queue_family_index(device.queue_family);
         // SAFETY: the device is open; so for all calls below.
         let pool = unsafe { raw.create_command_pool(&info, None) }
             .map_err(|result| device.failure(result, "make a command pool", || None))?;
@@ -64,6 +68,7 @@ impl Device {
             device: device.clone(),
             pool,
             commands: vk::CommandBuffer::null(),
+            ended: Vec::new(),
             descriptor_pools: Vec::new(),
             stamps: None,
             statistics: None,
@@ -73,19 +78,19 @@ impl Device {
             images: Vec::new(),
             pipelines: Vec::new(),
         };
-        let info = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
-        // SAFETY: the pool was just made.
-        let commands = unsafe { raw.allocate_command_buffers(&info) }
-            .map_err(|result| device.failure(result, "make a command buffer", || None))?;
-        parts.commands = commands[0];
+        let counted = if capabilities.graphics {
+            vk::QueryPipelineStatisticFlags::VERTEX_SHADER_INVOCATIONS
+                | vk::QueryPipelineStatisticFlags::CLIPPING_PRIMITIVES
+                | vk::QueryPipelineStatisticFlags::FRAGMENT_SHADER_INVOCATIONS
+                | vk::QueryPipelineStatisticFlags::COMPUTE_SHADER_INVOCATIONS
+        } else {
+            vk::QueryPipelineStatisticFlags::COMPUTE_SHADER_INVOCATIONS
+        };
         let query_pool = |kind, count: usize| {
-            let info =
-                vk::QueryPoolCreateInfo::default().query_type(kind).query_count(count as u32).pipeline_statistics(
-                    vk::QueryPipelineStatisticFlags::VERTEX_SHADER_INVOCATIONS
-                        | vk::QueryPipelineStatisticFlags::CLIPPING_PRIMITIVES
-                        | vk::QueryPipelineStatisticFlags::FRAGMENT_SHADER_INVOCATIONS
-                        | vk::QueryPipelineStatisticFlags::COMPUTE_SHADER_INVOCATIONS,
-                );
+            let info = vk::QueryPoolCreateInfo::default()
+                .query_type(kind)
+                .query_count(count as u32)
+                .pipeline_statistics(counted);
             // SAFETY: the statistics are asked for only where the feature is on.
             unsafe { raw.create_query_pool(&info, None) }
                 .map_err(|result| device.failure(result, "make queries", || None))
@@ -96,12 +101,10 @@ impl Device {
         if timing == Timing::Statistics {
             parts.statistics = Some(query_pool(vk::QueryType::PIPELINE_STATISTICS, MOST_PASSES)?);
         }
-        if device.settings.breadcrumbs {
+        if device.leaves_breadcrumbs() {
             parts.breadcrumbs = Some(self.buffer::<u32>("breadcrumbs", MOST_PASSES, Memory::Readback)?);
         }
-        // SAFETY: the command buffer is new.
-        unsafe { raw.begin_command_buffer(parts.commands, &vk::CommandBufferBeginInfo::default()) }
-            .map_err(|result| device.failure(result, "begin a command buffer", || None))?;
+        parts.begin_commands()?;
         // SAFETY: recording; the pools have as many queries.
         unsafe {
             if let Some(stamps) = parts.stamps {
@@ -116,6 +119,8 @@ impl Device {
             parts,
             timing,
             hazards: Hazards::default(),
+            first_pass: 0,
+            is_marked: false,
             layouts: HashMap::new(),
             descriptors: Descriptors::default(),
             kept: HashSet::new(),
@@ -123,7 +128,7 @@ impl Device {
             barriers: 0,
         };
         // What ran before, this recording's own last run included, comes first.
-        recorder.barrier(&[]);
+        recorder.full_barrier(&[]);
         Ok(recorder)
     }
 
@@ -131,7 +136,7 @@ impl Device {
     pub(super) fn settle(&self, image: &Image) -> Result<()> {
         let mut recorder = self.recorder(Timing::Off)?;
         let transition = recorder.transition(image, vk::ImageLayout::UNDEFINED, vk::ImageLayout::GENERAL);
-        recorder.barrier(&[transition]);
+        recorder.full_barrier(&[transition]);
         recorder.keep_image(image);
         recorder.finish()?.run()
     }
@@ -174,11 +179,13 @@ impl Recorder {
         let resources = pipeline.resources(name, &dispatch.bindings)?;
         check_push(name, &pipeline, &dispatch.push)?;
         let mut uses: Vec<_> = uses(&resources).collect();
+        let mut stages = Stages::COMPUTE;
         if let Groups::Indirect(buffer, _) = dispatch.groups {
             uses.push(Use { resource: buffer.id(), writes: false });
             self.keep_buffer(buffer);
+            stages |= Stages::INDIRECT;
         }
-        self.wait_for(&uses, &readable(&resources));
+        self.wait_for(&uses, &readable(&resources), stages);
         self.keep_pipeline(&pipeline);
         let sets = self.descriptor_sets(&pipeline, &resources)?;
         self.bind_sets(&pipeline, &sets, &dispatch.push);
@@ -221,18 +228,32 @@ impl Recorder {
             .filter(|(_, layout)| *layout != vk::ImageLayout::GENERAL)
             .map(|(image, layout)| self.transition(image, *layout, vk::ImageLayout::GENERAL))
             .collect();
+        if !back.is_empty() {
+            self.full_barrier(&back);
+        }
         // The host may read what was written once the run is over.
-        self.barrier(&back);
-        // SAFETY: recording.
-        unsafe { self.device.shared.raw.end_command_buffer(self.parts.commands) }
-            .map_err(|result| self.device.shared.failure(result, "finish a command buffer", || None))?;
+        let memory = vk::MemoryBarrier2::default()
+            .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+            .dst_stage_mask(vk::PipelineStageFlags2::HOST)
+            .dst_access_mask(vk::AccessFlags2::HOST_READ);
+        self.depend(memory, &[]);
+        self.parts.end_commands()?;
         Ok(Recording { device: self.device, parts: Some(self.parts), submitted: 0 })
     }
 
     pub(super) fn begin(&mut self, name: &str) -> Result<()> {
         let pass = self.parts.passes.len();
         ensure!(pass < MOST_PASSES, "a recording holds at most {MOST_PASSES} passes");
+        if pass >= self.first_pass + self.device.shared.passes_a_submission() {
+            // Barriers hold over submissions of a queue too, so nothing else changes.
+            self.parts.end_commands()?;
+            self.parts.ended.push(self.parts.commands);
+            self.parts.begin_commands()?;
+            self.first_pass = pass;
+        }
         self.parts.passes.push(name.to_string());
+        self.is_marked = false;
         let (raw, commands) = (&self.device.shared.raw, self.parts.commands);
         if let Some(debug) = &self.device.shared.debug
             && let Ok(label) = CString::new(name)
@@ -242,11 +263,8 @@ impl Recorder {
                 debug.cmd_begin_debug_utils_label(commands, &vk::DebugUtilsLabelEXT::default().label_name(&label));
             }
         }
-        // SAFETY: recording; the buffer has a word and the pools have queries for every pass.
+        // SAFETY: recording; the pools have queries for every pass.
         unsafe {
-            if let Some(breadcrumbs) = &self.parts.breadcrumbs {
-                raw.cmd_fill_buffer(commands, breadcrumbs.shared.handle, 4 * pass as u64, 4, 1);
-            }
             if let Some(stamps) = self.parts.stamps {
                 let all = vk::PipelineStageFlags2::ALL_COMMANDS;
                 raw.cmd_write_timestamp2(commands, all, stamps, 2 * pass as u32);
@@ -276,8 +294,9 @@ impl Recorder {
         }
     }
 
-    /// Inserts the barrier that a pass of these uses needs, if any, and brings images into the layouts it wants.
-    pub(super) fn wait_for(&mut self, uses: &[Use], layouts: &[(Image, vk::ImageLayout)]) {
+    /// Inserts the barrier that a pass of these uses in these stages needs, if any, and brings images into the layouts it wants. The
+    /// pass's breadcrumb stands behind it.
+    pub(super) fn wait_for(&mut self, uses: &[Use], layouts: &[(Image, vk::ImageLayout)], stages: Stages) {
         let mut transitions = Vec::new();
         for (image, wanted) in layouts {
             let id = image.id();
@@ -287,16 +306,43 @@ impl Recorder {
                 self.layouts.insert(id, (image.clone(), *wanted));
             }
         }
-        let conflict = self.hazards.must_wait(uses);
-        if conflict || !transitions.is_empty() {
-            if !conflict {
-                self.hazards.clear();
-                self.hazards.must_wait(uses);
-            }
-            self.barrier(&transitions);
+        if !transitions.is_empty() {
+            self.hazards.clear();
+            self.hazards.must_wait(uses, stages);
+            self.full_barrier(&transitions);
+        } else if let Some(Barrier { ahead, behind }) = self.hazards.must_wait(uses, stages) {
+            let (source, written, _) = ahead.scopes();
+            let (destination, _, touched) = behind.scopes();
+            let memory = vk::MemoryBarrier2::default()
+                .src_stage_mask(source)
+                .src_access_mask(written)
+                .dst_stage_mask(destination)
+                .dst_access_mask(touched);
+            self.depend(memory, &[]);
             #[cfg(test)]
             {
                 self.barriers += 1;
+            }
+        }
+        self.mark();
+    }
+
+    /// Leaves the breadcrumb of the pass that is being recorded, once.
+    fn mark(&mut self) {
+        if std::mem::replace(&mut self.is_marked, true) {
+            return;
+        }
+        let Some(breadcrumbs) = &self.parts.breadcrumbs else { return };
+        let pass = self.parts.passes.len() as u64 - 1;
+        let (device, commands, buffer) = (&self.device.shared, self.parts.commands, breadcrumbs.shared.handle);
+        // SAFETY: recording, outside of rendering; the buffer has a word for every pass.
+        unsafe {
+            match &device.markers {
+                Some(markers) => {
+                    let first = vk::PipelineStageFlags::TOP_OF_PIPE;
+                    markers.cmd_write_buffer_marker(commands, first, buffer, 4 * pass, 1);
+                }
+                None => device.raw.cmd_fill_buffer(commands, buffer, 4 * pass, 4, 1),
             }
         }
     }
@@ -320,15 +366,19 @@ impl Recorder {
             .subresource_range(whole(image.format()))
     }
 
-    /// One global barrier: everything before happens before everything after, the host's reads after the run included.
-    fn barrier(&self, images: &[vk::ImageMemoryBarrier2<'static>]) {
-        let memory = [vk::MemoryBarrier2::default()
+    /// Everything before happens before everything after.
+    fn full_barrier(&self, images: &[vk::ImageMemoryBarrier2<'static>]) {
+        let memory = vk::MemoryBarrier2::default()
             .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
             .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
-            .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS | vk::PipelineStageFlags2::HOST)
-            .dst_access_mask(
-                vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE | vk::AccessFlags2::HOST_READ,
-            )];
+            .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+            .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE);
+        self.depend(memory, images);
+    }
+
+    /// One memory barrier and those of images.
+    fn depend(&self, memory: vk::MemoryBarrier2<'static>, images: &[vk::ImageMemoryBarrier2<'static>]) {
+        let memory = [memory];
         let info = vk::DependencyInfo::default().memory_barriers(&memory).image_memory_barriers(images);
         // SAFETY: recording, outside of rendering; the images live as long as the recording.
         unsafe { self.device.shared.raw.cmd_pipeline_barrier2(self.parts.commands, &info) };

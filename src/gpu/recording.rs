@@ -12,7 +12,7 @@ use super::device::Device;
 use super::device_shared::DeviceShared;
 use super::image::Image;
 use super::pipeline::Pipeline;
-use super::timing::{DevicePass, PassStatistics, PassTiming, on_host_clock};
+use super::timing::{DevicePass, PassStatistics, PassTiming, on_host_clock, unwrapped};
 
 /// Passes ready to run. Each submission runs all of them in order; it keeps everything it uses alive until the device is done.
 pub struct Recording {
@@ -34,7 +34,9 @@ impl std::fmt::Debug for Recording {
 pub(super) struct RecordingParts {
     pub(super) device: Arc<DeviceShared>,
     pub(super) pool: vk::CommandPool,
+    /// The one being recorded, and those before it: each is a submission.
     pub(super) commands: vk::CommandBuffer,
+    pub(super) ended: Vec<vk::CommandBuffer>,
     pub(super) descriptor_pools: Vec<vk::DescriptorPool>,
     pub(super) stamps: Option<vk::QueryPool>,
     pub(super) statistics: Option<vk::QueryPool>,
@@ -64,7 +66,8 @@ impl Recording {
         if let Some(breadcrumbs) = &parts.breadcrumbs {
             breadcrumbs.write(0, &vec![0_u32; parts.passes.len()])?;
         }
-        self.submitted = self.device.shared.submit(parts.commands, &parts.passes)?;
+        let commands: Vec<_> = parts.ended.iter().copied().chain([parts.commands]).collect();
+        self.submitted = self.device.shared.submit(&commands, &parts.passes)?;
         for buffer in &parts.buffers {
             buffer.shared.last_use.store(self.submitted, Ordering::Relaxed);
         }
@@ -93,7 +96,7 @@ impl Recording {
     }
 
     /// The last pass that left its mark, whether or not the device is at work.
-    fn last_pass_begun(&self) -> Option<usize> {
+    pub(super) fn last_pass_begun(&self) -> Option<usize> {
         let parts = self.parts.as_ref()?;
         let breadcrumbs = parts.breadcrumbs.as_ref()?;
         (0..parts.passes.len()).rev().find(|&pass| breadcrumbs.glance(pass).is_some_and(|mark| mark != 0))
@@ -119,19 +122,29 @@ impl Recording {
             .map_err(|result| device.failure(result, "read its timestamps", || None))?;
         let mut counts = vec![[0_u64; 4]; count];
         if let Some(statistics) = parts.statistics {
-            // SAFETY: as above, with four counts a query.
-            unsafe { device.raw.get_query_pool_results(statistics, 0, &mut counts, flags) }
-                .map_err(|result| device.failure(result, "read its statistics", || None))?;
+            let mut of_compute = vec![0_u64; count];
+            // SAFETY: as above, with four counts a query, or one on a queue without graphics.
+            unsafe {
+                if device.facts.capabilities.graphics {
+                    device.raw.get_query_pool_results(statistics, 0, &mut counts, flags)
+                } else {
+                    device.raw.get_query_pool_results(statistics, 0, &mut of_compute, flags)
+                }
+            }
+            .map_err(|result| device.failure(result, "read its statistics", || None))?;
+            counts.iter_mut().zip(&of_compute).for_each(|(all, own)| all[3] = all[3].max(*own));
         }
-        let period = f64::from(device.facts.capabilities.timestamp_period_ns);
+        let capabilities = &device.facts.capabilities;
+        let period = f64::from(capabilities.timestamp_period_ns);
+        let ticks = unwrapped(&ticks, capabilities.timestamp_bits);
         Ok(parts
             .passes
             .iter()
             .enumerate()
             .map(|(pass, name)| PassTiming {
                 name: name.clone(),
-                start_ns: ticks[2 * pass] as f64 * period,
-                end_ns: ticks[2 * pass + 1] as f64 * period,
+                start_ns: ticks[2 * pass] * period,
+                end_ns: ticks[2 * pass + 1] * period,
                 statistics: parts.statistics.map(|_| {
                     let [vertices, primitives, fragments, compute] = counts[pass];
                     PassStatistics { vertices, primitives, fragments, compute }
@@ -149,7 +162,12 @@ impl Recording {
     /// When the device fails.
     pub fn passes_run(&self, end: Instant) -> Result<Vec<DevicePass>> {
         let timings = self.timings()?;
-        Ok(if timings.is_empty() { Vec::new() } else { on_host_clock(&timings, self.device.clock(), end) })
+        if timings.is_empty() {
+            return Ok(Vec::new());
+        }
+        let capabilities = self.device.capabilities();
+        let range_ns = f64::from(capabilities.timestamp_period_ns) * f64::from(capabilities.timestamp_bits).exp2();
+        Ok(on_host_clock(&timings, self.device.clock(), range_ns, end))
     }
 }
 
@@ -160,6 +178,27 @@ impl Drop for Recording {
         {
             self.device.shared.retire(self.submitted, parts);
         }
+    }
+}
+
+impl RecordingParts {
+    /// Goes on in a new command buffer.
+    pub(super) fn begin_commands(&mut self) -> Result<()> {
+        let info = vk::CommandBufferAllocateInfo::default().command_pool(self.pool).command_buffer_count(1);
+        // SAFETY: the device is open and the pool one of it; the command buffer is new.
+        unsafe {
+            let made = self.device.raw.allocate_command_buffers(&info);
+            self.commands = made.map_err(|result| self.device.failure(result, "make a command buffer", || None))?[0];
+            let begun = self.device.raw.begin_command_buffer(self.commands, &vk::CommandBufferBeginInfo::default());
+            begun.map_err(|result| self.device.failure(result, "begin a command buffer", || None))
+        }
+    }
+
+    /// Ends the command buffer that is being recorded.
+    pub(super) fn end_commands(&self) -> Result<()> {
+        // SAFETY: recording.
+        unsafe { self.device.raw.end_command_buffer(self.commands) }
+            .map_err(|result| self.device.failure(result, "finish a command buffer", || None))
     }
 }
 

@@ -3,7 +3,6 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::shader::Shader;
 use super::spirv::{HEADER, instructions};
 
 /// Numbers of instructions, decorations and instructions of GLSL.std.450, from the SPIR-V specification.
@@ -44,14 +43,12 @@ const NO_CONTRACTION: u32 = 42;
 /// Sine to inverse square root, length, distance, cross product, unit vector.
 const INEXACT_FUNCTIONS: [std::ops::RangeInclusive<u32>; 2] = [13..=32, 66..=69];
 
+/// A change of code before it is loaded: of a stage's name and words.
+pub(crate) type Change = fn(&str, &[u32]) -> Vec<u32>;
+
 /// The code of a stage with every result that Vulkan does not round to the nearest moved by -3 to 3 units in the last place, and
 /// every product that may be fused with a sum by -1 to 1, by a hash of its bits.
-pub(crate) fn rough(shader: &Shader) -> Vec<u32> {
-    roughened(shader.spirv)
-}
-
-/// The same of code that no build knows.
-pub(crate) fn roughened(spirv: &[u32]) -> Vec<u32> {
+pub(crate) fn rough(_name: &str, spirv: &[u32]) -> Vec<u32> {
     let mut module = Module::new(spirv);
     let off_by = HashMap::from([(3, module.next()), (1, module.next())]);
     let mut words = spirv[..HEADER].to_vec();

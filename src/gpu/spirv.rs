@@ -21,3 +21,12 @@ pub(super) fn instructions(spirv: &[u32]) -> impl Iterator<Item = &[u32]> {
         Some(instruction)
     })
 }
+
+/// Whether a stage does anything over subgroups.
+pub(super) fn uses_subgroups(spirv: &[u32]) -> bool {
+    /// The capability GroupNonUniform.
+    const GROUP_NON_UNIFORM: u32 = 61;
+    instructions(spirv)
+        .take_while(|instruction| instruction[0] & 0xffff == op::CAPABILITY)
+        .any(|instruction| instruction[1] == GROUP_NON_UNIFORM)
+}

@@ -11,7 +11,7 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use super::generated::{double_comp, double_in_place_comp, fill_frag, fill_vert, layout, recolour_frag};
-use super::hazards::{Hazards, Use};
+use super::hazards::{Hazards, Stages, Use};
 use super::pipeline::uses;
 use super::recorder::MOST_PASSES;
 use super::test_device::{device, device_under};
@@ -222,6 +222,68 @@ fn a_lost_device_is_named_with_its_pass_and_stays_lost() {
     assert_silent(&log);
 }
 
+#[test]
+fn a_recording_is_split_where_a_driver_would_reset() {
+    let lower: fn(&mut Capabilities) = |capabilities| capabilities.longest_submission = Some(Duration::from_millis(1));
+    let settings = DeviceSettings { lower: Some(lower), ..DeviceSettings::default() };
+    let Some((device, log)) = device("a_recording_is_split_where_a_driver_would_reset", settings) else { return };
+    let (result, mut recording) = quadruple(&device, 1000, Timing::Statistics).unwrap();
+    assert!(result.iter().enumerate().all(|(i, &value)| value == 4.0 * i as f32));
+    assert_eq!(recording.parts.as_ref().unwrap().ended.len(), 1, "a pass a submission");
+    let before = recording.submitted;
+    recording.run().unwrap();
+    assert_eq!(recording.submitted, before + 2);
+    if device.capabilities().timestamps {
+        assert_eq!(recording.timings().unwrap().len(), 2);
+    }
+    drop((recording, device));
+    assert_silent(&log);
+    // What passes took says how many make a submission.
+    let lower: fn(&mut Capabilities) =
+        |capabilities| capabilities.longest_submission = Some(Duration::from_millis(200));
+    let settings = DeviceSettings { lower: Some(lower), ..DeviceSettings::default() };
+    let (device, _) = test_device::device("by their time", settings).unwrap();
+    assert_eq!(device.shared.passes_a_submission(), 100);
+    device.shared.note_pass_time(Duration::from_millis(500), 10);
+    assert_eq!(device.shared.passes_a_submission(), 4);
+    device.shared.note_pass_time(Duration::from_millis(1), 10);
+    assert_eq!(device.shared.passes_a_submission(), 4, "the slowest counts");
+    device.shared.note_pass_time(Duration::from_secs(5), 1);
+    assert_eq!(device.shared.passes_a_submission(), 1);
+}
+
+#[test]
+fn breadcrumbs_are_left_when_asked_for_or_cheap() {
+    for breadcrumbs in [Breadcrumbs::WhereCheap, Breadcrumbs::Always] {
+        let settings = DeviceSettings { breadcrumbs, ..DeviceSettings::default() };
+        let Some((device, log)) = device("breadcrumbs_are_left_when_asked_for_or_cheap", settings) else { return };
+        let (_, recording) = quadruple(&device, 1000, Timing::Off).unwrap();
+        let expected = device.shared.leaves_breadcrumbs().then_some(1);
+        assert!(breadcrumbs == Breadcrumbs::WhereCheap || expected.is_some());
+        assert_eq!(recording.last_pass_begun(), expected);
+        drop((recording, device));
+        assert_silent(&log);
+    }
+}
+
+#[test]
+fn a_device_without_graphics_computes() {
+    let lower: fn(&mut Capabilities) = |capabilities| capabilities.graphics = false;
+    for settings in [
+        DeviceSettings { lower: Some(lower), ..DeviceSettings::default() },
+        DeviceSettings { graphics: false, ..DeviceSettings::default() },
+    ] {
+        let Some((device, log)) = device("a_device_without_graphics_computes", settings) else { return };
+        let (result, recording) = quadruple(&device, 100, Timing::Statistics).unwrap();
+        assert_eq!(result[99], 396.0);
+        let drawing = Drawing { colour: Some(Format::Rgba8), ..Drawing::default() };
+        let error = device.graphics_pipeline("fill", &[fill_vert::stage(), fill_frag::stage()], &drawing).unwrap_err();
+        assert!(error.to_string().contains("has no queue for graphics, which fill needs"), "{error}");
+        drop((recording, device));
+        assert_silent(&log);
+    }
+}
+
 /// As many passes, each of which fills 64 MiB.
 fn slow(device: &Device, passes: usize) -> Recording {
     let buffer = device.buffer::<u32>("filled again and again", 1 << 24, Memory::Device).unwrap();
@@ -237,7 +299,11 @@ fn a_device_that_gets_on_is_waited_for() {
     let name = "a_device_that_gets_on_is_waited_for";
     let mut passes = 64;
     loop {
-        let settings = DeviceSettings { patience: Duration::from_millis(250), ..DeviceSettings::default() };
+        let settings = DeviceSettings {
+            patience: Duration::from_secs(1),
+            breadcrumbs: Breadcrumbs::Always,
+            ..DeviceSettings::default()
+        };
         let patience = settings.patience;
         let Some((device, log)) = device(name, settings) else { return };
         let mut recording = slow(&device, passes);
@@ -319,8 +385,9 @@ fn a_variant_that_writes_what_its_sibling_reads_gets_its_barrier() {
         bindings.bound().iter().map(uses).collect()
     };
     let mut by_struct = Hazards::default();
-    assert!(!by_struct.must_wait(&from_struct(&reading)));
-    assert!(!by_struct.must_wait(&from_struct(&sibling)), "the struct alone has no conflict to show");
+    assert_eq!(by_struct.must_wait(&from_struct(&reading), Stages::COMPUTE), None);
+    let found = by_struct.must_wait(&from_struct(&sibling), Stages::COMPUTE);
+    assert_eq!(found, None, "the struct alone has no conflict to show");
     for (variant, barriers) in [(&double_comp::SHADER, 0), (&double_in_place_comp::SHADER, 1)] {
         let mut recorder = device.recorder(Timing::Off).unwrap();
         recorder.run(reading.dispatch(push, Groups::Over([64, 1, 1]))).unwrap();

@@ -12,16 +12,16 @@ use std::sync::LazyLock;
 
 use super::passes;
 use super::tests::{cameras, device, fetch, poses, recorded_fitness, set_up};
-use super::{Compute, Graphics, GraphicsSettings, Packing};
+use super::{Comparison, Compute, Gathering, Graphics, GraphicsSettings, Packing};
 use crate::body::Body;
 use crate::evaluate::cpu::Cpu;
 use crate::evaluate::device_evaluator::DeviceEvaluator;
 use crate::evaluate::shaders::layout;
 use crate::evaluate::{Components, Evaluator, Objective, ObjectiveKind};
 use crate::features::Observation;
-use crate::gpu::rough::{rough, roughened};
+use crate::gpu::rough::rough;
 use crate::gpu::shaders::compile::compile;
-use crate::gpu::{DeviceSettings, Shader, Timing};
+use crate::gpu::{Capabilities, DeviceSettings, Timing};
 
 const GLSL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/glsl");
 
@@ -55,12 +55,12 @@ static UNCORRECTED: LazyLock<tempfile::TempDir> = LazyLock::new(|| {
     folder
 });
 
-fn uncorrected_and_rough(shader: &Shader) -> Vec<u32> {
-    roughened(&compile(UNCORRECTED.path(), shader.name).unwrap().spirv)
+fn uncorrected_and_rough(name: &str, spirv: &[u32]) -> Vec<u32> {
+    rough(name, &uncorrected(name, spirv))
 }
 
-fn uncorrected(shader: &Shader) -> Vec<u32> {
-    compile(UNCORRECTED.path(), shader.name).unwrap().spirv
+fn uncorrected(name: &str, _spirv: &[u32]) -> Vec<u32> {
+    compile(UNCORRECTED.path(), name).unwrap().spirv
 }
 
 /// How many corners there are, and how many of them are not the reference's; the order of parts and what an image may touch count
@@ -149,15 +149,17 @@ fn same_sums_and_fitness(name: &str, evaluator: &mut dyn Evaluator, count: usize
     let mut processor = Cpu::new(&body, &cameras()).unwrap();
     let views = seen.len();
     let mut sums = [vec![Components::default(); count * views], vec![Components::default(); count * views]];
-    let mut fitness = [vec![0.0; count], vec![0.0; count]];
+    // Every objective draws them all anew.
+    let scored = count.min(500);
+    let mut fitness = [vec![0.0; scored], vec![0.0; scored]];
     processor.observe(&seen).unwrap();
     evaluator.observe(&seen).unwrap();
     processor.components(&poses, &mut sums[0]).unwrap();
     evaluator.components(&poses, &mut sums[1]).unwrap();
     assert!(sums[0] == sums[1], "{name}: {:?}", sums[0].iter().zip(&sums[1]).find(|(a, b)| a != b));
     for objective in objectives() {
-        processor.fitness(&poses, &objective, &mut fitness[0]).unwrap();
-        evaluator.fitness(&poses, &objective, &mut fitness[1]).unwrap();
+        processor.fitness(&poses[..scored * body.dof_count()], &objective, &mut fitness[0]).unwrap();
+        evaluator.fitness(&poses[..scored * body.dof_count()], &objective, &mut fitness[1]).unwrap();
         let bits = |values: &[f32]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
         assert!(bits(&fitness[0]) == bits(&fitness[1]), "{name}, {objective:?}");
         assert!(fitness[0].iter().any(|value| *value > 0.0), "{name}, {objective:?}: all fitness is 0");
@@ -165,15 +167,15 @@ fn same_sums_and_fitness(name: &str, evaluator: &mut dyn Evaluator, count: usize
 }
 
 #[test]
-fn sums_and_fitness_of_ten_thousand_wild_poses_are_the_processor_s() {
-    let name = "sums_and_fitness_of_ten_thousand_wild_poses_are_the_processor_s";
+fn sums_of_ten_thousand_wild_poses_and_their_fitness_are_the_processor_s() {
+    let name = "sums_of_ten_thousand_wild_poses_and_their_fitness_are_the_processor_s";
     let Some((device, log)) = device(name, inexact()) else { return };
     let body = Body::adult(1750.0).unwrap();
     same_sums_and_fitness("compute", &mut Compute::on(&device, &body, &cameras()).unwrap(), POSES);
     for packing in Packing::ALL {
         let settings = GraphicsSettings { packing, ..GraphicsSettings::default() };
         let mut graphics = Graphics::on(&device, &body, &cameras(), settings).unwrap();
-        same_sums_and_fitness(packing.name(), &mut graphics, POSES / 5);
+        same_sums_and_fitness(packing.name(), &mut graphics, POSES / 10);
     }
     drop(device);
     assert_eq!(log.messages(), Vec::<String>::new());
@@ -197,4 +199,37 @@ fn what_a_search_records_has_the_processor_s_fitness() {
     }
     drop((compute, device));
     assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+#[test]
+fn what_a_device_lacks_changes_no_integer() {
+    let lowered: [fn(&mut Capabilities); 5] = [
+        |c| c.longest_submission = Some(std::time::Duration::from_millis(1)),
+        |c| c.subgroup_sizes = None,
+        |c| c.graphics = false,
+        |c| c.max_blend = false,
+        |c| (c.rounds_to_nearest, c.keeps_denormals) = (false, false),
+    ];
+    let body = Body::adult(1750.0).unwrap();
+    for lower in lowered {
+        let settings = DeviceSettings { lower: Some(lower), ..DeviceSettings::default() };
+        let Some((device, log)) = device("what_a_device_lacks_changes_no_integer", settings) else { return };
+        same_sums_and_fitness("compute", &mut Compute::on(&device, &body, &cameras()).unwrap(), 200);
+        let comparison = Comparison::Device(Gathering::Subgroup);
+        let settings = GraphicsSettings { comparison, ..GraphicsSettings::default() };
+        match Graphics::on(&device, &body, &cameras(), settings) {
+            Ok(mut graphics) => {
+                assert!(device.capabilities().graphics);
+                let packing = if device.capabilities().max_blend { Packing::Max } else { Packing::Depth };
+                assert_eq!(graphics.settings().packing, packing);
+                same_sums_and_fitness("graphics", &mut graphics, 200);
+            }
+            Err(error) => {
+                assert!(!device.capabilities().graphics, "{error:#}");
+                assert!(format!("{error:#}").contains("has no queue for graphics"), "{error:#}");
+            }
+        }
+        drop(device);
+        assert_eq!(log.messages(), Vec::<String>::new());
+    }
 }

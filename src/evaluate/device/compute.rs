@@ -5,7 +5,7 @@ use anyhow::Result;
 
 use super::backend::DeviceBackend;
 use super::evidence::DeviceEvidence;
-use super::open::open_device;
+use super::open::open_compute_device;
 use super::passes::{self, Images, RASTER_TILE, raster_stage};
 use super::rasteriser::Rasteriser;
 use super::resources::Resources;
@@ -32,12 +32,12 @@ pub struct ComputeRasteriser {
 }
 
 impl Compute {
-    /// For a body and its cameras at working size, on the device of [`open_device`].
+    /// For a body and its cameras at working size, on the device of [`super::open_device`].
     ///
     /// # Errors
-    /// As [`open_device`] and [`Self::on`].
+    /// As [`super::open_device`] and [`Self::on`].
     pub fn new(body: &Body, cameras: &[Camera]) -> Result<Self> {
-        Self::on(&open_device()?, body, cameras)
+        Self::on(&open_compute_device()?, body, cameras)
     }
 
     /// On a device.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context as _, Result, anyhow, bail};
 
-use crate::gpu::{Device, DeviceSettings, Instance, Validation};
+use crate::gpu::{Breadcrumbs, Device, DeviceSettings, Instance, Validation};
 
 /// Opens Vulkan as the environment asks: `PANTIN_VALIDATION` is `core` or `sync` for the Khronos validation layer, and what that
 /// says of an evaluation is the evaluation's error.
@@ -25,6 +25,8 @@ pub fn open_instance() -> Result<Instance> {
 /// The device settings that the environment asks for: `PANTIN_DEVICE` is a device's number in Vulkan's list, otherwise the best one
 /// is taken. Compiled pipelines are kept under `$XDG_CACHE_HOME/pantin`, or `~/.cache/pantin`.
 ///
+/// With `PANTIN_BREADCRUMBS` every pass leaves a mark, so that the loss of the device is told with the pass.
+///
 /// `PANTIN_LOSE_DEVICE_AFTER` is a number of passes after which the device counts as lost: the fault that tests inject.
 ///
 /// # Errors
@@ -40,6 +42,10 @@ pub fn device_settings() -> Result<DeviceSettings> {
     Ok(DeviceSettings {
         index: number("PANTIN_DEVICE")?.map(|index| index as usize),
         lose_after_passes: number("PANTIN_LOSE_DEVICE_AFTER")?.map(u64::from),
+        breadcrumbs: match env::var_os("PANTIN_BREADCRUMBS") {
+            Some(value) if !value.is_empty() => Breadcrumbs::Always,
+            _ => Breadcrumbs::default(),
+        },
         pipeline_cache: cache_folder(),
         ..DeviceSettings::default()
     })
@@ -51,6 +57,14 @@ pub fn device_settings() -> Result<DeviceSettings> {
 /// As [`open_instance`] and [`device_settings`]; and when there is no usable device. The sentence says what to install.
 pub fn open_device() -> Result<Device> {
     Device::open(&open_instance()?, device_settings()?)
+}
+
+/// The same where nothing is drawn with the graphics pipeline: on a queue for compute alone where there is one.
+///
+/// # Errors
+/// As [`open_device`].
+pub(crate) fn open_compute_device() -> Result<Device> {
+    Device::open(&open_instance()?, DeviceSettings { graphics: false, ..device_settings()? })
 }
 
 fn shown(value: std::result::Result<&str, &env::VarError>) -> String {

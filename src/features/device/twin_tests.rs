@@ -24,9 +24,9 @@ use crate::features::shaders::layout::Rates;
 use crate::features::{
     Adaptation, BitImage, EdgeSettings, Magnitude, MixtureSettings, Operator, PlateSettings, ShadowSettings, Shape,
 };
-use crate::gpu::rough::rough;
+use crate::gpu::rough::{Change, rough};
 use crate::gpu::test_device::device;
-use crate::gpu::{Buffer, Capabilities, Device, DeviceSettings, Memory, Recorder, Shader, Timing};
+use crate::gpu::{Buffer, Capabilities, Device, DeviceSettings, Memory, Recorder, Timing};
 
 /// A view on the device, with ways in and out.
 struct Bench {
@@ -349,11 +349,9 @@ fn check_mixtures(device: &Device, size: [u32; 2], settings: MixtureSettings) {
 #[test]
 fn mixtures_are_the_processor_s() {
     let base = MixtureSettings { warm_up: 6, learning_rate: 0.05, ..Default::default() };
-    for (lower, code) in [
-        (None, None),
-        (None, Some(rough as fn(&Shader) -> Vec<u32>)),
-        (Some(several_bands as fn(&mut Capabilities)), None),
-    ] {
+    for (lower, code) in
+        [(None, None), (None, Some(rough as Change)), (Some(several_bands as fn(&mut Capabilities)), None)]
+    {
         let settings = DeviceSettings { lower, code, ..Default::default() };
         let Some((device, log)) = device("mixtures_are_the_processor_s", settings) else { return };
         for (components, gain, size) in

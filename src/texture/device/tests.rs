@@ -7,9 +7,9 @@
 )]
 
 use super::*;
-use crate::gpu::rough::rough;
+use crate::gpu::rough::{Change, rough};
 use crate::gpu::test_device::{device, device_under};
-use crate::gpu::{DeviceSettings, ImageUse, Shader, Timing, Validation, by_name};
+use crate::gpu::{DeviceSettings, ImageUse, Timing, Validation, by_name};
 use crate::texture::noise::{FARTHEST, Noise, Perlin, Sum, Value, hard_coordinates};
 use crate::texture::shaders::FARTHEST_BITS;
 
@@ -79,7 +79,7 @@ where
 
 #[test]
 fn a_device_has_the_words_and_values_of_the_cpu() {
-    for code in [None, Some(rough as fn(&Shader) -> Vec<u32>)] {
+    for code in [None, Some(rough as Change)] {
         let settings = DeviceSettings { code, ..DeviceSettings::default() };
         let Some((device, log)) = device("a_device_has_the_words_and_values_of_the_cpu", settings) else { return };
         check_noise(&device);

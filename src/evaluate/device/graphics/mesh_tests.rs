@@ -32,8 +32,8 @@ use crate::evaluate::{
 };
 use crate::features::Observation;
 use crate::geometry::{BrownConrady, Camera, Lens, Tsai};
-use crate::gpu::rough::rough;
-use crate::gpu::{Capabilities, Device, DeviceSettings, Memory, Shader, Timing};
+use crate::gpu::rough::{Change, rough};
+use crate::gpu::{Capabilities, Device, DeviceSettings, Memory, Timing};
 
 /// Two cameras, one of each lens, that see a person 200 pixels tall.
 pub(super) fn cameras() -> Vec<Camera> {
@@ -162,7 +162,7 @@ fn depths_are_those_of_the_definition() {
 
 #[test]
 fn vertices_are_the_reference_s() {
-    for code in [None, Some(rough as fn(&Shader) -> Vec<u32>)] {
+    for code in [None, Some(rough as Change)] {
         let settings = DeviceSettings { code, ..DeviceSettings::default() };
         let Some((device, log)) = device("vertices_are_the_reference_s", settings) else { return };
         check_vertices(&device);

@@ -68,7 +68,7 @@ impl Graphics {
     }
 
     /// On a device. Subgroup shuffles that it does not have become an exchange through shared memory, transform feedback a compute
-    /// stage.
+    /// stage, blending by the largest value depths and write masks.
     ///
     /// # Errors
     /// When a picture has no pixel or is too large, the body has no or too many parts, or the device fails.
@@ -78,6 +78,8 @@ impl Graphics {
             "the body has {} parts, and the backend graphics tells at most 127 apart",
             body.parts.len()
         );
+        let packing = if device.capabilities().max_blend { settings.packing } else { Packing::Depth };
+        let settings = GraphicsSettings { packing, ..settings };
         Self::with(DeviceScene::new(device, body, cameras)?, |scene| {
             let drawn = Drawn::flat(device, scene.counts.parts, settings.packing, settings.coverage)?;
             GraphicsRasteriser::new(scene, drawn, settings)

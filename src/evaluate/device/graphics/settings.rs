@@ -55,7 +55,8 @@ choices! {
 impl Gathering {
     /// Whether a device can.
     pub(crate) fn works_on(self, capabilities: &Capabilities) -> bool {
-        self != Self::Subgroup || (capabilities.subgroup_shuffle && capabilities.subgroup_size >= 4)
+        let exchanges = capabilities.subgroup_shuffle && capabilities.subgroup_arithmetic;
+        self != Self::Subgroup || (exchanges && capabilities.subgroup_size >= 4)
     }
 }
 

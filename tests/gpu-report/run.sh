@@ -1,0 +1,86 @@
+#!/bin/sh
+# Says whether pantin is right on this machine's Vulkan device, and how fast: every stage against the processor first, then the
+# benchmarks, then a track with a trace. Needs Linux on x86-64 with glibc 2.35 or later, a Vulkan driver and its loader.
+#
+#   sh run.sh [RESULTS [TIMES]]      PANTIN_DEVICE chooses among several devices
+#
+# Every line has its own time limit and all together end within eight minutes, whatever hangs; TIMES multiplies the limits, for
+# software devices. RESULTS (./results) gets eight files. A line out of time or left out is no failure, a wrong result is.
+set -u
+
+here=$(cd "$(dirname "$0")" && pwd)
+results=${1:-$here/results}
+times=${2:-1}
+seconds=$((460 * times)) # for everything
+mkdir -p "$results" || exit 1
+results=$(cd "$results" && pwd)
+rm -f "$results"/lines.tsv "$results"/agreement.txt
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+for program in pantin stages; do
+    gzip -dc "$here/$program.gz" >"$work/$program" || exit 1
+    chmod +x "$work/$program"
+done
+# A pipeline compiled in one line is found by the next, and nothing is left in the user's folders.
+export XDG_CACHE_HOME="$work/cache"
+export PANTIN_NEEDS_VULKAN=1 PANTIN_TEST_VALIDATION=off PROPTEST_RNG_SEED=1
+started=$(date +%s)
+failed=0
+
+# line NAME SECONDS FILE COMMAND...: one line of the report. What it prints goes to the end of FILE, its verdict to lines.tsv.
+line() {
+    name=$1 limit=$(($2 * times)) file=$3
+    shift 3
+    begin=$(date +%s)
+    left=$((seconds - begin + started))
+    [ "$limit" -le $left ] || limit=$left
+    if [ "$limit" -lt 2 ]; then
+        printf '%s\tleft out\t0\n' "$name" | tee -a "$results/lines.tsv"
+        return 1
+    fi
+    timeout -k 3 "$limit" "$@" >>"$file" 2>>"$results/messages.txt"
+    code=$?
+    case $code in
+        0) verdict=passed ;;
+        124 | 137) verdict='out of time' ;;
+        *) verdict=FAILED failed=1 ;;
+    esac
+    printf '%s\t%s\t%s\n' "$name" "$verdict" $(($(date +%s) - begin)) | tee -a "$results/lines.tsv"
+    [ $code = 0 ]
+}
+
+: >"$results/messages.txt"
+: >"$results/devices.json"
+: >"$results/bench.json"
+: >"$results/track.txt"
+cat "$here/version" >"$results/version.txt"
+line devices 30 "$results/devices.json" "$work/pantin" devices --json
+
+# Agreement. Left out is what needs the sources or the validation layer.
+agreement=$results/agreement.txt
+for stage in gpu:: evaluate::device::tests evaluate::device::raster_tests evaluate::device::any_device_tests \
+    evaluate::device::graphics search::device features::device texture::device synth::device; do
+    line "agreement of $stage" 30 "$agreement" "$work/stages" "$stage" --skip shaders:: --skip without_correction \
+        --skip the_validation_log --skip a_variant_that_writes
+done
+
+line 'bench quick' 80 "$results/bench.json" "$work/pantin" bench --json
+
+# The same poses by every backend, and their time.
+for backend in cpu compute graphics; do
+    trace=
+    [ $backend = compute ] && trace=--trace
+    begin=$(date +%s%N)
+    # shellcheck disable=SC2086 # an option or none
+    if line "track $backend" 25 "$results/messages.txt" "$work/pantin" track "$here/sequence" -o "$work/$backend" \
+        --backend $backend --model flat --overlay-every 0 --seed 1 $trace; then
+        taken=$((($(date +%s%N) - begin) / 1000000))
+        frames=$(($(wc -l <"$work/$backend/poses.csv") - 1))
+        printf '%s\t%s\t%s\n' $backend "$frames" $taken >>"$results/track.txt"
+        [ $backend = cpu ] || [ ! -f "$work/cpu/poses.csv" ] || \
+            line "track $backend as cpu" 5 "$results/messages.txt" cmp "$work/cpu/poses.csv" "$work/$backend/poses.csv"
+    fi
+done
+[ ! -f "$work/compute/trace.json" ] || cp "$work/compute/trace.json" "$results/trace.json"
+echo "all results are in $results"
+exit $failed
