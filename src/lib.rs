@@ -4,7 +4,7 @@
 //!
 //! The crate is a house of rooms (see `docs/ARCHITECTURE.md`); an import runs down the floors, never up:
 //! [`command`] → [`study`] → [`track`] → [`search`], [`bench`], [`check`] → [`evaluate`], [`synth`], [`report`],
-//! [`observe`] → [`features`], [`body`], [`sequence`], [`texture`], [`calibrate`] → [`gpu`], [`motion`], [`geometry`] → [`files`],
+//! [`observe`] → [`features`], [`body`], [`sequence`], [`texture`], [`matrix`], [`calibrate`] → [`gpu`], [`motion`], [`geometry`] → [`files`],
 //! `arithmetic`.
 //!
 //! Lengths are millimetres, angles radians (degrees only in files people edit), images row-major with the origin in the
@@ -21,6 +21,7 @@ pub mod features;
 pub mod files;
 pub mod geometry;
 pub mod gpu;
+pub mod matrix;
 pub mod motion;
 pub mod observe;
 pub mod report;

@@ -14,6 +14,7 @@ use pantin::evaluate::device::{Coverage, Gathering, HostComparison, Packing, Pro
 use pantin::features::{Adaptation, Cue, ForegroundKind, Magnitude, Metric, Normalisation, Operator, Shape};
 use pantin::files::Choice;
 use pantin::geometry::LengthUnit;
+use pantin::matrix::{Arrangement, Multiplier, UnitKind};
 use pantin::motion::{MotionFormat, PointFormat, UpAxis};
 use pantin::search::SearchKind;
 use pantin::sequence::CalibrationFormat;
@@ -66,6 +67,9 @@ fn lists() -> Vec<List> {
         list::<Skinning>(),
         list::<MaterialKind>(),
         list::<Sum>(),
+        list::<Arrangement>(),
+        list::<UnitKind>(),
+        list::<Multiplier>(),
         list::<Axis>(),
         list::<Value>(),
         list::<Preset>(),

@@ -29,6 +29,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("body", 2),
     ("sequence", 2),
     ("texture", 2),
+    ("matrix", 2),
     ("calibrate", 2),
     ("gpu", 1),
     ("motion", 1),

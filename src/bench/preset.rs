@@ -27,7 +27,8 @@ choices! {
     "preset" pub enum Preset {
         /// 512 particles on both picture sizes, a few seconds.
         "quick" #[default] Quick,
-        /// 96, 304 and 512 particles on both picture sizes and the model ladder, beside published figures (METHOD A10).
+        /// 96, 304 and 512 particles on both picture sizes and the model ladder at 96 and 304, beside published figures (METHOD
+        /// A10).
         "thesis" Thesis,
     }
 }
@@ -53,12 +54,15 @@ impl Preset {
         let flat = [LARGE, SMALL].into_iter().flat_map(|(size, person)| {
             counts.iter().map(move |&particles| Task { model: Model::Flat, particles, size, person })
         });
-        let rungs = match self {
-            Self::Quick => 1,
-            Self::Thesis => Model::ALL.len(),
+        let (rungs, counts): (usize, &[usize]) = match self {
+            Self::Quick => (1, &[304]),
+            Self::Thesis => (Model::ALL.len(), &[96, 304]),
         };
         let (size, person) = LARGE;
-        let ladder = Model::ladder().skip(1).take(rungs).map(|model| Task { model, particles: 304, size, person });
+        let ladder = Model::ladder()
+            .skip(1)
+            .take(rungs)
+            .flat_map(|model| counts.iter().map(move |&particles| Task { model, particles, size, person }));
         flat.chain(ladder).collect()
     }
 
@@ -242,9 +246,13 @@ mod tests {
                 assert_eq!(tasks.iter().filter(is_it).count(), 1);
             }
         }
-        let rungs: Vec<String> = tasks[6..].iter().map(|task| task.model.to_string()).collect();
-        let elliptic = [18, 34, 66, 130, 258, 514].map(|vertices| format!("elliptic-{vertices}"));
-        assert_eq!(rungs, [vec!["square".to_string()], elliptic.to_vec()].concat());
+        for particles in [96, 304] {
+            let ladder = tasks[6..].iter().filter(|task| task.particles == particles);
+            let rungs: Vec<String> = ladder.map(|task| task.model.to_string()).collect();
+            let elliptic = [18, 34, 66, 130, 258, 514].map(|vertices| format!("elliptic-{vertices}"));
+            assert_eq!(rungs, [vec!["square".to_string()], elliptic.to_vec()].concat());
+        }
+        assert_eq!(tasks.len(), 6 + 14);
         let error = Preset::from_name("slow").unwrap_err().to_string();
         assert_eq!(error, "unknown preset `slow`, the nearest is `quick` (known: quick, thesis)");
     }

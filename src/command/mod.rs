@@ -13,6 +13,7 @@ mod evaluate;
 mod features;
 mod fit;
 mod interrupt;
+mod matrix;
 mod name_pair;
 mod objective_flags;
 mod progress;
@@ -57,6 +58,7 @@ enum Command {
     /// Measure the error of tracked points against a truth: per point, per frame, mean and standard deviation, mm.
     Score(score::ScoreArgs),
     Features(features::FeaturesArgs),
+    Matrix(matrix::MatrixArgs),
     /// Run many settings over many sequences and seeds, and compare them in tables and plots.
     Study(study::StudyArgs),
     Synth(synth::SynthArgs),
@@ -96,6 +98,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Fit(args) => fit::run(&args),
         Command::Score(args) => score::run(&args),
         Command::Features(args) => features::run(&args),
+        Command::Matrix(args) => matrix::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Synth(args) => synth::run(&args),
         Command::Texture(args) => texture::run(&args),

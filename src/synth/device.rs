@@ -307,7 +307,7 @@ mod tests {
         plain.rig.size = [320, 240];
         plain.light.position = Some([900.0, -700.0, 2600.0]);
         check(&device, "plain", &plain, &[0.0, 0.5]);
-        let mut dressed = Scene { frames: 20, ..Scene::preset("p2d").unwrap() };
+        let mut dressed = Scene { frames: 20, ..Scene::preset("two_diagonal").unwrap() };
         dressed.rig.size = [320, 180];
         let finish = |material: &str| toml::from_str(&format!("material = \"{material}\"\nscale = 120.0")).unwrap();
         for (garment, material) in

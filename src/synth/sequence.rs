@@ -512,6 +512,8 @@ mod tests {
             ("p2s", 39, [480, 270], 4),
             ("p1d", 39, [480, 270], 4),
             ("p2d", 39, [480, 270], 4),
+            ("two_straight", 39, [480, 270], 4),
+            ("two_diagonal", 39, [480, 270], 4),
         ] {
             let scene = Scene { frames: 2, ..Scene::preset(name).unwrap() };
             let folder = write(&scene);

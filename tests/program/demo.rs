@@ -20,8 +20,8 @@ fn a_walk_is_made_tracked_and_scored() {
     assert!(done.status.success(), "{err}");
     let line = out.lines().find(|line| line.starts_with("error ")).unwrap_or_else(|| panic!("no error in {out}"));
     let error: f64 = line.split_whitespace().nth(1).unwrap().parse().unwrap();
-    // Exact truth: nothing drawn would be metres off, a lost track hundreds of millimetres.
-    assert!(error > 1.0 && error < 60.0, "{line}");
+    // Exact truth: eight seeds gave 12.5 mm with a deviation of 1.1; four of those are left for another scene's luck.
+    assert!(error > 1.0 && error < 17.0, "{line}");
 
     for name in ["sequence/sequence.toml", "sequence/truth.trc", "poses.csv", "joints.trc", "markers.c3d", "demo.png"] {
         assert!(folder.join(name).is_file(), "{name} is missing");

@@ -22,6 +22,7 @@ mod evidence;
 mod example_bodies;
 mod features;
 mod losses;
+mod matrix;
 mod observe;
 mod obstacles;
 mod people;

@@ -48,7 +48,7 @@ fn a_preset_is_made_once_and_goes_on_when_asked() {
 #[test]
 fn a_device_draws_nearly_the_same_pictures_and_the_same_truth() {
     let temporary = tempfile::tempdir().unwrap();
-    let arguments = |backend: &'static str| ["--preset", "p2s", "--frames", "2", "--backend", backend];
+    let arguments = |backend: &'static str| ["--preset", "two_straight", "--frames", "2", "--backend", backend];
     let [here, there] = ["cpu", "device"].map(|backend| temporary.path().join(backend));
     assert!(synth(&arguments("cpu"), &here).status.success());
     let drawn = synth(&arguments("device"), &there);
@@ -143,7 +143,7 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
     let unknown = synth(&["--preset", "p3s"], &folder);
     assert!(
         message(&unknown)
-            .contains("unknown scene `p3s`, the nearest is `p1s` (known: demo, leewalk, p1s, p2s, p1d, p2d)"),
+            .contains("unknown scene `p3s`, the nearest is `p1s` (known: demo, leewalk, p1s, p2s, p1d, p2d, two_straight, two_diagonal)"),
         "{}",
         message(&unknown)
     );

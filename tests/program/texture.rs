@@ -18,7 +18,7 @@ fn materials_are_listed_drawn_and_shown_on_objects() {
         stdout(&output)
     };
     let open = |name: &str| image::open(folder.path().join(name)).unwrap();
-    assert_eq!(run(&["--list"]).lines().count(), 11);
+    assert_eq!(run(&["--list"]).lines().count(), 12);
     run(&["marble", "-o", "m.png", "--size", "40x30", "--seed", "3", "--depth", "16"]);
     let picture = open("m.png");
     assert_eq!((picture.width(), picture.height(), picture.color()), (40, 30, image::ColorType::Rgb16));
@@ -71,7 +71,7 @@ fn bad_requests_are_one_sentence() {
     for (arguments, expected) in [
         (
             &["marbel", "-o", "x.png"][..],
-            "unknown material `marbel`, the nearest is `marble` (known: clouds, lava, marble, granite, wood, brick",
+            "unknown material `marbel`, the nearest is `marble` (known: clouds, lava, marble, granite, wood, timber, brick",
         ),
         (&["marble", "-o", "x.png", "--size", "0x9"], "a picture of 0 x 9 pixels"),
         (&["marble", "-o", "x.png", "--params", "p.toml"], "nearest known key is `vein`"),

@@ -3,7 +3,8 @@
 use crate::files::choices;
 
 choices! {
-    /// The built-in scenes: the demo, and five after the sequences that the method was first measured on (METHOD A10).
+    /// The built-in scenes: the demo, five after the sequences that the method was first measured on (METHOD A10), and two with two
+    /// people at once.
     "scene" pub enum ScenePreset => pub(super) text: &'static str {
         /// What `pantin demo` tracks.
         "demo" Demo => include_str!("../presets/demo.toml"),
@@ -11,12 +12,16 @@ choices! {
         "leewalk" Leewalk => include_str!("../presets/leewalk.toml"),
         /// Four colour cameras, 480x270, 25 Hz, one person going straight, 39 markers.
         "p1s" OneStraight => include_str!("../presets/p1s.toml"),
-        /// The same with two people.
-        "p2s" TwoStraight => include_str!("../presets/p2s.toml"),
-        /// One person going diagonally.
+        /// The same with another person: smaller, stouter, in other clothes, with quicker and shorter steps.
+        "p2s" OtherStraight => include_str!("../presets/p2s.toml"),
+        /// The first person going diagonally.
         "p1d" OneDiagonal => include_str!("../presets/p1d.toml"),
-        /// Two people going diagonally.
-        "p2d" TwoDiagonal => include_str!("../presets/p2d.toml"),
+        /// The other person going diagonally.
+        "p2d" OtherDiagonal => include_str!("../presets/p2d.toml"),
+        /// Two people at once, going straight past each other.
+        "two_straight" TwoStraight => include_str!("../presets/two_straight.toml"),
+        /// Two people at once, going diagonally, whose ways cross before the cameras.
+        "two_diagonal" TwoDiagonal => include_str!("../presets/two_diagonal.toml"),
     }
 }
 

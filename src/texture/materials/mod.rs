@@ -102,7 +102,7 @@ choices! {
     "material" pub enum MaterialKind => build: Build {
         /// sky through four octaves of noise
         "clouds" Clouds => built::<Clouds>,
-        /// the sun's surface, or lava: turbulence about the means of the octaves
+        /// lava, or a sun's surface (also called `sun`): turbulence about the means of the octaves
         "lava" Lava => built::<Lava>,
         /// layers bent by turbulence
         "marble" Marble => built::<Marble>,
@@ -127,6 +127,9 @@ choices! {
     }
 }
 
+/// What lava is called too: the formula is that of a sun's surface.
+const SUN: &str = "sun";
+
 /// A material, ready to be looked up.
 pub struct Material {
     solid: Box<dyn Solid>,
@@ -147,7 +150,7 @@ impl Material {
     /// When there is none of that name (the nearest is named), when the parameters have an unknown key or a number that is not
     /// finite or beyond 1e6, or when the tile is not a positive length.
     pub fn new(name: &str, parameters: Parameters<'_>, seed: u64, tile: Option<[f32; 2]>) -> Result<Self> {
-        let kind = MaterialKind::from_name(name)?;
+        let kind = MaterialKind::from_name(if name == SUN { MaterialKind::Lava.name() } else { name })?;
         if let Some(tile) = tile.filter(|tile| !tile.iter().all(|length| (1e-3..=1e4).contains(length))) {
             bail!("a tile of {} x {} units, expected lengths from 0.001 to 10000", tile[0], tile[1]);
         }

@@ -18,6 +18,12 @@ fn every_material_has_contrast_and_follows_its_seed() {
 }
 
 #[test]
+fn the_sun_is_lava() {
+    let [sun, lava] = ["sun", "lava"].map(|name| Material::new(name, Parameters::Defaults, 5, None).unwrap());
+    assert_eq!(sun.at([0.4, 1.7, -0.3]), lava.at([0.4, 1.7, -0.3]));
+}
+
+#[test]
 fn texels_stay_in_range_at_any_point() {
     for kind in MaterialKind::ALL {
         for tile in [None, Some([2.0, 3.0])] {

@@ -397,7 +397,9 @@ fn the_device_s_own_rasteriser_stays_near_the_reference() {
         let mean = [0, 1, 2].map(|axis| all[axis] as f64 / all[3 + axis] as f64);
         println!("{packing:?}: area, overlap, edges off by {mean:.5?} in the mean, {worst:.5?} at worst");
         // Lines of the width of a pixel cover more pixels than there are steps along them: these people are 60 pixels tall.
-        assert!(mean[0] < 0.03 && mean[1] < 0.03 && mean[2] < 0.15, "{mean:?}");
+        // Measured: 0.0115, 0.0125 and 0.083 of these 500 poses, which do not vary from run to run; a tenth is left for other
+        // rasterisers' choices at pixels' borders.
+        assert!(mean[0] < 0.0127 && mean[1] < 0.0138 && mean[2] < 0.0915, "{mean:?}");
         // Both packings draw the same pixels.
         match &first {
             None => first = Some(found),
