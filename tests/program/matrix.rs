@@ -49,7 +49,7 @@ fn a_folder_gets_the_table_and_plots() {
     let table = std::fs::read_to_string(folder.path().join("out/matrix.csv")).unwrap();
     assert!(table.starts_with("structure,multiplier,n,bits,group,cycles,"), "{table}");
     // Four arrangements at six sizes and six widths, of which one is the run's own.
-    assert!(table.lines().count() >= 1 + 4 * 11, "{table}");
+    assert!(table.lines().count() > 4 * 11, "{table}");
     assert!(!table.contains("false"), "{table}");
     for plot in ["cycles", "partial_products", "gates", "links", "efficiency"] {
         for over in ["n", "bits"] {
