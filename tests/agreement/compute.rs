@@ -1,24 +1,17 @@
-//! The compute backend gives the reference's integers and fitness: on ordinary and wild poses, on every subgroup size, within
-//! whatever limits a device has; and when the device is lost, an error says so.
-//!
-//! Runs on whatever Vulkan device there is, under the validation layer, which must stay silent.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test or benchmark stops at the first surprise, and prints"
-)]
-
-mod device;
-mod scene;
+//! The compute backend on every subgroup size, within whatever limits a device has, and when the device is lost.
 
 use std::process::Command;
 
-use device::device;
 use pantin::body::Body;
 use pantin::evaluate::device::Compute;
 use pantin::evaluate::{Components, Evaluator, Objective, Reference};
-use pantin::gpu::{Capabilities, DeviceLost, DeviceSettings, Timing, ValidationLog, by_name};
-use scene::{Random, cameras, evaluate, first_difference, ignoring, observations, poses, reference_in_parallel};
+use pantin::gpu::{DeviceLost, DeviceSettings, Timing, ValidationLog, by_name};
+
+use crate::backends::LOWERED;
+use crate::cases::{Stage, USUAL, case};
+use crate::device::{self, device};
+use crate::found::{assert_fitness, found};
+use crate::scene::{Random, cameras, evaluate, first_difference, ignoring, observations, poses};
 
 fn assert_silent(log: &ValidationLog) {
     assert_eq!(log.messages(), Vec::<String>::new());
@@ -28,71 +21,41 @@ fn body() -> Body {
     Body::adult(1750.0).unwrap()
 }
 
-/// Holds the backend on a device with these settings to the reference, on `count` poses. Gives the backend's variant and how many
-/// batches it took.
-fn check(name: &str, settings: DeviceSettings, count: usize) -> Option<(&'static str, usize)> {
-    let (device, log) = device(name, settings)?;
-    let (body, cameras) = (body(), cameras());
-    let mut random = Random(12);
-    let seen = observations(&cameras, &mut random);
-    let poses = poses(&body, count, &mut random);
-    let expected = reference_in_parallel(&body, &cameras, &seen, &poses);
-    let mut compute = Compute::on(&device, &body, &cameras).unwrap();
-    let in_part = ignoring(&seen, &mut random);
-    let few = &poses[..poses.len().min(100 * body.dof_count())];
-    let expected_in_part = evaluate(&mut Reference::new(&body, &cameras), &in_part, few);
-    let found_in_part = evaluate(&mut compute, &in_part, few);
-    assert_eq!(first_difference(cameras.len(), &expected_in_part, &found_in_part), None, "in part");
-    assert!(expected_in_part != expected[..expected_in_part.len()]);
+/// In a process whose driver has another subgroup size, started by [`every_subgroup_size_agrees`].
+#[test]
+#[ignore = "run by every_subgroup_size_agrees"]
+fn four_hundred_poses_agree() {
+    let Some((device, log)) = device("four_hundred_poses_agree", DeviceSettings::default()) else { return };
     println!("{}: subgroups of {}", device.facts().name, device.capabilities().subgroup_size);
-    let found = evaluate(&mut compute, &seen, &poses);
-    assert_eq!(first_difference(cameras.len(), &expected, &found), None);
-    for kind in scene::of_silhouettes() {
-        for objective in [Objective { kind, beta: 0.4, w1: 0.7, w2: 0.3 }, Objective { kind, ..Objective::default() }] {
-            // Again and again: what was recorded first gives the same the second time.
-            for _ in 0..2 {
-                let mut fitness = vec![-1.0; count];
-                compute.fitness(&poses, &objective, &mut fitness).unwrap();
-                for (value, row) in fitness.iter().zip(expected.chunks_exact(cameras.len())) {
-                    let expected = objective.fitness(row);
-                    assert!((value - expected).abs() < 1e-5, "{}: {value} against {expected}", kind.name());
-                }
-            }
-        }
-    }
-    compute.time_stages(Timing::Stamps);
-    assert_eq!(first_difference(cameras.len(), &expected, &evaluate(&mut compute, &seen, &poses)), None);
-    let stages = by_name(&compute.timings().unwrap());
-    let batches = stages.iter().find(|(name, ..)| name == "raster").map_or(0, |(_, _, count)| *count);
-    let variant = compute.variant();
+    let Stage { body, cameras } = &*USUAL;
+    let mut compute = Compute::on(&device, body, cameras).unwrap();
+    let mut random = Random(12);
+    let seen = observations(cameras, &mut random);
+    let poses = poses(body, 400, &mut random);
+    let few = &poses[..100 * body.dof_count()];
+    let expected = crate::found::expected(body, cameras, &seen, &poses);
+    assert_eq!(expected.difference(&found(&mut compute, &seen, &poses)), None);
+    assert_fitness(&mut compute, &expected, &seen, &poses, "whole");
+    let in_part = ignoring(&seen, &mut random);
+    let expected = crate::found::expected(body, cameras, &in_part, few);
+    assert_eq!(expected.difference(&found(&mut compute, &in_part, few)), None, "in part");
     drop((compute, device));
     assert_silent(&log);
-    Some((variant, batches))
-}
-
-#[test]
-fn two_thousand_poses_give_identical_integers() {
-    check("two_thousand_poses_give_identical_integers", DeviceSettings::default(), 2000);
-}
-
-#[test]
-fn four_hundred_poses_give_identical_integers() {
-    check("four_hundred_poses_give_identical_integers", DeviceSettings::default(), 400);
 }
 
 /// lavapipe takes its vector width, so its subgroup size, from the environment of the process that loads it.
 #[test]
-fn every_subgroup_size_gives_identical_integers() {
-    let Some((device, _)) = device("every_subgroup_size_gives_identical_integers", DeviceSettings::default()) else {
+fn every_subgroup_size_agrees() {
+    let Some((device, _)) = device("every_subgroup_size_agrees", DeviceSettings::default()) else {
         return;
     };
     if !device.facts().name.contains("llvmpipe") {
-        println!("SKIPPED every_subgroup_size_gives_identical_integers: {} has one", device.facts().name);
+        println!("SKIPPED every_subgroup_size_agrees: {} has one", device.facts().name);
         return;
     }
     for (bits, size) in [("128", 4), ("256", 8), ("512", 16)] {
         let run = Command::new(std::env::current_exe().unwrap())
-            .args(["--exact", "four_hundred_poses_give_identical_integers", "--nocapture"])
+            .args(["--exact", "compute::four_hundred_poses_agree", "--ignored", "--nocapture"])
             .env("LP_NATIVE_VECTOR_WIDTH", bits)
             .output()
             .unwrap();
@@ -103,20 +66,29 @@ fn every_subgroup_size_gives_identical_integers() {
 }
 
 #[test]
-fn lowered_limits_split_the_work_and_change_nothing() {
-    let name = "lowered_limits_split_the_work_and_change_nothing";
-    let settings = |lower| DeviceSettings { lower: Some(lower), ..DeviceSettings::default() };
-    let Some((device, _)) = device(name, DeviceSettings::default()) else { return };
-    let is_counted = device.capabilities().timestamps;
-    let split: [fn(&mut Capabilities); 3] =
-        [|c| c.max_storage = 200_000, |c| c.max_groups = 64, |c| c.memory = 900_000];
-    for lower in split {
-        let (_, batches) = check(name, settings(lower), 150).unwrap();
-        assert!(batches > 1 || !is_counted, "{batches} batches");
+fn lowered_limits_split_the_work_and_passes_are_timed() {
+    const NAME: &str = "lowered_limits_split_the_work_and_passes_are_timed";
+    let case = case("silhouettes");
+    let Stage { body, cameras } = case.stage;
+    for (name, kind, lower) in LOWERED {
+        let Some((device, log)) = device(NAME, DeviceSettings { lower: Some(lower), ..DeviceSettings::default() })
+        else {
+            return;
+        };
+        let poses = case.poses(kind);
+        let expected = case.expected(poses).components;
+        let is_counted = device.capabilities().timestamps;
+        let mut compute = Compute::on(&device, body, cameras).unwrap();
+        compute.time_stages(Timing::Stamps);
+        assert_eq!(first_difference(4, &expected, &evaluate(&mut compute, &case.seen, poses)), None, "{name}");
+        let stages = by_name(&compute.timings().unwrap());
+        let batches = stages.iter().find(|(name, ..)| name == "raster").map_or(0, |(_, _, count)| *count);
+        let is_whole = name == "no subgroups";
+        assert!(!is_counted || (batches == 1) == is_whole, "{name}: {batches} batches");
+        assert_eq!(compute.variant() == "shared", is_whole, "{name}: {}", compute.variant());
+        drop((compute, device));
+        assert_silent(&log);
     }
-    let (variant, batches) =
-        check(name, settings(|c| (c.subgroup_arithmetic, c.subgroup_shuffle) = (false, false)), 150).unwrap();
-    assert!(variant == "shared" && (batches == 1 || !is_counted), "{variant}, {batches} batches");
 }
 
 #[test]
@@ -132,24 +104,14 @@ fn limits_too_low_for_one_candidate_are_a_sentence() {
 }
 
 #[test]
-fn a_changed_pixel_or_vertex_is_caught() {
-    let Some((device, log)) = device("a_changed_pixel_or_vertex_is_caught", DeviceSettings::default()) else { return };
+fn a_changed_vertex_is_caught() {
+    let Some((device, log)) = device("a_changed_vertex_is_caught", DeviceSettings::default()) else { return };
     let (body, cameras) = (body(), cameras());
     let mut random = Random(8);
     let seen = observations(&cameras, &mut random);
     let poses = poses(&body, 40, &mut random);
     let expected = evaluate(&mut Reference::new(&body, &cameras), &seen, &poses);
     let mut compute = Compute::on(&device, &body, &cameras).unwrap();
-    assert_eq!(first_difference(4, &expected, &evaluate(&mut compute, &seen, &poses)), None);
-
-    // One observed pixel that some candidate covers.
-    let mut sabotaged = seen.clone();
-    let picture = Reference::new(&body, &cameras).draw(&poses[..body.dof_count()], 0);
-    let covered = picture.bytes.iter().position(|&byte| byte != 0).unwrap();
-    sabotaged[0].bytes[covered] ^= pantin::features::Observation::SILHOUETTE;
-    let found = evaluate(&mut compute, &sabotaged, &poses);
-    assert!(first_difference(4, &expected, &found).is_some(), "a flipped pixel passed");
-
     // One end of one part, moved by a few millimetres; and back.
     let mut bent = body.clone();
     bent.parts[3].b.x += 15.0;

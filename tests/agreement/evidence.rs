@@ -1,37 +1,29 @@
-//! Soft evidence summed over what is drawn: every evaluator gives the reference's integers and fitness; and the comparison that says
-//! so can fail.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test or benchmark stops at the first surprise, and prints"
-)]
-
-mod device;
-#[allow(dead_code, reason = "components are compared elsewhere")]
-mod scene;
+//! Soft evidence summed over what is drawn: what the sums are, of a mesh too, searches that go by them, and how they come and go.
 
 use std::sync::Arc;
 
-use device::device;
 use pantin::body::{Body, Mesh};
-use pantin::evaluate::cpu::{Cpu, InstructionSet};
+use pantin::evaluate::cpu::Cpu;
 use pantin::evaluate::device::{
-    Comparison, Compute, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
+    Comparison, Compute, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Tiling,
 };
-use pantin::evaluate::{Components, Evaluator, EvidenceSum, Objective, ObjectiveKind, Reference, SegmentSums};
+use pantin::evaluate::{Evaluator, Objective, ObjectiveKind, Reference, SegmentSums};
 use pantin::features::{Evidence, Observation, PartClasses, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;
-use pantin::gpu::{Capabilities, DeviceSettings, Timing};
+use pantin::gpu::{DeviceSettings, Timing};
 use pantin::search::{DeviceSearch, SearchKind, SearchSettings, SearchSpace};
-use scene::{Random, cameras, ignoring, poses};
+
+use crate::device::device;
+use crate::found::{assert_fitness, found};
+use crate::scene::{self, Random, cameras, ignoring, poses};
 
 /// The adult's sixteen parts in `count` classes.
-fn classes(count: u8) -> Arc<PartClasses> {
+pub(crate) fn classes(count: u8) -> Arc<PartClasses> {
     Arc::new(PartClasses::new((1..=16).map(|label| (label, label * 5 % count))).unwrap())
 }
 
 /// Noise with evidence in every pixel and class, more of which speaks for a person than against.
-fn seen(cameras: &[Camera], classes: &Arc<PartClasses>, random: &mut Random) -> Vec<Observation> {
+pub(crate) fn seen(cameras: &[Camera], classes: &Arc<PartClasses>, random: &mut Random) -> Vec<Observation> {
     let view = |mut observation: Observation| {
         let code = |random: &mut Random| (random.next() % 15).max(random.next() % 12);
         let word = |random: &mut Random| (0..classes.count()).fold(0, |word, class| word | code(random) << (4 * class));
@@ -41,60 +33,6 @@ fn seen(cameras: &[Camera], classes: &Arc<PartClasses>, random: &mut Random) -> 
         observation
     };
     scene::observations(cameras, &mut Random(5)).into_iter().map(view).collect()
-}
-
-#[derive(Debug, PartialEq)]
-struct Found {
-    components: Vec<Components>,
-    sums: Vec<i32>,
-    fitness: Vec<f32>,
-    unequal: Vec<f32>,
-}
-
-fn found(evaluator: &mut dyn Evaluator, seen: &[Observation], poses: &[f32]) -> Found {
-    evaluator.observe(seen).unwrap();
-    let count = poses.len() / evaluator.dof_count();
-    let mut found = Found {
-        components: vec![Components::default(); count * evaluator.view_count()],
-        sums: vec![i32::MIN; count * evaluator.view_count()],
-        fitness: vec![-1.0; count],
-        unequal: vec![-1.0; count],
-    };
-    let objective = Objective::of(ObjectiveKind::Evidence);
-    evaluator.components(poses, &mut found.components).unwrap();
-    evaluator.evidence_sums(poses, &mut found.sums).unwrap();
-    evaluator.fitness(poses, &objective, &mut found.fitness).unwrap();
-    let unequal = Objective { w1: 0.875, w2: 1.0, ..objective };
-    evaluator.fitness(poses, &unequal, &mut found.unequal).unwrap();
-    found
-}
-
-/// What differs, in a sentence.
-fn difference(expected: &Found, found: &Found) -> Option<String> {
-    let at = expected.sums.iter().zip(&found.sums).position(|(expected, found)| expected != found);
-    if let Some(at) = at {
-        return Some(format!("image {at}: the sum is {}, expected {}", found.sums[at], expected.sums[at]));
-    }
-    let same = [
-        ("components", expected.components == found.components),
-        ("fitness", expected.fitness == found.fitness),
-        ("fitness of other weights", expected.unequal == found.unequal),
-    ];
-    same.into_iter().find(|(_, same)| !same).map(|(what, _)| what.to_owned())
-}
-
-/// One code of one pixel changed, under a drawn candidate: one sum of that candidate is one more or less.
-fn sabotaged(body: &Body, cameras: &[Camera], seen: &[Observation], poses: &[f32]) -> Vec<Observation> {
-    let drawn = Reference::new(body, cameras).draw(&poses[..body.dof_count()], 2);
-    let mut changed = seen.to_vec();
-    let evidence = seen[2].evidence.as_ref().unwrap();
-    let at = drawn.bytes.iter().position(|byte| *byte != 0).unwrap();
-    let shift = 4 * u32::from(evidence.classes().of_label(drawn.bytes[at] & 0x7f));
-    let mut words = evidence.words().to_vec();
-    words[at] = if words[at] >> shift & 15 == 14 { words[at] - (1 << shift) } else { words[at] + (1 << shift) };
-    let (width, height) = evidence.dimensions();
-    changed[2].evidence = Some(Evidence::new(Arc::clone(evidence.classes()), width, height, words).unwrap());
-    changed
 }
 
 /// Every backend.
@@ -117,106 +55,15 @@ fn case(class_count: u8, pose_count: usize, seed: u64) -> (Body, Vec<Camera>, Ve
 }
 
 #[test]
-fn the_fitness_is_that_of_the_sums() {
+fn sums_are_within_what_there_is() {
     let (body, cameras, seen, poses) = case(5, 60, 41);
     let found = found(&mut Reference::new(&body, &cameras), &seen, &poses);
-    let objective = Objective::of(ObjectiveKind::Evidence);
     let best: Vec<u32> = seen.iter().map(|view| view.evidence.as_ref().unwrap().best()).collect();
-    let rows = found.components.chunks_exact(4).zip(found.sums.chunks_exact(4));
-    for ((components, sums), fitness) in rows.zip(&found.fitness) {
-        let evidence: Vec<EvidenceSum> =
-            sums.iter().zip(&best).map(|(&sum, &best)| EvidenceSum { sum, best }).collect();
-        assert_eq!(objective.evidence_fitness(components, &evidence), *fitness);
-        for (sum, view) in evidence.iter().zip(components) {
-            assert!(i64::from(sum.sum) <= i64::from(sum.best) && sum.sum.unsigned_abs() <= 7 * view.area_model);
-        }
+    for (image, (sum, components)) in found.evidence.iter().zip(&found.components).enumerate() {
+        assert!(i64::from(*sum) <= i64::from(best[image % 4]) && sum.unsigned_abs() <= 7 * components.area_model);
     }
-    assert!(found.sums.iter().any(|sum| *sum > 100) && found.fitness.iter().any(|fitness| *fitness > 1e-3));
-}
-
-#[test]
-fn every_instruction_set_gives_the_reference_s_evidence() {
-    for (class_count, pose_count) in [(1, 100), (5, 400), (8, 100)] {
-        let (body, cameras, seen, poses) = case(class_count, pose_count, 42);
-        let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
-        let in_part = ignoring(&seen, &mut Random(3));
-        let expected_in_part = found(&mut Reference::new(&body, &cameras), &in_part, &poses);
-        assert!(expected_in_part.sums != expected.sums);
-        let changed = sabotaged(&body, &cameras, &seen, &poses);
-        for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
-            for workers in [1, 2] {
-                let mut cpu = Cpu::with(&body, &cameras, set, workers).unwrap();
-                let what = format!("{class_count} classes, {}, {workers} workers", set.name());
-                assert_eq!(difference(&expected, &found(&mut cpu, &seen, &poses)), None, "{what}");
-                let found_in_part = found(&mut cpu, &in_part, &poses);
-                assert_eq!(difference(&expected_in_part, &found_in_part), None, "{what}, in part");
-                let other = found(&mut cpu, &changed, &poses);
-                let by_one = expected.sums.iter().zip(&other.sums).filter(|(a, b)| a.abs_diff(**b) == 1).count();
-                assert!(by_one > 0 && other.sums[2] != expected.sums[2], "{what}: a changed code passed");
-                assert!(other.components == expected.components, "{what}: silhouettes are what they were");
-            }
-        }
-    }
-}
-
-/// In one batch and in many: on lavapipe fitness too is the processor's to the bit.
-#[test]
-fn compute_gives_the_reference_s_evidence() {
-    let lowered = |lower| DeviceSettings { lower: Some(lower), ..DeviceSettings::default() };
-    let few: fn(&mut Capabilities) = |capabilities| capabilities.max_groups = 100;
-    for (class_count, settings) in [(5, DeviceSettings::default()), (8, lowered(few))] {
-        let (body, cameras, seen, poses) = case(class_count, 200, 47);
-        let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
-        let Some((device, log)) = device("compute_gives_the_reference_s_evidence", settings) else { return };
-        let mut compute = Compute::on(&device, &body, &cameras).unwrap();
-        let in_part = ignoring(&seen, &mut Random(3));
-        let expected_in_part = found(&mut Reference::new(&body, &cameras), &in_part, &poses);
-        for round in 0..2 {
-            assert_eq!(difference(&expected, &found(&mut compute, &seen, &poses)), None, "round {round}");
-            let found_in_part = found(&mut compute, &in_part, &poses);
-            assert_eq!(difference(&expected_in_part, &found_in_part), None, "round {round}, in part");
-        }
-        let changed = sabotaged(&body, &cameras, &seen, &poses);
-        assert!(found(&mut compute, &changed, &poses).sums[2] != expected.sums[2], "a changed code passed");
-        drop((compute, device));
-        assert_eq!(log.messages(), Vec::<String>::new());
-    }
-}
-
-/// With every packing, and every way to compare, on the device and on the host.
-#[test]
-fn graphics_gives_the_reference_s_evidence() {
-    const NAME: &str = "graphics_gives_the_reference_s_evidence";
-    let Some((device, log)) = device(NAME, DeviceSettings::default()) else { return };
-    let (body, cameras, seen, poses) = case(5, 100, 48);
-    let expected = found(&mut Reference::new(&body, &cameras), &seen, &poses);
-    let changed = sabotaged(&body, &cameras, &seen, &poses);
-    let in_part = ignoring(&seen, &mut Random(3));
-    let expected_in_part = found(&mut Reference::new(&body, &cameras), &in_part, &poses);
-    let usual = GraphicsSettings::default();
-    for settings in [
-        usual,
-        GraphicsSettings { comparison: Comparison::Device(Gathering::Subgroup), ..usual },
-        GraphicsSettings { comparison: Comparison::Device(Gathering::Shared), ..usual },
-        GraphicsSettings { packing: Packing::Depth, projection: Projection::Feedback, ..usual },
-        GraphicsSettings { tiling: Tiling::Pictures, ..usual },
-        GraphicsSettings { comparison: Comparison::Host(HostComparison::Scalar), packing: Packing::Depth, ..usual },
-        GraphicsSettings { comparison: Comparison::Host(HostComparison::Simd), ..usual },
-    ] {
-        let mut graphics = Graphics::on(&device, &body, &cameras, settings).unwrap();
-        for tiles in ["guessed", "fitted"] {
-            let found = found(&mut graphics, &seen, &poses);
-            assert_eq!(difference(&expected, &found), None, "{settings:?}, {tiles} tiles");
-        }
-        let found_in_part = found(&mut graphics, &in_part, &poses);
-        assert_eq!(difference(&expected_in_part, &found_in_part), None, "{settings:?}, in part");
-        assert!(
-            found(&mut graphics, &changed, &poses).sums[2] != expected.sums[2],
-            "{settings:?}: a changed code passed"
-        );
-    }
-    drop(device);
-    assert_eq!(log.messages(), Vec::<String>::new());
+    let fitness = crate::found::fitness_of(&found, 4, &seen, &Objective::of(ObjectiveKind::Evidence));
+    assert!(found.evidence.iter().any(|sum| *sum > 100) && fitness.iter().any(|fitness| *fitness > 1e-3));
 }
 
 /// A mesh has a depth at every pixel, and its pixels are the device's own: what it draws is what it sums over.
@@ -231,7 +78,7 @@ fn a_mesh_s_evidence_is_that_of_the_pictures_it_draws() {
         let mut graphics = Graphics::of_mesh(&device, &body, mesh.clone(), &cameras, settings).unwrap();
         let found = found(&mut graphics, &seen, &poses);
         let mut met = 0;
-        for (image, sum) in found.sums.iter().enumerate() {
+        for (image, sum) in found.evidence.iter().enumerate() {
             let pose = &poses[image / 4 * body.dof_count()..][..body.dof_count()];
             let drawn = graphics.drawn(pose, image % 4).unwrap().unwrap();
             let evidence = seen[image % 4].evidence.as_ref().unwrap();
@@ -334,13 +181,16 @@ fn evidence_and_segments_do_not_disturb_each_other() {
     let in_segments = segment_sums(&mut Reference::new(&body, &cameras), &segments_alone);
     let other = self::seen(&cameras, &classes(3), &mut Random(44));
     let of_other = found(&mut Reference::new(&body, &cameras), &other, &poses);
-    assert_ne!(of_other.sums, expected.sums);
+    assert_ne!(of_other.evidence, expected.evidence);
     for mut evaluator in one_of_each("evidence_and_segments_do_not_disturb_each_other", &body, &cameras) {
         let evaluator = evaluator.as_mut();
         for round in 0..2 {
             let what = format!("{}, round {round}", evaluator.name());
-            assert_eq!(difference(&expected, &found(evaluator, &seen, &poses)), None, "{what}");
-            assert_eq!(difference(&expected, &found(evaluator, &both, &poses)), None, "{what}, in segments");
+            assert_eq!(expected.difference(&found(evaluator, &seen, &poses)), None, "{what}");
+            let in_segments_too = found(evaluator, &both, &poses);
+            assert!(expected.evidence == in_segments_too.evidence, "{what}, in segments");
+            assert!(expected.components == in_segments_too.components, "{what}, in segments");
+            assert_fitness(evaluator, &expected, &both, &poses, &what);
             for seen in [&both, &segments_alone] {
                 let (sums, fitness) = segment_sums(evaluator, seen);
                 assert!(sums == in_segments.0, "{what}: sums of segments");
@@ -353,7 +203,8 @@ fn evidence_and_segments_do_not_disturb_each_other() {
             let objective = Objective::of(ObjectiveKind::Evidence);
             assert_eq!(evaluator.fitness(&poses, &objective, &mut [0.0; 40]).unwrap_err().to_string(), error);
             assert!(evaluator.best_evidence().is_none());
-            assert_eq!(difference(&of_other, &found(evaluator, &other, &poses)), None, "{what}, other classes");
+            assert_eq!(of_other.difference(&found(evaluator, &other, &poses)), None, "{what}, other classes");
+            assert_fitness(evaluator, &of_other, &other, &poses, &what);
         }
     }
 }
@@ -364,11 +215,11 @@ fn a_body_that_changes_keeps_its_classes() {
     let taller = Body::adult(1950.0).unwrap();
     let expected = found(&mut Reference::new(&taller, &cameras), &seen, &poses);
     let mut cpu = Cpu::new(&body, &cameras).unwrap();
-    assert_ne!(found(&mut cpu, &seen, &poses).sums, expected.sums);
+    assert_ne!(found(&mut cpu, &seen, &poses).evidence, expected.evidence);
     cpu.set_body(&taller).unwrap();
     let mut sums = vec![0; 160];
     cpu.evidence_sums(&poses, &mut sums).unwrap();
-    assert_eq!(sums, expected.sums);
+    assert_eq!(sums, expected.evidence);
 }
 
 #[test]

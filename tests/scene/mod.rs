@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use pantin::body::Body;
-use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind, Reference};
+use pantin::evaluate::device::{Comparison, GraphicsSettings, HostComparison, Packing, Projection, Tiling};
+use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind};
 use pantin::features::{BitImage, Observation};
 use pantin::geometry::{BrownConrady, Camera, Lens, Tsai};
 
@@ -127,17 +128,16 @@ pub(crate) fn evaluate(evaluator: &mut dyn Evaluator, observations: &[Observatio
     components
 }
 
-pub(crate) fn reference_in_parallel(
-    body: &Body,
-    cameras: &[Camera],
-    seen: &[Observation],
-    poses: &[f32],
-) -> Vec<Components> {
-    let half = poses.len() / body.dof_count() / 2 * body.dof_count();
-    std::thread::scope(|scope| {
-        let run = |poses| move || evaluate(&mut Reference::new(body, cameras), seen, poses);
-        let first = scope.spawn(run(&poses[..half]));
-        let second = run(&poses[half..])();
-        [first.join().unwrap(), second].concat()
-    })
+/// The graphics backend with every packing, projection and tiling, and every way to compare, on the device and on the host.
+pub(crate) fn graphics_settings() -> impl Iterator<Item = GraphicsSettings> {
+    let usual = GraphicsSettings::default();
+    let scalar = Comparison::Host(HostComparison::Scalar);
+    let comparisons = Comparison::all().map(move |comparison| {
+        let packing = if comparison == scalar { Packing::Depth } else { usual.packing };
+        GraphicsSettings { comparison, packing, ..usual }
+    });
+    comparisons.chain([
+        GraphicsSettings { packing: Packing::Depth, projection: Projection::Feedback, ..usual },
+        GraphicsSettings { tiling: Tiling::Pictures, ..usual },
+    ])
 }
