@@ -349,3 +349,36 @@ fn damaged_files_give_a_body_that_saves_or_a_sentence() {
     }
     assert!((100..600).contains(&refused), "{refused}");
 }
+
+#[test]
+fn buffers_lie_beside_the_file_and_are_as_long_as_declared() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("folder")).unwrap();
+    std::fs::write(folder.path().join("short.bin"), [0; 4]).unwrap();
+    for (uri, length, part) in [
+        ("/dev/zero", 8, "\"/dev/zero\" lies elsewhere, expected a file in the folder"),
+        ("../../etc/passwd", 8, "lies elsewhere"),
+        ("folder/../../secret", 8, "lies elsewhere"),
+        ("folder", 8, "is no regular file"),
+        ("short.bin", 8, "holds 4 bytes, expected 8"),
+        ("none.bin", 8, "cannot be read"),
+        ("short.bin", 1_u64 << 40, "expected at most"),
+        ("short.bin", 4, "no mesh with a skin"),
+    ] {
+        let json = format!(
+            "{{\"asset\":{{\"version\":\"2.0\"}},\"buffers\":[{{\"byteLength\":{length},\"uri\":\"{uri}\"}}]}}"
+        );
+        let error = format!("{:#}", gltf_file::parse(json.as_bytes(), Some(folder.path())).unwrap_err());
+        assert!(error.contains(part), "{uri}: {error}");
+    }
+}
+
+#[test]
+fn long_chains_of_nodes_are_refused_soon() {
+    let nodes: Vec<String> = (1..20_000).map(|child| format!("{{\"children\":[{child}]}}")).collect();
+    let json = format!("{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{},{{}}]}}", nodes.join(","));
+    let begin = std::time::Instant::now();
+    let error = format!("{:#}", gltf_file::parse(json.as_bytes(), None).unwrap_err());
+    assert!(error.contains("hang more than 1000 deep"), "{error}");
+    assert!(begin.elapsed().as_secs() < 5, "it took {:?}", begin.elapsed());
+}

@@ -6,7 +6,8 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::io::Read as _;
+use std::path::{Component, Path};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use base64::Engine as _;
@@ -19,6 +20,9 @@ use crate::files::shortened;
 
 /// Larger files are no person.
 const LARGEST_FILE: u64 = 1 << 30;
+
+/// Nor are nodes that hang deeper than this.
+const DEEPEST_NODE: usize = 1000;
 
 /// How far weights may be from a sum of 1; 8-bit weights are rounded.
 const WEIGHT_TOLERANCE: f64 = 0.02;
@@ -122,13 +126,30 @@ fn buffers(document: &Document, blob: Option<Vec<u8>>, folder: Option<&Path>) ->
                     let text = text.ok_or_else(|| anyhow!("a buffer is a data: address, expected one in base64"))?;
                     base64::engine::general_purpose::STANDARD.decode(text).context("a buffer in base64 is damaged")
                 }
-                None => {
-                    let path = folder.map_or_else(|| uri.into(), |folder| folder.join(uri));
-                    fs::read(&path).with_context(|| format!("its buffer {} cannot be read", path.display()))
-                }
+                None => beside(uri, buffer.length() as u64, folder),
             },
         })
         .collect()
+}
+
+/// The contents of a buffer in a file of its own: a regular one in `folder` or below, as long as declared.
+fn beside(uri: &str, length: u64, folder: Option<&Path>) -> Result<Vec<u8>> {
+    let is_below = Path::new(uri).components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+    ensure!(is_below, "its buffer {uri:?} lies elsewhere, expected a file in the folder of the glTF file or below");
+    ensure!(length <= LARGEST_FILE, "its buffer {uri:?} is to hold {length} bytes, expected at most {LARGEST_FILE}");
+    let path = folder.map_or_else(|| uri.into(), |folder| folder.join(uri));
+    let unreadable = || format!("its buffer {} cannot be read", path.display());
+    // A pipe or a device would wait or never end.
+    ensure!(
+        fs::metadata(&path).with_context(unreadable)?.is_file(),
+        "its buffer {} is no regular file",
+        path.display()
+    );
+    let mut bytes = Vec::new();
+    fs::File::open(&path).and_then(|file| file.take(length).read_to_end(&mut bytes)).with_context(unreadable)?;
+    let found = bytes.len();
+    ensure!(found as u64 == length, "its buffer {} holds {found} bytes, expected {length}", path.display());
+    Ok(bytes)
 }
 
 /// `world_from_node` of all nodes as the file has them placed.
@@ -142,12 +163,12 @@ fn node_matrices(document: &Document) -> Result<Vec<DMat4>> {
         .map(|node| {
             let mut matrix = locals[node];
             let mut at = node;
-            for _ in 0..=locals.len() {
+            for _ in 0..=locals.len().min(DEEPEST_NODE) {
                 let Some(parent) = parents[at] else { return Ok(matrix) };
                 matrix = locals[parent] * matrix;
                 at = parent;
             }
-            bail!("its nodes form a cycle, expected a tree")
+            bail!("its nodes form a cycle or hang more than {DEEPEST_NODE} deep, expected a tree")
         })
         .collect()
 }
