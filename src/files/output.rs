@@ -19,8 +19,8 @@ pub enum Overwrite {
 /// Writes a file through `body` under a temporary name beside `path`, then renames it to `path`.
 ///
 /// # Errors
-/// When the file is there and `overwrite` is [`Overwrite::Refuse`], or when writing fails (a full disk, say): the message
-/// names the file; the temporary is removed and what was there before stays.
+/// When the file is there and `overwrite` is [`Overwrite::Refuse`], when what is there is no regular file, or when writing fails (a full
+/// disk, say): the message names the file; the temporary is removed and what was there before stays.
 pub fn write_atomically(
     path: &Path,
     overwrite: Overwrite,
@@ -29,9 +29,17 @@ pub fn write_atomically(
     if overwrite == Overwrite::Refuse && path.exists() {
         bail!("{} exists already: pass --force to replace it, or choose another name", path.display());
     }
+    // A rename would put the file in the place of a device or a link, for everybody who uses it.
+    if let Some(what) = no_regular_file(path) {
+        bail!("{} is {what}, expected a regular file or a name that is free", path.display());
+    }
     let temporary = temporary_name(path);
     let written = (|| -> Result<()> {
-        let mut writer = BufWriter::new(fs::File::create(&temporary)?);
+        // What a killed run left is taken away, so that nothing is written through a link of that name.
+        if fs::symlink_metadata(&temporary).is_ok() {
+            fs::remove_file(&temporary)?;
+        }
+        let mut writer = BufWriter::new(fs::File::create_new(&temporary)?);
         body(&mut writer)?;
         writer.flush()?;
         // Without this a crash of the machine after the rename could leave an empty file under the final name.
@@ -44,6 +52,17 @@ pub fn write_atomically(
         let _ = fs::remove_file(&temporary);
     }
     written.with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// What stands at a path, if it is something and no regular file.
+fn no_regular_file(path: &Path) -> Option<&'static str> {
+    let kind = fs::symlink_metadata(path).ok()?.file_type();
+    match (kind.is_file(), kind.is_symlink(), kind.is_dir()) {
+        (true, ..) => None,
+        (_, true, _) => Some("a link"),
+        (.., true) => Some("a folder"),
+        _ => Some("a device, a pipe or a socket"),
+    }
 }
 
 fn temporary_name(path: &Path) -> PathBuf {
@@ -138,6 +157,27 @@ mod tests {
         assert!(format!("{failed:#}").contains("poses.csv"), "{failed:#}");
         assert_eq!(fs::read(&path).unwrap(), b"old");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "the temporary is gone");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_devices_and_folders_are_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let [target, link, temporary] = ["target.csv", "link.csv", "new.csv.tmp"].map(|name| folder.path().join(name));
+        fs::write(&target, "theirs").unwrap();
+        std::os::unix::fs::symlink(&target, &link).unwrap();
+        let socket = folder.path().join("socket");
+        let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+        for (path, what) in [(&link, "a link"), (&socket, "a socket"), (&folder.path().to_path_buf(), "a folder")] {
+            let error = write_atomically(path, Overwrite::Replace, |w| Ok(w.write_all(b"ours")?)).unwrap_err();
+            assert!(format!("{error:#}").contains(what), "{error:#}");
+        }
+        // Nor is anything written through a link that has the temporary's name.
+        std::os::unix::fs::symlink(&target, &temporary).unwrap();
+        write_atomically(&folder.path().join("new.csv"), Overwrite::Refuse, |w| Ok(w.write_all(b"ours")?)).unwrap();
+        assert_eq!(fs::read(&target).unwrap(), b"theirs");
+        assert_eq!(fs::read(folder.path().join("new.csv")).unwrap(), b"ours");
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     }
 
     #[test]
