@@ -12,6 +12,7 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use image::{GrayImage, RgbImage};
 
 use super::frames::FrameSet;
+use super::live_options;
 use super::manifest::Sequence;
 use super::player::Captured;
 use super::program::{Process, Stopper};
@@ -129,7 +130,7 @@ fn command(source: &LiveSource, scale: f64) -> Result<Command> {
         "-flags",
         "low_delay",
     ]);
-    command.args(&source.input).arg("-i").arg(&source.address);
+    command.args(&source.input).args(["-protocol_whitelist", live_options::PROTOCOLS]).arg("-i").arg(&source.address);
     command.args(["-map", "0:v:0", "-an", "-sn", "-dn"]).args(passthrough_option(&program)?);
     let side = |of: &str| format!("max(round({of}*{scale})\\,1)");
     command.arg("-vf").arg(format!("scale={}:{}:flags=area+accurate_rnd,format=rgb24", side("iw"), side("ih")));

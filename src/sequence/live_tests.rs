@@ -76,6 +76,10 @@ fn a_manifest_cannot_hand_anything_to_ffmpeg() {
     let path = sequence(folder.path(), "source = \"x\"\ninput = [\"-i\", \"y\", \"out.mp4\"]");
     let error = format!("{:#}", Sequence::open_live(&path).unwrap_err());
     assert!(error.contains("the source of camera \"cam1\": `input` has \"-i\""), "{error}");
+    let written = folder.path().join("written");
+    let path = sequence(folder.path(), &made_up("64x48", &format!(",metadata=mode=print:file={}", written.display())));
+    let error = format!("{:#}", Sequence::open_live(&path).unwrap_err());
+    assert!(error.contains("the source of camera \"cam1\": `source` is \"testsrc2=") && !written.exists(), "{error}");
     let path = sequence(folder.path(), "source = \"x_%04d.png\"");
     assert!(Sequence::open_live(&path).is_err());
 }

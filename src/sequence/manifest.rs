@@ -141,7 +141,8 @@ impl ManifestFile {
         }
         for view in &self.view {
             let options = view.input.as_deref().unwrap_or_default();
-            live_options::check(options).with_context(|| format!("{name}: the source of camera {:?}", view.camera))?;
+            let checked = live_options::check(&view.source.to_string_lossy(), options);
+            checked.with_context(|| format!("{name}: the source of camera {:?}", view.camera))?;
         }
         Ok(())
     }
