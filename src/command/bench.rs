@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 
+use super::output::{put, say, tell};
 use crate::bench::{self, Preset};
 
 /// Measures every backend and variant on the same built-in scene, a person among four cameras: an iteration is poses in,
@@ -22,11 +23,11 @@ pub(super) struct BenchArgs {
 /// # Errors
 /// When the scene cannot be made.
 pub(super) fn run(args: &BenchArgs) -> Result<()> {
-    let report = bench::run(args.preset, &mut |task| eprintln!("measuring {task}"))?;
+    let report = bench::run(args.preset, &mut |task| tell!("measuring {task}"))?;
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&report)?);
+        say!("{}", serde_json::to_string_pretty(&report)?);
     } else {
-        print!("{report}");
+        put!("{report}");
     }
     Ok(())
 }

@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 
+use super::output::put;
 use crate::calibrate::{
     Calibration, CalibrationSettings, CameraPairs, Held, Layout, LensModel, ResidualSummary, calibrate, join_tracks,
     parse_pairs, parse_tracks,
@@ -106,7 +107,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<()> {
     let mut calibrations = Vec::new();
     for pairs in &cameras {
         let found = calibrate(pairs, size_of(&args.size, &pairs.camera)?, &settings).with_context(|| source.clone())?;
-        print!("{}", summary(&found));
+        put!("{}", summary(&found));
         calibrations.push(found);
     }
     let calibrated: Vec<Camera> = calibrations.iter().map(|found| found.camera.clone()).collect();

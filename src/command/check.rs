@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Result, bail};
 
+use super::output::say;
 use crate::check::{CheckReport, CheckSettings, Finding, Status, check};
 use crate::track::FrameRange;
 
@@ -34,7 +35,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<()> {
     let settings = CheckSettings { start: args.frames.start, end: args.frames.end, samples: args.samples };
     let report = check(&args.sequence, &settings)?;
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&report)?);
+        say!("{}", serde_json::to_string_pretty(&report)?);
     } else {
         print(&report);
     }
@@ -47,7 +48,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<()> {
 
 fn print(report: &CheckReport) {
     let frames: Vec<String> = report.frames.iter().map(usize::to_string).collect();
-    println!("{}: frames {}", report.sequence, frames.join(" "));
+    say!("{}: frames {}", report.sequence, frames.join(" "));
     for finding in &report.checks {
         let status = match finding.status {
             Status::Ok => "ok    ",
@@ -60,9 +61,9 @@ fn print(report: &CheckReport) {
             .filter(|_| finding.status != Status::NotMeasured)
             .map_or(String::new(), |value| format!(" {} {} ({})", rounded(value), finding.unit, finding.limit));
         let found = if finding.found.is_empty() { String::new() } else { format!("; {}", finding.found) };
-        println!("{status} {}{camera}:{number}{found}", finding.check);
+        say!("{status} {}{camera}:{number}{found}", finding.check);
         if !finding.advice.is_empty() {
-            println!("       {}", finding.advice);
+            say!("       {}", finding.advice);
         }
     }
 }

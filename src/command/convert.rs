@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, ensure};
 
 use super::name_pair::name_pair;
+use super::output::say;
 use crate::body::{ADULT_HEIGHT, Body};
 use crate::files::{Overwrite, write_atomically};
 use crate::motion::{PointFormat, read_bvh, read_points, write_bvh, write_points};
@@ -73,7 +74,7 @@ pub(super) fn run(args: &ConvertArgs) -> Result<()> {
         write_points(&args.output, &points, overwrite)?;
         (points.names.len(), points.frames.len(), "points")
     };
-    println!("{}: {points} {what}, {frames} frames", args.output.display());
+    say!("{}: {points} {what}, {frames} frames", args.output.display());
     Ok(())
 }
 
@@ -94,6 +95,6 @@ fn import(args: &ConvertArgs, overwrite: Overwrite) -> Result<()> {
     let names: BTreeMap<String, String> = args.bone.iter().cloned().collect();
     let body = Body::from_gltf(&args.input, &Body::adult(ADULT_HEIGHT)?, args.height, &names)?;
     body.save(&args.output, overwrite)?;
-    println!("{}: {} bones, {} parts", args.output.display(), body.bones.len(), body.parts.len());
+    say!("{}: {} bones, {} parts", args.output.display(), body.bones.len(), body.parts.len());
     Ok(())
 }

@@ -8,6 +8,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use image::RgbImage;
 
+use super::output::say;
 use super::progress::ProgressBar;
 use super::track::{TrackProgress, print_summary};
 use crate::files::{OutputFolder, Overwrite};
@@ -75,7 +76,7 @@ pub(super) fn run(args: &DemoArgs) -> Result<()> {
     drop(bar);
     let views = synthetic.cameras().len();
     let made = begin.elapsed().as_secs_f64();
-    println!("made {} frames in {views} views in {made:.1} s: {}", scene.frames, folder.path().display());
+    say!("made {} frames in {views} views in {made:.1} s: {}", scene.frames, folder.path().display());
 
     let sequence = Sequence::open(folder.path())?;
     let mut bar = TrackProgress::new()?;
@@ -101,7 +102,7 @@ pub(super) fn run(args: &DemoArgs) -> Result<()> {
         .collect::<Result<_>>()?;
     let path = output.file(PICTURE)?;
     side_by_side(&pictures, 2, 6)?.save(&path).with_context(|| format!("cannot write {}", path.display()))?;
-    println!("the model over frame {best}: {}", path.display());
+    say!("the model over frame {best}: {}", path.display());
     Ok(())
 }
 

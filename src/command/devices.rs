@@ -3,6 +3,7 @@
 use anyhow::Result;
 use serde_json::{Value, json};
 
+use super::output::say;
 use crate::bench::Scene;
 use crate::gpu::{DeviceFacts, Instance, Validation, devices};
 use crate::track::Backend;
@@ -28,17 +29,17 @@ pub(super) fn run(args: &DevicesArgs) -> Result<()> {
     if args.json {
         let list: Vec<Value> = found.iter().flatten().map(object).collect();
         let object = json!({ "devices": list, "auto": { "backend": backend, "reason": auto.reason } });
-        println!("{}", serde_json::to_string_pretty(&object)?);
+        say!("{}", serde_json::to_string_pretty(&object)?);
         return Ok(());
     }
     match &found {
-        Err(error) => println!("{error:#}"),
+        Err(error) => say!("{error:#}"),
         Ok(found) if found.is_empty() => {
-            println!("Vulkan finds no device on this machine: install a driver (Debian: mesa-vulkan-drivers)")
+            say!("Vulkan finds no device on this machine: install a driver (Debian: mesa-vulkan-drivers)")
         }
         Ok(found) => print_table(found),
     }
-    println!("\nwith --backend auto: {}", auto.reason);
+    say!("\nwith --backend auto: {}", auto.reason);
     Ok(())
 }
 
@@ -83,10 +84,10 @@ fn print_table(found: &[DeviceFacts]) {
         std::array::from_fn(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
     for (index, row) in rows.iter().enumerate() {
         let cells: Vec<String> = row.iter().zip(widths).map(|(cell, width)| format!("{cell:width$}")).collect();
-        println!("{}", cells.join("  ").trim_end());
+        say!("{}", cells.join("  ").trim_end());
         let reasons = index.checked_sub(1).map_or(&[][..], |device| &found[device].reasons);
         for reason in reasons {
-            println!("       - {reason}");
+            say!("       - {reason}");
         }
     }
 }

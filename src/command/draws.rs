@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 
+use super::output::tell;
 use crate::evaluate::device::open_device;
 use crate::files::choices;
 use crate::gpu::{Device, DeviceKind};
@@ -33,9 +34,9 @@ impl Draws {
         match opened {
             Ok(device) if device.facts().kind != DeviceKind::Cpu => return Ok(Some(device)),
             Ok(device) => {
-                eprintln!("on the processor: the Vulkan device {} is the processor itself", device.facts().name)
+                tell!("on the processor: the Vulkan device {} is the processor itself", device.facts().name)
             }
-            Err(error) => eprintln!("on the processor: {error:#}"),
+            Err(error) => tell!("on the processor: {error:#}"),
         }
         Ok(None)
     }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::{Result, anyhow};
 
 use super::objective_flags::ObjectiveFlags;
+use super::output::{Output, say, tell};
 use crate::body::{Body, Model, PoseTable};
 use crate::files::{OutputFolder, Overwrite};
 use crate::sequence::{Sequence, read_cameras};
@@ -80,20 +81,20 @@ pub(super) fn run(args: &EvaluateArgs) -> Result<()> {
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     let output = args.output.as_deref().map(|path| OutputFolder::create(path, overwrite)).transpose()?;
     let scores = score_poses(&frame, &poses, args.backend, args.model, &objective, output.as_ref(), args.images)?;
-    eprintln!("{}", scores.backend);
+    tell!("{}", scores.backend);
     if scores.drawn_by_reference {
-        eprintln!("the images are drawn by the reference: this backend keeps no picture of a candidate");
+        tell!("the images are drawn by the reference: this backend keeps no picture of a candidate");
     }
     match &args.output {
         Some(path) => {
-            println!(
+            say!(
                 "{} poses scored in {} views, results in {}",
                 scores.fitness.len(),
                 frame.cameras.len(),
                 path.display()
             )
         }
-        None => write_fitness(&mut std::io::stdout().lock(), &scores.fitness)?,
+        None => write_fitness(&mut Output, &scores.fitness)?,
     }
     Ok(())
 }

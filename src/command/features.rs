@@ -6,6 +6,7 @@ use anyhow::Result;
 use image::codecs::png::PngEncoder;
 use rayon::prelude::*;
 
+use super::output::{say, tell};
 use super::progress::ProgressBar;
 use crate::evaluate::device::open_device;
 use crate::files::{OutputFolder, Overwrite, choices};
@@ -58,7 +59,7 @@ pub(super) fn run(args: &FeaturesArgs) -> Result<()> {
     if args.backend == FeatureBackend::Device
         && let Err(error) = observer.move_to(&open_device()?)
     {
-        eprintln!("note: the processor makes the features: {error:#}");
+        tell!("note: the processor makes the features: {error:#}");
     }
     let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;
 
@@ -79,7 +80,7 @@ pub(super) fn run(args: &FeaturesArgs) -> Result<()> {
         progress.advance();
     }
     drop(progress);
-    println!(
+    say!(
         "wrote the features of {} frames in {} views to {}",
         frames.len(),
         sequence.views.len(),

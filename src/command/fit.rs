@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use anyhow::{Result, bail};
 
 use super::objective_flags::ObjectiveFlags;
+use super::output::put;
 use crate::files::{Overwrite, write_atomically};
 use crate::sequence::Sequence;
 use crate::track::{Fit, FitSettings, FrameRange, fit};
@@ -87,7 +88,7 @@ pub(super) fn run(args: &FitArgs) -> Result<()> {
     };
     let fit = fit(&sequence, &settings)?;
     let summary = summary(&fit);
-    print!("{summary}");
+    put!("{summary}");
     if let Some(file) = &args.output {
         let comment: String = summary.lines().map(|line| format!("# {line}").trim_end().to_string() + "\n").collect();
         let text = format!("# Measured by `pantin fit` on {}.\n#\n{comment}\n{}", sequence.name, fit.body.to_toml());

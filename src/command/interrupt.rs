@@ -5,6 +5,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result};
 
+use super::output::tell;
+
 /// Whether the user asked to stop.
 #[derive(Clone, Debug)]
 pub(super) struct Interrupt(Arc<AtomicBool>);
@@ -19,7 +21,7 @@ impl Interrupt {
             if asked.swap(true, Ordering::SeqCst) {
                 std::process::exit(130);
             }
-            eprintln!("stopping after this frame (again to stop at once)");
+            tell!("stopping after this frame (again to stop at once)");
         })
         .context("cannot listen for Ctrl-C")?;
         Ok(Self(flag))

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::{Result, anyhow, ensure};
 use serde_json::json;
 
+use super::output::{put, say};
 use super::progress::ProgressBar;
 use crate::files::{OutputFolder, Overwrite};
 use crate::matrix::{
@@ -99,11 +100,11 @@ pub(super) fn run(args: &MatrixArgs) -> Result<()> {
         chosen.write_all(&rows, folder)?;
     }
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&json!({ "rows": rows }))?);
+        say!("{}", serde_json::to_string_pretty(&json!({ "rows": rows }))?);
     } else {
         print_table(&rows);
         if let Some(path) = &args.output {
-            println!("wrote matrix.csv and plots to {}", path.display());
+            say!("wrote matrix.csv and plots to {}", path.display());
         }
     }
     let wrong: Vec<&str> = rows.iter().filter(|row| !row.exact).map(|row| row.structure.as_str()).collect();
@@ -215,31 +216,35 @@ fn write_csv(out: &mut dyn std::io::Write, rows: &[StructureRow]) -> Result<()> 
 
 fn print_table(rows: &[StructureRow]) {
     let first = &rows[0];
-    println!(
-        "{0} x {0} matrices of {1} bits; efficiency in operations / (gate delay x cost), 1e-6",
-        first.n, first.bits
-    );
-    print!(
+    say!("{0} x {0} matrices of {1} bits; efficiency in operations / (gate delay x cost), 1e-6", first.n, first.bits);
+    put!(
         "{:38} {:10} {:>5} {:>8} {:>8} {:>7} {:>9} {:>7}",
-        "structure", "multiplier", "group", "cycles", "partial", "adders", "registers", "pins"
+        "structure",
+        "multiplier",
+        "group",
+        "cycles",
+        "partial",
+        "adders",
+        "registers",
+        "pins"
     );
-    print!(" {:>7} {:>9} {:>10} {:>6}", "links", "gates", "efficiency", "exact");
-    println!("{}", if first.rate.is_some() { "  keeps up  clock needed  group needed" } else { "" });
+    put!(" {:>7} {:>9} {:>10} {:>6}", "links", "gates", "efficiency", "exact");
+    say!("{}", if first.rate.is_some() { "  keeps up  clock needed  group needed" } else { "" });
     for row in rows {
-        print!(
+        put!(
             "{:38} {:10} {:>5} {:>8} {:>8}",
-            row.structure, row.multiplier, row.group, row.cycles, row.partial_products
+            row.structure,
+            row.multiplier,
+            row.group,
+            row.cycles,
+            row.partial_products
         );
-        print!(" {:>7} {:>9} {:>7} {:>7}", row.adders, row.registers, row.pins, row.links);
-        print!(" {:>9} {:>10.2} {:>6}", row.gates, row.efficiency * 1e6, if row.exact { "yes" } else { "NO" });
+        put!(" {:>7} {:>9} {:>7} {:>7}", row.adders, row.registers, row.pins, row.links);
+        put!(" {:>9} {:>10.2} {:>6}", row.gates, row.efficiency * 1e6, if row.exact { "yes" } else { "NO" });
         if let Some(fit) = &row.rate {
             let group = fit.group_needed.map_or_else(|| "-".to_string(), |group| group.to_string());
-            print!(
-                "  {:>8}  {:>9.3} MHz  {group:>12}",
-                if fit.keeps_up { "yes" } else { "no" },
-                fit.clock_needed * 1e-6
-            );
+            put!("  {:>8}  {:>9.3} MHz  {group:>12}", if fit.keeps_up { "yes" } else { "no" }, fit.clock_needed * 1e-6);
         }
-        println!();
+        say!("");
     }
 }

@@ -1,7 +1,5 @@
 //! The subcommands: arguments to library calls, progress bars, messages. Nothing is computed here.
 
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "this room is the one that talks to the user")]
-
 mod bench;
 mod calibrate;
 mod check;
@@ -16,6 +14,7 @@ mod interrupt;
 mod matrix;
 mod name_pair;
 mod objective_flags;
+mod output;
 mod progress;
 mod realtime_flags;
 mod score;
@@ -25,10 +24,13 @@ mod texture;
 mod track;
 
 use std::ffi::OsString;
+use std::io::ErrorKind;
 use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};
+
+use self::output::tell;
 
 /// Markerless 3D human motion from a few calibrated cameras.
 #[derive(Parser, Debug)]
@@ -72,18 +74,19 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(error) => {
-            // Nothing can be done when even the message cannot be written (a closed pipe).
-            let _ = error.print();
-            return if error.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS };
+            let is_full = error.print().is_err_and(|error| error.kind() != ErrorKind::BrokenPipe);
+            return match (error.use_stderr(), is_full) {
+                (true, _) => ExitCode::from(2),
+                (false, true) => ExitCode::FAILURE,
+                (false, false) => ExitCode::SUCCESS,
+            };
         }
     };
-    match dispatch(arguments.command) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("pantin: {error:#}");
-            ExitCode::FAILURE
-        }
+    let done = dispatch(arguments.command);
+    if let Err(error) = &done {
+        tell!("pantin: {error:#}");
     }
+    if output::finish() || done.is_err() { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
 fn dispatch(command: Command) -> Result<()> {

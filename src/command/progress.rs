@@ -4,6 +4,8 @@ use std::io::{IsTerminal, stderr};
 
 use indicatif::ProgressStyle;
 
+use super::output::tell;
+
 /// Plain lines are written each time this many hundredths of the work are done.
 const PLAIN_STEP: usize = 10;
 
@@ -73,7 +75,7 @@ impl ProgressBar {
     pub(super) fn advance(&mut self) {
         self.done += 1;
         if !self.bar.show(self.done, self.unit) && self.is_worth_a_line() {
-            eprintln!("{}: {} {} of {}", self.name, self.unit, self.done, self.total);
+            tell!("{}: {} {} of {}", self.name, self.unit, self.done, self.total);
         }
     }
 

@@ -6,6 +6,7 @@ use anyhow::{Context, Result};
 use serde_json::json;
 
 use super::name_pair::name_pair;
+use super::output::{put, say};
 use crate::files::{Overwrite, write_atomically};
 use crate::motion::{Matching, PointPairs, TrajectoryError, read_points, write_frame_errors};
 use crate::track::tracked_points;
@@ -75,7 +76,7 @@ pub(super) fn run(args: &ScoreArgs) -> Result<()> {
         write_atomically(file, overwrite, |out| write_frame_errors(out, &error))?;
     }
     if args.json {
-        println!("{:#}", as_json(&path, &args.truth, &pairs, &error, without_offset.as_ref()));
+        say!("{:#}", as_json(&path, &args.truth, &pairs, &error, without_offset.as_ref()));
     } else {
         print_table(&path, &args.truth, &pairs, &error, without_offset.as_ref());
     }
@@ -96,26 +97,27 @@ fn print_table(
     error: &TrajectoryError,
     without_offset: Option<&TrajectoryError>,
 ) {
-    println!("{} against {}", path.display(), truth.display());
-    println!("{} frames matched by {}, errors in mm\n", error.frames.len(), matched_by(error.matching));
+    say!("{} against {}", path.display(), truth.display());
+    say!("{} frames matched by {}, errors in mm\n", error.frames.len(), matched_by(error.matching));
     let label = |name: &str, ours: &str| if name == ours { name.to_string() } else { format!("{name} = {ours}") };
     let labels: Vec<String> = error.points.iter().map(|point| label(&point.name, &point.ours)).collect();
     let width = labels.iter().map(|label| label.chars().count()).max().unwrap_or(0).max("point".len());
     let more = if without_offset.is_some() { "  offset x,y,z               without it" } else { "" };
-    println!("{:<width$}  frames     mean      std      max{more}", "point");
+    say!("{:<width$}  frames     mean      std      max{more}", "point");
     for (index, (point, label)) in error.points.iter().zip(&labels).enumerate() {
-        print!("{label:<width$}  {:6} {:8.2} {:8.2} {:8.2}", point.frames, point.mean, point.std, point.max);
+        put!("{label:<width$}  {:6} {:8.2} {:8.2} {:8.2}", point.frames, point.mean, point.std, point.max);
         if let Some(rest) = without_offset.and_then(|without| without.points.get(index)) {
             let o = point.offset;
-            print!("  {:8.2},{:8.2},{:8.2}  {:8.2}", o.x, o.y, o.z, rest.mean);
+            put!("  {:8.2},{:8.2},{:8.2}  {:8.2}", o.x, o.y, o.z, rest.mean);
         }
-        println!();
+        say!("");
     }
-    println!();
+    say!("");
     if error.missing > 0 || error.frames_without_truth > 0 {
-        println!(
+        say!(
             "missing: {} points in compared frames; {} frames of the track lie outside the truth",
-            error.missing, error.frames_without_truth
+            error.missing,
+            error.frames_without_truth
         );
     }
     for (names, what) in [
@@ -124,12 +126,12 @@ fn print_table(
         (&error.never_seen, "never seen in both"),
     ] {
         if !names.is_empty() {
-            println!("{what} ({}): {}", names.len(), names.join(", "));
+            say!("{what} ({}): {}", names.len(), names.join(", "));
         }
     }
-    println!("error {:.2} ± {:.2} mm over {} points", error.mean, error.std, error.points.len());
+    say!("error {:.2} ± {:.2} mm over {} points", error.mean, error.std, error.points.len());
     if let Some(without) = without_offset {
-        println!("error {:.2} ± {:.2} mm without each point's mean offset", without.mean, without.std);
+        say!("error {:.2} ± {:.2} mm without each point's mean offset", without.mean, without.std);
     }
 }
 

@@ -7,6 +7,7 @@ use std::time::Instant;
 use anyhow::{Result, bail};
 
 use super::interrupt::Interrupt;
+use super::output::{say, tell};
 use super::progress::ProgressBar;
 use crate::files::{OutputFolder, Overwrite};
 use crate::study::{self, Outcome, Run, Study};
@@ -48,8 +49,8 @@ pub(super) fn run(args: &StudyArgs) -> Result<()> {
     };
     let watch = Watch { interrupt: Interrupt::listen()?, bar: Mutex::new(None), runs: Mutex::new(Runs::default()) };
     let summary = study::run(&study, &output, &watch)?;
-    println!("{}", summary.tables);
-    println!(
+    say!("{}", summary.tables);
+    say!(
         "{} runs in {}, start with {}",
         summary.rows.len(),
         output.path().display(),
@@ -83,7 +84,7 @@ impl study::Progress for Watch {
     fn making(&self, name: &str, done: usize, frames: usize) {
         let mut bar = self.bar.lock().unwrap_or_else(PoisonError::into_inner);
         let shown = bar.get_or_insert_with(|| {
-            eprintln!("sequence {name}");
+            tell!("sequence {name}");
             ProgressBar::new("making the sequence", frames)
         });
         shown.advance();
@@ -93,7 +94,7 @@ impl study::Progress for Watch {
     }
 
     fn begin(&self, runs: usize, done: usize) {
-        eprintln!("{runs} runs, {done} of them done");
+        tell!("{runs} runs, {done} of them done");
         *self.runs.lock().unwrap_or_else(PoisonError::into_inner) =
             Runs { all: runs, before: done, done, begin: Some(Instant::now()) };
     }
@@ -110,7 +111,7 @@ impl study::Progress for Watch {
             }
             Err(error) => format!("failed: {error:#}"),
         };
-        eprintln!("{}/{}, {left:.0} s left: {} {told}", runs.done, runs.all, run.folder());
+        tell!("{}/{}, {left:.0} s left: {} {told}", runs.done, runs.all, run.folder());
     }
 
     fn should_stop(&self) -> bool {

@@ -7,6 +7,7 @@ use std::time::Instant;
 use anyhow::Result;
 
 use super::draws::Draws;
+use super::output::{say, tell};
 use super::progress::ProgressBar;
 use crate::files::{OutputFolder, Overwrite};
 use crate::gpu::Device;
@@ -80,7 +81,7 @@ pub(super) fn run(args: &SynthArgs) -> Result<()> {
     })?;
     drop(bar);
     let (seconds, views) = (begin.elapsed().as_secs_f64(), synthetic.cameras().len());
-    println!(
+    say!(
         "made {} frames in {views} views in {seconds:.1} s, {:.3} s a frame of all views: {}",
         scene.frames,
         seconds / scene.frames as f64,
@@ -98,7 +99,7 @@ fn device(args: &SynthArgs, synthetic: &SyntheticSequence) -> Result<Option<Devi
         if args.backend == Draws::Device {
             return Err(error);
         }
-        eprintln!("on the processor: {error:#}");
+        tell!("on the processor: {error:#}");
         return Ok(None);
     }
     Ok(device)
@@ -115,7 +116,7 @@ fn run_lottery(args: &SynthArgs, seed: u64) -> Result<()> {
     let lottery = Lottery::draw(&settings)?;
     let device = device(args, &SyntheticSequence::new(&lottery.scene)?)?;
     let folder = folder(args)?;
-    println!("{}", lottery.summary());
+    say!("{}", lottery.summary());
     let begin = Instant::now();
     let frames = lottery.scene.frames + lottery.t_pose.frames;
     let bar = Mutex::new(ProgressBar::new("making the sequence", frames));
@@ -123,7 +124,7 @@ fn run_lottery(args: &SynthArgs, seed: u64) -> Result<()> {
         bar.lock().unwrap_or_else(PoisonError::into_inner).advance()
     })?;
     drop(bar);
-    println!(
+    say!(
         "measured: body off by {:.1} mm in the T-pose, start pose by {:.1} mm{}",
         made.body_error,
         made.start_error,
@@ -133,6 +134,6 @@ fn run_lottery(args: &SynthArgs, seed: u64) -> Result<()> {
             StartPose::ByHand => ", set by hand",
         }
     );
-    println!("made {frames} frames in {:.1} s: {}", begin.elapsed().as_secs_f64(), folder.path().display());
+    say!("made {frames} frames in {:.1} s: {}", begin.elapsed().as_secs_f64(), folder.path().display());
     Ok(())
 }

@@ -7,6 +7,7 @@ use image::codecs::png::PngEncoder;
 use image::{DynamicImage, RgbImage};
 
 use super::draws::Draws;
+use super::output::say;
 use super::progress::ProgressBar;
 use crate::files::{Choice as _, Overwrite, choices, write_atomically};
 use crate::synth::portrait;
@@ -149,11 +150,11 @@ fn of_depth(args: &TextureArgs, picture: DynamicImage) -> DynamicImage {
 
 fn list(args: &TextureArgs, output: Option<&Path>) -> Result<()> {
     for (kind, _, looks) in MaterialKind::CHOICES {
-        println!("{kind:<10} {}", looks.trim_start());
+        say!("{kind:<10} {}", looks.trim_start());
     }
     let Some(output) = output else { return Ok(()) };
     write(args, of_depth(args, contact_sheet(256, args.seed)?.into()), output)?;
-    println!("wrote {}", output.display());
+    say!("wrote {}", output.display());
     Ok(())
 }
 
@@ -173,7 +174,7 @@ fn of_material(args: &TextureArgs, name: &str, output: &Path) -> Result<()> {
         None => flat(&material, &view).into(),
     };
     write(args, of_depth(args, picture), output)?;
-    println!("wrote {name}, {} x {} pixels, to {}", args.size[0], args.size[1], output.display());
+    say!("wrote {name}, {} x {} pixels, to {}", args.size[0], args.size[1], output.display());
     Ok(())
 }
 
@@ -220,7 +221,7 @@ fn from_example(args: &TextureArgs, example: &Path, output: &Path) -> Result<()>
             write(args, picture.into(), path)?;
         }
     }
-    println!(
+    say!(
         "wrote {} x {} pixels, of them {} synthesised anew, to {}",
         args.size[0],
         args.size[1],

@@ -8,6 +8,7 @@ use clap::ArgAction;
 
 use super::interrupt::Interrupt;
 use super::objective_flags::ObjectiveFlags;
+use super::output::{say, tell};
 use super::progress::TerminalBar;
 use super::realtime_flags::{RealtimeFlags, duration};
 use crate::body::Model;
@@ -189,7 +190,7 @@ fn print_people(people: &[PersonSummary], args: &TrackArgs) -> Result<()> {
         check_ended(summary, args)?;
     }
     for PersonSummary { name, summary } in people {
-        println!("{name}:");
+        say!("{name}:");
         print_summary(summary, &args.output.join(name), args.rerun);
     }
     Ok(())
@@ -198,57 +199,58 @@ fn print_people(people: &[PersonSummary], args: &TrackArgs) -> Result<()> {
 /// What the user sees when all is done.
 pub(super) fn print_summary(summary: &TrackSummary, folder: &std::path::Path, has_recording: bool) {
     for warning in &summary.warnings {
-        eprintln!("note: {warning}");
+        tell!("note: {warning}");
     }
     let [name, variant] = summary.backend;
     match &summary.realtime {
         None => {
             let (frames, rate) = (summary.frames.len(), summary.frames_per_second);
-            println!("{frames} frames at {rate:.1} frames/s with {name} ({variant})");
+            say!("{frames} frames at {rate:.1} frames/s with {name} ({variant})");
         }
         Some(realtime) => print_realtime(realtime, &format!("{name} ({variant})")),
     }
-    println!("fitness {:.3}, confidence {:.2} on average", summary.mean_fitness, summary.mean_confidence);
+    say!("fitness {:.3}, confidence {:.2} on average", summary.mean_fitness, summary.mean_confidence);
     if let Some(error) = &summary.error {
         let count = error.error.points.len();
-        println!("error {:.2} ± {:.2} mm over {count} {}", error.error.mean, error.error.std, error.compared);
+        say!("error {:.2} ± {:.2} mm over {count} {}", error.error.mean, error.error.std, error.compared);
     }
     if summary.new_frames > 0 {
         let shares = summary.timings.iter().map(|timing| format!("{} {:.1} ms", timing.name, timing.mean()));
-        println!("a frame: {}", shares.collect::<Vec<_>>().join(", "));
+        say!("a frame: {}", shares.collect::<Vec<_>>().join(", "));
     }
     let first = if summary.realtime.is_some() { "timeline.svg" } else { "report.html" };
-    println!("results in {}, start with {}", folder.display(), folder.join(first).display());
+    say!("results in {}, start with {}", folder.display(), folder.join(first).display());
     if has_recording {
-        println!("the report as a recording: rerun {}", folder.join("report.rrd").display());
+        say!("the report as a recording: rerun {}", folder.join("report.rrd").display());
     }
 }
 
 fn print_realtime(realtime: &RealtimeSummary, evaluator: &str) {
     let RealtimeSummary { input_fps, output_fps, captured, poses, latency_ms: latency, drops, .. } = realtime;
-    println!(
-        "{captured} frames came at {input_fps:.1} frames/s, {poses} poses went at {output_fps:.1} with {evaluator}"
-    );
-    println!(
+    say!("{captured} frames came at {input_fps:.1} frames/s, {poses} poses went at {output_fps:.1} with {evaluator}");
+    say!(
         "from capture to pose: half within {:.1} ms, 90 % within {:.1}, 99 % within {:.1}, all within {:.1}",
-        latency.p50, latency.p90, latency.p99, latency.max
+        latency.p50,
+        latency.p90,
+        latency.p99,
+        latency.max
     );
     if let (Some(deadline), Some(in_time)) = (realtime.deadline_ms, realtime.in_time) {
         let evaluations = realtime.evaluations;
-        println!(
-            "{:.2} % within the deadline of {deadline} ms, with {evaluations:.0} evaluations a pose",
-            1e2 * in_time
-        );
+        say!("{:.2} % within the deadline of {deadline} ms, with {evaluations:.0} evaluations a pose", 1e2 * in_time);
     }
-    println!(
+    say!(
         "passed over: {} in acquisition, {} before processing, {} before tracking; {} were read late",
-        drops.acquisition, drops.processing, drops.tracking, realtime.late
+        drops.acquisition,
+        drops.processing,
+        drops.tracking,
+        realtime.late
     );
     if realtime.complaints > 0 {
-        println!("the decoders complained {} times: pictures were damaged", realtime.complaints);
+        say!("the decoders complained {} times: pictures were damaged", realtime.complaints);
     }
     if let Some(error) = realtime.error_mm {
-        println!("error {error:.2} mm on average");
+        say!("error {error:.2} mm on average");
     }
 }
 
@@ -280,10 +282,10 @@ impl TrackProgress {
 
 impl Progress for TrackProgress {
     fn start(&mut self, run: &RunStart) {
-        eprintln!("{}", run.backend);
+        tell!("{}", run.backend);
         if run.done > 0 {
             let total = run.frames.map(|frames| format!(" of {frames}")).unwrap_or_default();
-            eprintln!("going on from frame {}, {}{total} are done", run.first_frame + run.done, run.done);
+            tell!("going on from frame {}, {}{total} are done", run.first_frame + run.done, run.done);
         }
         (self.first, self.total) = (run.done, run.frames);
         (self.begin, self.last_line) = (Instant::now(), Instant::now());
@@ -298,7 +300,7 @@ impl Progress for TrackProgress {
         if !self.bar.show(done, "second pass") && self.last_line.elapsed() >= LINE_INTERVAL {
             self.last_line = Instant::now();
             let total = self.total.map(|total| format!("/{total}")).unwrap_or_default();
-            eprintln!("second pass: {done}{total}");
+            tell!("second pass: {done}{total}");
         }
     }
 
@@ -312,9 +314,9 @@ impl Progress for TrackProgress {
             match self.total {
                 Some(total) => {
                     let left = each * (total - done) as f64;
-                    eprintln!("frame {at}, {done}/{total}, {left:.0} s left: {message}");
+                    tell!("frame {at}, {done}/{total}, {left:.0} s left: {message}");
                 }
-                None => eprintln!("frame {at}: {message}"),
+                None => tell!("frame {at}: {message}"),
             }
         }
     }

@@ -34,6 +34,7 @@ mod rerun;
 #[allow(dead_code, reason = "the tests of evaluators take more of it")]
 mod scene;
 mod score_and_convert;
+mod streams;
 mod support;
 mod synth;
 mod texture;
