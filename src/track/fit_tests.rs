@@ -93,8 +93,8 @@ fn a_drawn_person_is_measured() {
     let sequence = Sequence::open_unfitted(folder.path()).unwrap();
     let settings = FitSettings {
         height: Some(1700.0),
-        particles: 200,
-        iterations: 50,
+        particles: 150,
+        iterations: 20,
         heading: Some(0.0),
         ..FitSettings::default()
     };
@@ -122,7 +122,7 @@ fn a_drawn_person_is_measured() {
     fs::write(folder.path().join("body.toml"), found.body.to_toml()).unwrap();
     let start = folder.path().join("start.csv");
     found.poses.write(&start, crate::files::Overwrite::Refuse, &found.body).unwrap();
-    let again = FitSettings { keep_body: true, start: Some(start), iterations: 15, ..settings };
+    let again = FitSettings { keep_body: true, start: Some(start), ..settings };
     let sequence = Sequence::open(folder.path()).unwrap();
     let [first, second] = [(); 2].map(|()| fit(&sequence, &again).unwrap());
     assert_eq!(first.poses.poses, second.poses.poses);
