@@ -270,7 +270,7 @@ fn the_program_records_when_asked_and_says_why_it_cannot() {
 
     refused(&run(&["--force", "--realtime", "--rerun"]), &["a run in real time writes no report"]);
     fs::create_dir(&recording).unwrap();
-    refused(&run(&["--resume", "--rerun"]), &["cannot write", "report.rrd", "directory"]);
+    refused(&run(&["--resume", "--rerun"]), &["report.rrd is a folder", "expected a regular file"]);
     fs::remove_dir(&recording).unwrap();
     assert!(output.join("report.html").exists(), "the rest is there");
 }
