@@ -13,7 +13,7 @@ use crate::walk;
 const RESULTS: [&str; 7] =
     ["poses.csv", "joints.csv", "joints.trc", "markers.c3d", "motion.bvh", "confidence.csv", "journal.txt"];
 /// Slow enough that a kill meets it at work.
-const SLOW: [&str; 8] = ["--particles", "60", "--iterations", "8", "--overlay-every", "3", "--backend", "reference"];
+const SLOW: [&str; 8] = ["--particles", "150", "--iterations", "12", "--overlay-every", "3", "--backend", "cpu"];
 
 fn results(folder: &Path) -> BTreeMap<&'static str, Vec<u8>> {
     RESULTS.into_iter().map(|name| (name, fs::read(folder.join(name)).unwrap())).collect()

@@ -380,7 +380,7 @@ fn segments_of_a_mesh_stay_near_the_reference() {
     let segments = segments(16, 3);
     let close: Vec<f32> =
         (0..13_i8).flat_map(|i| mesh_tests::standing(&body, f32::from(i) * 9.0 - 60.0, 25.0)).collect();
-    let poses: Vec<f32> = close.into_iter().chain(poses(&body, 30)).collect();
+    let poses: Vec<f32> = close.into_iter().chain(poses(&body, 12)).collect();
     let mut meshes = vec![("frusta".to_string(), Mesh::of_body(&body).unwrap())];
     meshes.extend(mesh_tests::person(name, &body));
     let mut random = Random(19);
