@@ -5,6 +5,7 @@ use anyhow::Result;
 use super::feed::Prepared;
 use crate::body::Body;
 use crate::evaluate::Reference;
+use crate::features::{Likelihood, Observation};
 use crate::geometry::Camera;
 use crate::observe::{Appearance, Lesson};
 
@@ -42,13 +43,25 @@ impl RunAppearance {
         if since >= EAGER && !since.is_multiple_of(SELDOM) {
             return Ok(());
         }
-        let views = 0..prepared.likelihoods.len();
-        let drawn: Vec<Vec<u8>> = views.map(|view| self.reference.draw(pose, view).bytes).collect();
-        let views = prepared.likelihoods.iter().zip(&drawn).zip(&prepared.observations);
-        let mut lessons = Vec::new();
-        for ((likelihood, drawn), observation) in views {
-            lessons.push(Lesson { likelihood, drawn, observation });
-        }
-        self.appearance.learn(&lessons, KEPT)
+        teach(&mut self.appearance, &self.reference, pose, (&prepared.likelihoods, &prepared.observations), KEPT)
     }
+}
+
+/// Teaches an appearance the colours that a person has where `reference` draws this pose, in the likelihoods and observations of a frame's
+/// views; what was learnt before counts `kept` times.
+///
+/// # Errors
+/// As [`Appearance::learn`].
+pub(super) fn teach(
+    appearance: &mut Appearance,
+    reference: &Reference,
+    pose: &[f32],
+    (likelihoods, observations): (&[Likelihood], &[Observation]),
+    kept: f32,
+) -> Result<()> {
+    let drawn: Vec<Vec<u8>> = (0..likelihoods.len()).map(|view| reference.draw(pose, view).bytes).collect();
+    let views = likelihoods.iter().zip(&drawn).zip(observations);
+    let lessons: Vec<Lesson<'_>> =
+        views.map(|((likelihood, drawn), observation)| Lesson { likelihood, drawn, observation }).collect();
+    appearance.learn(&lessons, kept)
 }

@@ -4,7 +4,10 @@ use anyhow::{Context, Result};
 
 use super::super::hull::Hull;
 use super::scorer::{Scorer, proportions};
+use super::seen::Seen;
 use crate::body::{Body, Proportions};
+use crate::evaluate::{Objective, ObjectiveKind};
+use crate::geometry::Camera;
 use crate::search::{SearchSettings, SearchSpace};
 
 /// Headings a first pose is searched from, evenly round the circle.
@@ -23,23 +26,44 @@ const ROUNDS: i32 = 10;
 const NARROWING: f64 = 0.75;
 /// Rounds before which the person's colours are learnt anew.
 const RELOOKS: [i32; 2] = [2, 5];
+
 /// The searches of one fit.
-pub(super) struct Fitter {
+pub(super) struct Fitter<'a> {
     space: SearchSpace,
     search: SearchSettings,
     pub(super) scorer: Scorer,
+    cameras: &'a [Camera],
+    seen: Seen,
+    /// What a good pose is in the end.
+    objective: Objective,
     /// Searches done: each draws random numbers of its own.
     searches: u32,
 }
 
-/// Gives a scorer anew what was seen, by the body and the poses found so far.
-pub(super) trait Relook: FnMut(&Body, &mut Scorer, &[Vec<f32>]) -> Result<()> {}
+impl<'a> Fitter<'a> {
+    /// Poses are searched by silhouettes until [`Self::relook`], where `objective` weighs evidence.
+    ///
+    /// # Errors
+    /// When what was seen does not fit the cameras.
+    pub(super) fn new(
+        body: &Body,
+        cameras: &'a [Camera],
+        seen: Seen,
+        search: SearchSettings,
+        objective: Objective,
+    ) -> Result<Self> {
+        let first = if objective.weighs_evidence() { Objective::of(ObjectiveKind::Sp) } else { objective };
+        let scorer = Scorer::new(body, cameras, &seen.observations, first)?;
+        Ok(Self { space: SearchSpace::of(body)?, search, scorer, cameras, seen, objective, searches: 0 })
+    }
 
-impl<F: FnMut(&Body, &mut Scorer, &[Vec<f32>]) -> Result<()>> Relook for F {}
-
-impl Fitter {
-    pub(super) fn new(space: SearchSpace, search: SearchSettings, scorer: Scorer) -> Self {
-        Self { space, search, scorer, searches: 0 }
+    /// From here on poses are searched by evidence, of the colours that a person with this body has in `poses`.
+    ///
+    /// # Errors
+    /// As [`Seen::weigh`].
+    pub(super) fn relook(&mut self, body: &Body, poses: &[Vec<f32>]) -> Result<()> {
+        self.seen.weigh(body, self.cameras, poses)?;
+        self.scorer.look_anew(&self.seen.observations, self.objective)
     }
 
     /// The best pose of one frame round `centre`; `spread` is in steps of the body.
@@ -149,13 +173,8 @@ impl Fitter {
         Ok(())
     }
 
-    /// The proportions of the body, with the poses moving along; now and then all is looked at anew.
-    pub(super) fn stretch(
-        &mut self,
-        body: &Body,
-        poses: &mut Vec<Vec<f32>>,
-        mut relook: Option<impl Relook>,
-    ) -> Result<Proportions> {
+    /// The proportions of the body, with the poses moving along; evidence is looked at anew now and then.
+    pub(super) fn stretch(&mut self, body: &Body, poses: &mut Vec<Vec<f32>>) -> Result<Proportions> {
         let (dofs, frames) = (self.space.dof_count(), poses.len());
         let known = Proportions::ALL;
         let joined = |shape: &dyn Fn(usize) -> f32, pose: &[f32]| -> Vec<f32> {
@@ -165,13 +184,16 @@ impl Fitter {
         let upper = joined(&|i| known[i].limits[1] as f32, self.space.upper());
         let steps = joined(&|i| known[i].deviation as f32, &self.space.spread(1.0 / 25.0)?);
         let space = SearchSpace::new(lower, upper, steps.clone())?;
+        let apart = |row: &[f32]| -> (Proportions, Vec<Vec<f32>>) {
+            let (factors, poses) = row.split_at(known.len());
+            (proportions(factors), poses.chunks_exact(dofs).map(<[f32]>::to_vec).collect())
+        };
         let mut centre: Vec<f32> = vec![1.0; known.len()];
         centre.extend(poses.concat());
         for round in 0..ROUNDS {
-            if let Some(relook) = relook.as_mut().filter(|_| RELOOKS.contains(&round)) {
-                let (factors, settled) = centre.split_at(known.len());
-                let settled: Vec<Vec<f32>> = settled.chunks_exact(dofs).map(<[f32]>::to_vec).collect();
-                relook(&proportions(factors).apply(body), &mut self.scorer, &settled)?;
+            if self.objective.weighs_evidence() && RELOOKS.contains(&round) {
+                let (factors, settled) = apart(&centre);
+                self.relook(&factors.apply(body), &settled)?;
             }
             let narrow = NARROWING.powi(round) as f32;
             let spread: Vec<f32> = steps.iter().map(|step| step * narrow).collect();
@@ -190,9 +212,9 @@ impl Fitter {
                 centre[row].copy_from_slice(&pose);
             }
         }
-        let (factors, settled) = centre.split_at(known.len());
-        *poses = settled.chunks_exact(dofs).map(<[f32]>::to_vec).collect();
-        Ok(proportions(factors))
+        let (factors, settled) = apart(&centre);
+        *poses = settled;
+        Ok(factors)
     }
 }
 

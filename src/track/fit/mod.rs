@@ -15,13 +15,12 @@ use anyhow::{Context, Result, bail, ensure};
 pub use self::scorer::Coverage;
 
 use self::fitter::Fitter;
-use self::scorer::Scorer;
 use self::seen::Seen;
 use super::hull::Hull;
 use super::{FrameRange, ObjectiveChoice};
 use crate::body::{Body, PoseTable, Proportions};
-use crate::evaluate::{Objective, ObjectiveKind};
-use crate::search::{SearchKind, SearchSettings, SearchSpace};
+use crate::evaluate::ObjectiveKind;
+use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::Sequence;
 
 /// How a person is measured.
@@ -101,7 +100,7 @@ pub fn fit(sequence: &Sequence, settings: &FitSettings) -> Result<Fit> {
     let objective = settings.objective.resolve_over(ObjectiveKind::Evidence, sequence.objective.as_ref(), &name)?;
     let weighs_evidence = objective.weighs_evidence();
     let frames = sampled(settings.frames.within(sequence.frame_count, &name)?, settings.samples);
-    let mut seen = Seen::look(sequence, &frames, weighs_evidence)?;
+    let seen = Seen::look(sequence, &frames, weighs_evidence)?;
     let in_frame = |at: usize| format!("{name}, frame {}", frames[at]);
     let hulls: Vec<Hull> = seen
         .observations
@@ -127,9 +126,7 @@ pub fn fit(sequence: &Sequence, settings: &FitSettings) -> Result<Fit> {
         ..SearchSettings::default()
     };
     search.check()?;
-    let by_silhouettes = if weighs_evidence { Objective::of(ObjectiveKind::Sp) } else { objective };
-    let scorer = Scorer::new(&body, &sequence.cameras, &seen.observations, by_silhouettes)?;
-    let mut fitter = Fitter::new(SearchSpace::of(&body)?, search, scorer);
+    let mut fitter = Fitter::new(&body, &sequence.cameras, seen, search, objective)?;
     let mut poses = match &settings.start {
         Some(path) => {
             let poses = start_poses(path, &body, &frames)?;
@@ -142,16 +139,12 @@ pub fn fit(sequence: &Sequence, settings: &FitSettings) -> Result<Fit> {
             found.into_iter().map(|(pose, _)| pose).collect()
         }
     };
-    let mut relook = |body: &Body, scorer: &mut Scorer, poses: &[Vec<f32>]| {
-        seen.weigh(body, &sequence.cameras, poses)?;
-        scorer.look_anew(&seen.observations, objective)
-    };
     if weighs_evidence {
         // By what is no background at first, then by the colours of the person there.
-        relook(&body, &mut fitter.scorer, &[])?;
+        fitter.relook(&body, &[])?;
         poses = fitter.settle(poses)?;
         fitter.lend(&mut poses)?;
-        relook(&body, &mut fitter.scorer, &poses)?;
+        fitter.relook(&body, &poses)?;
         poses = fitter.settle(poses)?;
         fitter.lend(&mut poses)?;
     }
@@ -159,7 +152,7 @@ pub fn fit(sequence: &Sequence, settings: &FitSettings) -> Result<Fit> {
     let mut fitted = body.clone();
     let proportions = match height {
         Some(_) => {
-            let proportions = fitter.stretch(&body, &mut poses, weighs_evidence.then_some(relook))?;
+            let proportions = fitter.stretch(&body, &mut poses)?;
             fitted = proportions.apply(&body).rounded();
             Some(proportions)
         }

@@ -2,11 +2,12 @@
 
 use anyhow::{Result, bail};
 
+use super::super::appearance::teach;
 use crate::body::Body;
 use crate::evaluate::Reference;
 use crate::features::{Likelihood, Observation};
 use crate::geometry::Camera;
-use crate::observe::{Appearance, Lesson, Observer, silhouette_settings, take_likelihoods, take_observations};
+use crate::observe::{Appearance, Observer, silhouette_settings, take_likelihoods, take_observations};
 use crate::sequence::Sequence;
 
 /// Observations and, where evidence is weighed, likelihoods: `[frame][view]`.
@@ -50,13 +51,9 @@ impl Seen {
         let mut appearance = Appearance::new(body);
         let reference = Reference::new(body, cameras);
         for ((pose, likelihoods), observations) in poses.iter().zip(&self.likelihoods).zip(&self.observations) {
-            let drawn: Vec<Vec<u8>> = (0..cameras.len()).map(|view| reference.draw(pose, view).bytes).collect();
-            let views = likelihoods.iter().zip(&drawn).zip(observations);
-            let lessons: Vec<Lesson<'_>> =
-                views.map(|((likelihood, drawn), observation)| Lesson { likelihood, drawn, observation }).collect();
-            appearance.learn(&lessons, 1.0)?;
+            teach(&mut appearance, &reference, pose, (likelihoods, observations), 1.0)?;
         }
-        let frames = self.likelihoods.iter().zip(&mut self.observations);
-        frames.into_iter().try_for_each(|(likelihoods, observations)| appearance.give(likelihoods, observations))
+        let mut frames = self.likelihoods.iter().zip(&mut self.observations);
+        frames.try_for_each(|(likelihoods, observations)| appearance.give(likelihoods, observations))
     }
 }
