@@ -109,8 +109,8 @@ static LARGE: LazyLock<Stage> = LazyLock::new(|| {
     Stage { body: Body::adult(1750.0).unwrap(), cameras: cameras.into() }
 });
 
-/// A camera straight above a hanging arm, whose axis it looks along; parts of equal depth, and more parts than fit one register.
-static DEGENERATE: LazyLock<Stage> = LazyLock::new(|| {
+/// An adult with copies of a forearm, every second of the same depth, and more parts than fit one register; and which part was copied.
+pub(crate) fn of_equal_depths() -> (Body, usize) {
     let mut body = Body::adult(1750.0).unwrap();
     let arm = body.parts.iter().position(|part| part.name.contains("forearm")).unwrap();
     for copy in 0..40_u8 {
@@ -123,6 +123,12 @@ static DEGENERATE: LazyLock<Stage> = LazyLock::new(|| {
         part.radius_a += f64::from(copy);
         body.parts.push(part);
     }
+    (body, arm)
+}
+
+/// A camera straight above a hanging arm, whose axis it looks along; parts of equal depth, and more parts than fit one register.
+static DEGENERATE: LazyLock<Stage> = LazyLock::new(|| {
+    let (body, arm) = of_equal_depths();
     let bones = body.world_from_bones(&vec![0.0; body.dof_count()]).unwrap();
     let elbow = bones[body.parts[arm].bone];
     let (a, b) = (elbow.transform_point3(body.parts[arm].a), elbow.transform_point3(body.parts[arm].b));

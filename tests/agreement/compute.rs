@@ -8,7 +8,7 @@ use pantin::evaluate::{Components, Evaluator, Objective, Reference};
 use pantin::gpu::{DeviceLost, DeviceSettings, Timing, ValidationLog, by_name};
 
 use crate::backends::LOWERED;
-use crate::cases::{Stage, USUAL, case};
+use crate::cases::{Stage, USUAL, case, of_equal_depths};
 use crate::device::{self, device};
 use crate::found::{assert_fitness, found};
 use crate::scene::{Random, cameras, evaluate, first_difference, ignoring, observations, poses};
@@ -129,18 +129,7 @@ fn a_changed_vertex_is_caught() {
 #[test]
 fn equal_depths_and_many_parts_agree() {
     let Some((device, log)) = device("equal_depths_and_many_parts_agree", DeviceSettings::default()) else { return };
-    let mut body = body();
-    let arm = body.parts.iter().position(|part| part.name.contains("forearm")).unwrap();
-    for copy in 0..40_u8 {
-        let mut part = body.parts[arm].clone();
-        part.name = format!("copy_{copy}");
-        part.label = 60 + copy;
-        // Every second copy has the same mid-point, so the same depth.
-        part.a.z += f64::from(copy / 2);
-        part.b.z -= f64::from(copy / 2);
-        part.radius_a += f64::from(copy);
-        body.parts.push(part);
-    }
+    let (body, _) = of_equal_depths();
     let (cameras, mut random) = (cameras(), Random(9));
     let (seen, poses) = (observations(&cameras, &mut random), poses(&body, 200, &mut random));
     let expected = evaluate(&mut Reference::new(&body, &cameras), &seen, &poses);

@@ -10,8 +10,7 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use super::passes;
-use super::tests::{cameras, device, fetch, poses, recorded_fitness, set_up};
+use super::tests::{cameras, device, fetch, poses, projected, recorded_fitness};
 use super::{Comparison, Compute, Gathering, Graphics, GraphicsSettings, Packing};
 use crate::body::Body;
 use crate::evaluate::cpu::Cpu;
@@ -21,7 +20,7 @@ use crate::evaluate::{Components, Evaluator, Objective, ObjectiveKind};
 use crate::features::Observation;
 use crate::gpu::rough::rough;
 use crate::gpu::shaders::compile::compile;
-use crate::gpu::{Capabilities, DeviceSettings, Timing};
+use crate::gpu::{Capabilities, DeviceSettings};
 
 const GLSL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/glsl");
 
@@ -63,17 +62,13 @@ fn uncorrected(name: &str, _spirv: &[u32]) -> Vec<u32> {
     compile(UNCORRECTED.path(), name).unwrap().spirv
 }
 
-/// How many corners there are, and how many of them are not the reference's; the order of parts and what an image may touch count
-/// as corners too.
+/// How many corners there are, and how many of them are not the reference's; those of a part in another place of the order, or of
+/// another depth, are not.
 fn corners_off(settings: DeviceSettings, count: usize) -> Option<(usize, usize)> {
     let (device, log) = device("corners_off", settings)?;
     let body = Body::adult(1750.0).unwrap();
     let poses = poses(&body, count);
-    let (projector, scene, workspace, share) = set_up(&device, &body, &poses);
-    let mut recorder = device.recorder(Timing::Off).unwrap();
-    passes::pose(&mut recorder, &scene, &workspace, share).unwrap();
-    passes::project(&mut recorder, &scene, &workspace, share).unwrap();
-    recorder.finish().unwrap().run().unwrap();
+    let (projector, scene, workspace, _) = projected(&device, &body, &poses);
     let (views, parts) = (projector.view_count(), body.parts.len());
     let images = count * views;
     let quads: Vec<layout::Quad> = fetch(&device, &workspace.quads, images * parts);

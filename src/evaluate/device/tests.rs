@@ -126,6 +126,16 @@ pub(super) fn set_up_with(
     (projector, scene, workspace, Share { first: 0, candidates })
 }
 
+/// [`set_up`], and the poses projected.
+pub(super) fn projected(device: &Device, body: &Body, poses: &[f32]) -> (Projector, DeviceScene, Workspace, Share) {
+    let (projector, scene, workspace, share) = set_up(device, body, poses);
+    let mut recorder = device.recorder(Timing::Off).unwrap();
+    passes::pose(&mut recorder, &scene, &workspace, share).unwrap();
+    passes::project(&mut recorder, &scene, &workspace, share).unwrap();
+    recorder.finish().unwrap().run().unwrap();
+    (projector, scene, workspace, share)
+}
+
 #[test]
 fn pose_and_project_give_the_reference_s_corners() {
     let Some((device, log)) = device("pose_and_project_give_the_reference_s_corners", DeviceSettings::default()) else {
@@ -133,11 +143,7 @@ fn pose_and_project_give_the_reference_s_corners() {
     };
     let body = Body::adult(1750.0).unwrap();
     let poses = poses(&body, 300);
-    let (projector, scene, workspace, share) = set_up(&device, &body, &poses);
-    let mut recorder = device.recorder(Timing::Off).unwrap();
-    passes::pose(&mut recorder, &scene, &workspace, share).unwrap();
-    passes::project(&mut recorder, &scene, &workspace, share).unwrap();
-    recorder.finish().unwrap().run().unwrap();
+    let (projector, scene, workspace, share) = projected(&device, &body, &poses);
 
     let (views, parts) = (projector.view_count(), body.parts.len());
     let images = share.candidates as usize * views;

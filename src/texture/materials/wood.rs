@@ -46,16 +46,35 @@ impl Default for Wood {
     }
 }
 
+impl Wood {
+    /// How far in its year a point lies, by the rings from the middle to it: 0 in early wood, 1 in late.
+    pub(super) fn season(rings: f32) -> f32 {
+        let saw = 2.0 * (rings - rings.floor());
+        if saw > 1.0 { 2.0 - saw } else { saw }
+    }
+
+    /// How far in its grain a point lies, in [0, 1).
+    pub(super) fn grain(&self, space: &Space, p: [f32; 3]) -> f32 {
+        let grains = p[0] * space.whole(self.grain_scale, 0, 1.0) + p[2] * self.grain_scale + 0.5;
+        grains - grains.floor()
+    }
+
+    /// The parameters as a device takes them.
+    pub(super) fn parameters(&self) -> Vec<f32> {
+        let Self { light, dark, frequency, noisiness, scale, grain_scale, grain_threshold, .. } = *self;
+        let grain = [grain_scale, grain_threshold, self.light_grains, self.dark_grains];
+        [&light[..], &dark, &[frequency, noisiness], &scale, &grain].concat()
+    }
+}
+
 impl Solid for Wood {
     fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
         let mut n: [f32; 3] = std::array::from_fn(|k| self.noisiness * space.stretched_octave(k as u32, self.scale, p));
         let (x, z) = (space.from_trunk(p[0], 0) + n[0], p[2] + n[2]);
         let rings = (x * x + z * z).sqrt() * self.frequency + n.iter().sum::<f32>();
-        let saw = 2.0 * (rings - rings.floor());
-        let ring = if saw > 1.0 { 2.0 - saw } else { saw };
+        let ring = Self::season(rings);
         let colour = blend(self.light, self.dark, ring);
-        let grains = p[0] * space.whole(self.grain_scale, 0, 1.0) + p[2] * self.grain_scale + 0.5;
-        let grain = grains - grains.floor();
+        let grain = self.grain(space, p);
         n[2] *= grain;
         let (tone, change) = if grain < self.grain_threshold {
             (self.light, self.light_grains * n[2])
@@ -69,8 +88,6 @@ impl Solid for Wood {
     }
 
     fn numbers(&self) -> Option<(u32, Vec<f32>)> {
-        let Self { light, dark, frequency, noisiness, scale, grain_scale, grain_threshold, .. } = *self;
-        let grain = [grain_scale, grain_threshold, self.light_grains, self.dark_grains];
-        Some((MATERIAL_WOOD, [&light[..], &dark, &[frequency, noisiness], &scale, &grain].concat()))
+        Some((MATERIAL_WOOD, self.parameters()))
     }
 }
