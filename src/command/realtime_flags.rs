@@ -22,6 +22,9 @@ pub(super) struct RealtimeFlags {
     /// How old a pose may be when it is out, ms from the capture: particles, then iterations are given up to hold it.
     #[arg(long, value_name = "MS", requires = "realtime")]
     deadline: Option<f64>,
+    /// Let every pose wait for so many frames after it, and search it again with them known: later, and steadier.
+    #[arg(long, value_name = "FRAMES", default_value_t = 0, requires = "realtime")]
+    delay: usize,
 }
 
 impl RealtimeFlags {
@@ -34,7 +37,7 @@ impl RealtimeFlags {
             return Ok(None);
         }
         let deadline = self.deadline.map(|ms| duration("the deadline, ms,", ms / 1e3)).transpose()?;
-        Ok(Some(RealtimeSettings { rate: self.rate, repeat: self.repeat, deadline }))
+        Ok(Some(RealtimeSettings { rate: self.rate, repeat: self.repeat, deadline, delay: self.delay }))
     }
 }
 

@@ -65,7 +65,7 @@ pub(super) trait Pace {
     }
 
     /// Takes note of a search.
-    fn searched(&mut self, _evaluations: usize, _whole: Span) {}
+    fn searched(&mut self, _frame: usize, _evaluations: usize, _whole: Span) {}
 
     /// Gives a pose out at once to those who wait for it.
     ///

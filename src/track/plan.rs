@@ -42,6 +42,7 @@ impl Plan {
     /// With `backend` in place of the settings'.
     pub(super) fn new(sequence: &Sequence, settings: &TrackSettings, backend: Backend) -> Result<Self> {
         settings.check()?;
+        settings.realtime.as_ref().map(|realtime| realtime.time_to_search(sequence)).transpose()?;
         let name = sequence.path.display().to_string();
         let range = settings.frames.within(sequence.frame_count, &name)?;
         // Frames are counters of the random numbers.

@@ -202,6 +202,7 @@ struct Realtime {
     rate: f64,
     r#loop: String,
     deadline: String,
+    delay: usize,
 }
 
 impl<'a> Settings<'a> {
@@ -212,6 +213,7 @@ impl<'a> Settings<'a> {
             rate: realtime.rate,
             r#loop: realtime.repeat.to_string(),
             deadline: realtime.deadline.map_or_else(|| "none".to_string(), |time| format!("{time:?}")),
+            delay: realtime.delay,
         };
         Ok(Self {
             frames: format!("{}..{}", plan.range.start, plan.range.end),

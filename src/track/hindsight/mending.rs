@@ -41,7 +41,7 @@ impl<'a> Mending<'a> {
     /// # Errors
     /// When the evaluator fails.
     pub(super) fn mend(&mut self, seen: &[&Seen], given: &[Vec<f32>], before: &[Settled]) -> Result<Vec<Settled>> {
-        let spread = self.widths(given);
+        let spread = widths(&self.steps, given);
         // What was given stays a candidate.
         let mut candidates: Vec<Vec<Candidate>> = Vec::with_capacity(seen.len());
         for (seen, pose) in seen.iter().zip(given) {
@@ -59,24 +59,24 @@ impl<'a> Mending<'a> {
         }
         let path = choose(&candidates, before);
         let mut poses: Vec<Settled> = before.to_vec();
-        for (candidates, &chosen) in candidates.iter().zip(&path) {
+        for ((seen, candidates), &chosen) in seen.iter().zip(&candidates).zip(&path) {
             let Candidate { pose, points, .. } = &candidates[chosen];
-            poses.push(Settled { pose: pose.clone(), points: points.clone() });
+            poses.push(Settled { frame: seen.index, pose: pose.clone(), points: points.clone() });
         }
         refining::refine(&mut self.scorer, seen, &spread, &mut poses, self.reach)?;
         poses.drain(..before.len());
         Ok(poses)
     }
+}
 
-    /// How wide to search around a track: by how much its degrees of freedom change.
-    fn widths(&self, track: &[Vec<f32>]) -> Vec<f32> {
-        let width = |(d, step): (usize, &f32)| {
-            let squares = track.windows(2).map(|pair| (pair[1][d] - pair[0][d]).powi(2));
-            let change = (squares.sum::<f32>() / track.len().max(2) as f32).sqrt();
-            (WIDTH * change).clamp(WIDTHS[0] * step, WIDTHS[1] * step)
-        };
-        self.steps.iter().enumerate().map(width).collect()
-    }
+/// How wide to search around a track: by how much its degrees of freedom change, and by the body's steps.
+pub(super) fn widths(steps: &[f32], track: &[Vec<f32>]) -> Vec<f32> {
+    let width = |(d, step): (usize, &f32)| {
+        let squares = track.windows(2).map(|pair| (pair[1][d] - pair[0][d]).powi(2));
+        let change = (squares.sum::<f32>() / track.len().max(2) as f32).sqrt();
+        (WIDTH * change).clamp(WIDTHS[0] * step, WIDTHS[1] * step)
+    };
+    steps.iter().enumerate().map(width).collect()
 }
 
 /// The path through the candidates, going on from the frames before.

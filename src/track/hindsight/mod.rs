@@ -2,6 +2,7 @@
 //! and forwards make several poses a frame, the path through them that is worth most is taken, and then every frame is searched again
 //! close to where its neighbours expect it.
 
+mod delayed;
 mod hypotheses;
 mod mending;
 mod path;
@@ -14,6 +15,7 @@ mod window;
 use anyhow::{Context, Result};
 use image::RgbImage;
 
+pub(super) use self::delayed::Delayed;
 use self::mending::Mending;
 use self::refining::Settled;
 use self::scorer::Scorer;
@@ -24,6 +26,8 @@ use super::confidence::JointProbe;
 use super::feed::Frames;
 use super::journal::FrameResult;
 use super::plan::Plan;
+use crate::evaluate::{Evaluator, Objective};
+use crate::features::Observation;
 
 /// What the second pass works on.
 pub(super) struct Hindsight<'a> {
@@ -72,19 +76,7 @@ impl Hindsight<'_> {
             let count = windows.settled();
             for ((seen, frame), first) in seen.iter().zip(&settled).zip(&forward[done..]).take(count) {
                 let evaluator = &mut *mending.scorer.evaluator;
-                evaluator.observe(&seen.observations)?;
-                let mut fitness = [0.0];
-                evaluator.fitness(&frame.pose, objective, &mut fitness)?;
-                let views = evaluator.view_counts(&frame.pose, objective)?;
-                let result = FrameResult {
-                    frame: seen.index,
-                    fitness: fitness[0],
-                    views: views.iter().map(|view| objective.view_terms(view)).collect(),
-                    joints: self.probe.ask(evaluator, objective, &seen.observations, &frame.pose)?,
-                    pose: frame.pose.clone(),
-                    // Searches from neighbours on are narrow whatever the pictures say: how sure they are the first one tells.
-                    spread: first.spread.clone(),
-                };
+                let result = result(evaluator, objective, self.probe, &seen.observations, frame, first)?;
                 if !take(result, seen.pictures.as_deref())? {
                     return Ok(());
                 }
@@ -96,6 +88,30 @@ impl Hindsight<'_> {
             done += count;
         }
     }
+}
+
+/// The result of a frame that was searched again, from that of its first search.
+fn result(
+    evaluator: &mut dyn Evaluator,
+    objective: &Objective,
+    probe: &JointProbe,
+    observations: &[Observation],
+    settled: &Settled,
+    first: &FrameResult,
+) -> Result<FrameResult> {
+    evaluator.observe(observations)?;
+    let mut fitness = [0.0];
+    evaluator.fitness(&settled.pose, objective, &mut fitness)?;
+    let views = evaluator.view_counts(&settled.pose, objective)?;
+    Ok(FrameResult {
+        frame: settled.frame,
+        fitness: fitness[0],
+        views: views.iter().map(|view| objective.view_terms(view)).collect(),
+        joints: probe.ask(evaluator, objective, observations, &settled.pose)?,
+        pose: settled.pose.clone(),
+        // Searches from neighbours on are narrow whatever the pictures say: how sure they are the first one tells.
+        spread: first.spread.clone(),
+    })
 }
 
 #[cfg(test)]

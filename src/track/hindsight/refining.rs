@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::scorer::{Effort, Pull, Scorer, most_under};
 use super::window::Seen;
+use crate::features::Observation;
 
 /// Times that every frame is searched again, and generations of that.
 const ROUNDS: usize = 2;
@@ -24,6 +25,8 @@ const MOVING: f64 = 0.4;
 /// A frame's pose and its joints.
 #[derive(Clone, Debug)]
 pub(super) struct Settled {
+    /// Its number.
+    pub(super) frame: usize,
     pub(super) pose: Vec<f32>,
     pub(super) points: Vec<DVec3>,
 }
@@ -87,19 +90,49 @@ pub(super) fn refine(
         for t in order {
             scorer.observe(&seen[t].observations)?;
             let at = first + t;
-            let Expected { mut pose, pull } = expected(poses, at, reach);
-            scorer.space.clamp(&mut pose);
-            let half = pose.iter().zip(&poses[at].pose).map(|(a, b)| 0.5 * (a + b)).collect();
-            let starts = [poses[at].pose.clone(), half, pose];
-            let start = most_under(&scorer.candidates(&starts)?, Some(&pull));
-            let generations = scorer.generations(REFINED);
-            let effort = Effort { spread: &narrow, generations, turn: 200 + round as u64 };
-            let found = scorer.search_all(seen[t].index, &starts[start], effort, Some(&pull))?;
-            let points = scorer.shape.points(&found.pose);
-            poses[at] = Settled { pose: found.pose, points };
+            poses[at] = beside(scorer, &narrow, poses, at, reach, round)?;
         }
     }
     Ok(())
+}
+
+/// Searches a frame that waited for those after it again; `at` is its place among the frames known around it.
+///
+/// # Errors
+/// When the evaluator fails.
+pub(super) fn refine_one(
+    scorer: &mut Scorer<'_>,
+    observations: &[Observation],
+    spread: &[f32],
+    poses: &[Settled],
+    at: usize,
+    reach: usize,
+) -> Result<Settled> {
+    scorer.observe(observations)?;
+    let narrow: Vec<f32> = spread.iter().map(|spread| NARROW * spread).collect();
+    beside(scorer, &narrow, poses, at, reach, 0)
+}
+
+/// What a search of frame `at`, which is observed, finds close to where the frames around it expect it.
+fn beside(
+    scorer: &mut Scorer<'_>,
+    narrow: &[f32],
+    poses: &[Settled],
+    at: usize,
+    reach: usize,
+    round: usize,
+) -> Result<Settled> {
+    let Expected { mut pose, pull } = expected(poses, at, reach);
+    scorer.space.clamp(&mut pose);
+    let half = pose.iter().zip(&poses[at].pose).map(|(a, b)| 0.5 * (a + b)).collect();
+    let starts = [poses[at].pose.clone(), half, pose];
+    let start = most_under(&scorer.candidates(&starts)?, Some(&pull));
+    let generations = scorer.generations(REFINED);
+    let effort = Effort { spread: narrow, generations, turn: 200 + round as u64 };
+    let frame = poses[at].frame;
+    let found = scorer.search_all(frame, &starts[start], effort, Some(&pull))?;
+    let points = scorer.shape.points(&found.pose);
+    Ok(Settled { frame, pose: found.pose, points })
 }
 
 /// What the frames around a frame expect of it.
@@ -109,11 +142,11 @@ struct Expected {
     pull: Pull,
 }
 
-/// What is expected of frame `at` of frames in a row, from those up to `reach` frames away.
+/// What is expected of the frame at `at`, from those up to `reach` places away.
 fn expected(poses: &[Settled], at: usize, reach: usize) -> Expected {
     let range = at.saturating_sub(reach)..(at + reach + 1).min(poses.len());
     let around: Vec<usize> = range.filter(|&t| t != at).collect();
-    let places: Vec<f64> = around.iter().map(|&t| t as f64 - at as f64).collect();
+    let places: Vec<f64> = around.iter().map(|&t| poses[t].frame as f64 - poses[at].frame as f64).collect();
     let weights = weights(&places);
     let mut pose = vec![0.0; poses[at].pose.len()];
     let mut targets = vec![DVec3::ZERO; poses[at].points.len()];
@@ -134,7 +167,8 @@ fn speed(poses: &[Settled], joint: usize, around: &[usize]) -> f64 {
     // The longer of the two halves: at a turning point the whole way is short.
     let middle = (first + last) / 2;
     let way = |a: usize, b: usize| {
-        if a == b { 0.0 } else { poses[a].points[joint].distance(poses[b].points[joint]) / (b - a) as f64 }
+        let frames = poses[b].frame - poses[a].frame;
+        if frames == 0 { 0.0 } else { poses[a].points[joint].distance(poses[b].points[joint]) / frames as f64 }
     };
     way(first, middle).max(way(middle, last))
 }

@@ -60,7 +60,15 @@ pub(super) struct Realtime {
     timeline: Arc<Timeline>,
     rows: Rows,
     /// The search of the frame in work and the time after it.
-    searched: Option<(Span, Instant)>,
+    searched: Option<Searched>,
+}
+
+/// The search of a frame.
+#[derive(Clone, Copy)]
+struct Searched {
+    frame: usize,
+    begin: Instant,
+    end: Instant,
 }
 
 impl Realtime {
@@ -89,7 +97,7 @@ impl Realtime {
             settings: realtime.clone(),
             stall_timeout: settings.stall_timeout,
             rounds,
-            budget: Budget::new(asked, realtime.deadline),
+            budget: Budget::new(asked, realtime.time_to_search(sequence)?),
             tally: Tally::default(),
             counts: Arc::default(),
             timeline: Arc::default(),
@@ -153,19 +161,26 @@ impl Pace for Realtime {
         self.rounds.are_together(before, frame)
     }
 
-    fn searched(&mut self, evaluations: usize, whole: Span) {
+    fn searched(&mut self, frame: usize, evaluations: usize, whole: Span) {
         self.budget.searched(evaluations, whole.time);
         self.tally.searched(evaluations);
-        self.searched = Some((whole, Instant::now()));
+        self.searched = Some(Searched { frame, begin: whole.start, end: Instant::now() });
     }
 
     /// Adds the rows of the tables; the age of the pose is taken then.
     fn deliver(&mut self, body: &Body, result: &FrameResult, captured: Option<Instant>) -> Result<()> {
         self.rows.append(body, result)?;
-        if let (Some((span, after)), Some(captured)) = (self.searched.take(), captured) {
+        if let Some(captured) = captured {
             self.tally.deliver(captured, self.settings.deadline);
-            self.budget.delivered(after.elapsed());
-            self.timeline.worked(Row::Tracking, result.frame, Span::since(span.start));
+        }
+        let Some(Searched { frame, begin, end }) = self.searched.take() else { return Ok(()) };
+        self.budget.delivered(end.elapsed());
+        if result.frame == frame {
+            self.timeline.worked(Row::Tracking, frame, Span::since(begin));
+        } else {
+            // What waited is at work once more.
+            self.timeline.worked(Row::Tracking, frame, Span { start: begin, time: end - begin });
+            self.timeline.worked(Row::Tracking, result.frame, Span::since(end));
         }
         Ok(())
     }

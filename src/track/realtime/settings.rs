@@ -6,6 +6,8 @@ use std::time::Duration;
 
 use anyhow::{Result, anyhow, ensure};
 
+use crate::sequence::Sequence;
+
 /// How a run keeps time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RealtimeSettings {
@@ -16,11 +18,16 @@ pub struct RealtimeSettings {
     /// How old a pose may be when it is out, counted from the capture of its pictures; without, every frame gets the whole
     /// search.
     pub deadline: Option<Duration>,
+    /// Frames that a pose waits for: it is searched again with them known (METHOD A14), and out that much later.
+    pub delay: usize,
 }
+
+/// Frames that a pose may wait for: beyond them nothing tells of it.
+const LONGEST_DELAY: usize = 60;
 
 impl Default for RealtimeSettings {
     fn default() -> Self {
-        Self { rate: 1.0, repeat: Repeat::default(), deadline: None }
+        Self { rate: 1.0, repeat: Repeat::default(), deadline: None, delay: 0 }
     }
 }
 
@@ -35,14 +42,37 @@ impl RealtimeSettings {
             let ms = deadline.as_secs_f64() * 1e3;
             ensure!((1.0..=10_000.0).contains(&ms), "the deadline is {ms} ms, expected 1 to 10000");
         }
+        ensure!(self.delay <= LONGEST_DELAY, "the delay is {} frames, expected 0 to {LONGEST_DELAY}", self.delay);
         Ok(())
+    }
+
+    /// Of the deadline, what the frames that a pose waits for leave; without a deadline none.
+    ///
+    /// # Errors
+    /// When they leave nothing.
+    pub(crate) fn time_to_search(&self, sequence: &Sequence) -> Result<Option<Duration>> {
+        let rate = if sequence.is_live() { 1.0 } else { self.rate };
+        let waits = self.delay as f64 / (sequence.fps * rate);
+        let left = |deadline: Duration| {
+            let left = deadline.as_secs_f64() - waits;
+            ensure!(
+                left > 0.0,
+                "the deadline is {} ms, but a delay of {} frames alone takes {:.1} ms, expected a longer one or a shorter delay",
+                deadline.as_secs_f64() * 1e3,
+                self.delay,
+                waits * 1e3
+            );
+            Ok(Duration::from_secs_f64(left))
+        };
+        self.deadline.map(left).transpose()
     }
 
     /// The flags that ask for it.
     pub(crate) fn flags(&self) -> String {
         let deadline =
             self.deadline.map(|time| format!(" --deadline {}", time.as_secs_f64() * 1e3)).unwrap_or_default();
-        format!(" --realtime --rate {} --loop {}{deadline}", self.rate, self.repeat)
+        let delay = if self.delay > 0 { format!(" --delay {}", self.delay) } else { String::new() };
+        format!(" --realtime --rate {} --loop {}{deadline}{delay}", self.rate, self.repeat)
     }
 }
 

@@ -106,6 +106,7 @@ impl Tally {
             },
             deadline_ms: settings.deadline.map(|deadline| deadline.as_secs_f64() * 1e3),
             in_time: settings.deadline.map(|_| share(self.in_time)),
+            delay: settings.delay,
             evaluations: share(self.evaluations),
             drops: Drops {
                 acquisition: get(&counts.unmatched),
@@ -137,7 +138,9 @@ pub struct RealtimeSummary {
     pub deadline_ms: Option<f64>,
     /// Share of the poses that were no older, in [0, 1].
     pub in_time: Option<f64>,
-    /// Evaluations a pose, on average.
+    /// Frames that a pose waited for.
+    pub delay: usize,
+    /// Evaluations of a frame's first search, on average.
     pub evaluations: f64,
     /// What was left out, by the module that passed it over.
     pub drops: Drops,

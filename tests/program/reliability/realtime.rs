@@ -7,6 +7,7 @@ use pantin::motion::{read_bvh, read_points};
 
 use super::{command, journalled, track};
 use crate::support::{has_vulkan, refused, sequence, stderr, succeeded};
+use crate::walk;
 
 const FEW: [&str; 7] = ["--realtime", "--backend", "cpu", "--particles", "100", "--iterations", "8"];
 
@@ -88,11 +89,62 @@ fn a_deadline_is_held_by_fewer_poses() {
     assert!(account["evaluations"].as_f64().unwrap() < 3500.0, "{account}");
 }
 
+/// How far joints are from the middle of where they are a frame before and after, mm, on average, within the rounds of a loop.
+fn jitter(output: &std::path::Path) -> f64 {
+    let points = read_points(&output.join("joints.csv")).unwrap();
+    let mut sum = (0.0, 0.0);
+    for (at, three) in points.frames.windows(3).enumerate() {
+        if at % walk::FRAMES + 3 > walk::FRAMES {
+            continue;
+        }
+        for ((a, b), c) in three[0].iter().zip(&three[1]).zip(&three[2]) {
+            if let (Some(a), Some(b), Some(c)) = (a, b, c) {
+                sum = (sum.0 + (*a + *c - 2.0 * *b).length() / 2.0, sum.1 + 1.0);
+            }
+        }
+    }
+    sum.0 / sum.1
+}
+
+/// With a delay no frame is lost, none is out before the frames it waits for, none long after them, and what they tell is used.
+#[test]
+fn a_delay_makes_poses_later_and_steadier() {
+    let folder = tempfile::tempdir().unwrap();
+    // 200 ms a frame: slowly enough for a loaded machine to take most.
+    let of = |delay: &str| {
+        let output = folder.path().join(delay);
+        let more = ["--rate", "0.2", "--loop", "4", "--deadline", "900", "--delay", delay];
+        succeeded(&track(sequence(), &output, &[&FEW[..], &more].concat()));
+        let account = account(&output);
+        let drops = &account["drops"];
+        let dropped = drops["processing"].as_u64().unwrap() + drops["tracking"].as_u64().unwrap();
+        assert_eq!(account["poses"].as_u64().unwrap() + dropped, 24, "{account}");
+        let body = Body::load(&sequence().join("body.toml")).unwrap();
+        let frames = PoseTable::read(&output.join("poses.csv"), &body).unwrap().frames;
+        assert!(frames.len() == journalled(&output) && frames.is_sorted_by(|a, b| a < b), "{frames:?}");
+        let age = |name: &str| account["latency_ms"][name].as_f64().unwrap();
+        (jitter(&output), age("p50"), account["delay"].as_u64().unwrap(), dropped)
+    };
+    let [(now, soon, none, lost), (later, late, two, also_lost)] = ["0", "2"].map(of);
+    println!("jitter {now:.2} mm at {soon:.0} ms, {later:.2} mm at {late:.0} ms; {lost} and {also_lost} passed over");
+    assert_eq!([none, two], [0, 2]);
+    assert!(late > 2.0 * 200.0 && late > soon + 300.0, "{soon} and {late} ms");
+    if lost + also_lost == 0 {
+        assert!(later < 0.9 * now, "jitter {now} and {later} mm");
+    }
+}
+
 #[test]
 fn killed_in_real_time_it_keeps_its_rows_and_goes_on() {
+    for delay in ["0", "3"] {
+        killed_it_goes_on(delay);
+    }
+}
+
+fn killed_it_goes_on(delay: &str) {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("track");
-    let more = [&FEW[..], &["--loop", "20"]].concat();
+    let more = [&FEW[..], &["--loop", "20", "--delay", delay]].concat();
     let mut child = command(sequence(), &output, &more).stderr(std::process::Stdio::null()).spawn().unwrap();
     let begin = std::time::Instant::now();
     while journalled(&output) < 4 {
@@ -142,15 +194,22 @@ fn wrong_requests_are_sentences() {
     refused(&run(&["--realtime", "--rate", "0"]), &["rate is 0"]);
     refused(&run(&["--realtime", "--deadline", "0.1"]), &["the deadline is 0.1 ms, expected 1 to 10000"]);
     refused(&run(&["--realtime", "--deadline=-5"]), &["the deadline, ms, is no length of time"]);
+    refused(&run(&["--realtime", "--delay", "61"]), &["the delay is 61 frames, expected 0 to 60"]);
+    let parts = ["the deadline is 40 ms, but a delay of 5 frames alone takes 200.0 ms"];
+    refused(&run(&["--realtime", "--deadline", "40", "--delay", "5"]), &parts);
     refused(&run(&["--stall-timeout", "0"]), &["the stall time-out is 0 s"]);
     refused(&run(&["--realtime", "--deadline", "40", "--search", "pf"]), &["--search pf cannot: expected maes or pso"]);
     refused(
         &run(&["--realtime", "--loop", "1000000", "--rate", "1", "--frames", "0..6", "--start", "none"]),
         &["none"],
     );
-    for wrong in
-        [&["--rate", "2"][..], &["--deadline", "40"], &["--realtime", "--loop", "0"], &["--realtime", "--loop", "xs"]]
-    {
+    for wrong in [
+        &["--rate", "2"][..],
+        &["--deadline", "40"],
+        &["--delay", "2"],
+        &["--realtime", "--loop", "0"],
+        &["--realtime", "--loop", "xs"],
+    ] {
         assert_eq!(run(wrong).status.code(), Some(2), "{wrong:?}");
     }
 }

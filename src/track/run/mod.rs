@@ -1,28 +1,27 @@
 //! A run in work: its frames searched one after the other, what is learnt from each, and the results at its end.
 
+mod delayed;
+mod finish;
+
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow};
-use serde_json::json;
 
 use super::appearance::RunAppearance;
 use super::confidence::{Confidence, JointProbe, LossRule};
 use super::feed::{Frames, Prepared};
-use super::hindsight::Hindsight;
-use super::journal::{Extent, FrameResult, Journal};
+use super::hindsight::{Delayed, Hindsight};
+use super::journal::{FrameResult, Journal};
 use super::motion::LearntMotion;
 use super::overlay::Overlay;
-use super::pace::{Finished, Pace, Turn};
+use super::pace::{Pace, Turn};
 use super::plan::Plan;
 use super::progress::{FrameDone, Progress, RunStart};
 use super::recovery::{LostFrame, Recovery};
-use super::results::Held;
-use super::run_record::RunRecord;
 use super::searcher::{Searched, Start};
-use super::summary::{TrackSummary, lost_sentence, mean};
 use super::timings::{Span, Thread, Timings};
 use super::truth::Truth;
-use super::{Passes, Prediction, TrackSettings, Width, results};
+use super::{Passes, Prediction, TrackSettings, Width};
 use crate::evaluate::{Evaluator, ViewCounts};
 use crate::files::OutputFolder;
 use crate::gpu::DeviceLost;
@@ -55,6 +54,17 @@ pub(super) struct Run<'a> {
     is_stopped: bool,
     /// How the person moves, where a search starts by that.
     motion: LearntMotion,
+    /// The frames that wait for those after them, where there is a delay.
+    delayed: Option<Delayed>,
+}
+
+/// What a frame's result is taken for.
+#[derive(Clone, Copy)]
+struct Judged {
+    confidence: f64,
+    is_lost: bool,
+    /// Whether its pose is left out of the results.
+    is_gap: bool,
 }
 
 impl<'a> Run<'a> {
@@ -77,12 +87,15 @@ impl<'a> Run<'a> {
         let appearance = plan.features.likelihoods.then(|| RunAppearance::new(body, cameras));
         let motion =
             LearntMotion::new(plan.space.spread(1.0 / sequence.fps)?, settings.prediction() == Prediction::Learnt);
+        let delay = settings.realtime.as_ref().map_or(0, |realtime| realtime.delay);
+        let delayed = (delay > 0).then(|| Delayed::new(body, sequence.fps, delay));
         Ok(Self {
             confidence: Confidence::new(body, LossRule::default()),
             probe: JointProbe::new(body, cameras),
             recovery,
             appearance,
             motion,
+            delayed,
             sequence,
             settings,
             output,
@@ -125,14 +138,15 @@ impl<'a> Run<'a> {
         for result in done {
             let values: Vec<f64> = result.pose.iter().map(|value| f64::from(*value)).collect();
             self.plan.body.check_limits(&values).with_context(|| format!("{name}, frame {}", result.frame))?;
-            self.judge(&result);
+            let judged = self.judge(&result);
+            self.running_error(&result, judged);
             self.keep(result);
         }
         Ok(())
     }
 
-    /// Takes note of a frame that is done: its confidence, and the mean error so far.
-    fn judge(&mut self, result: &FrameResult) -> (f64, Option<f64>) {
+    /// Takes note of a frame that is searched: how sure it is.
+    fn judge(&mut self, result: &FrameResult) -> Judged {
         let confidence = self.confidence.next(result);
         if confidence.is_lost {
             self.lost.push(result.frame);
@@ -144,8 +158,7 @@ impl<'a> Run<'a> {
             recovery.note(&result.pose, confidence.is_lost);
             is_gap = confidence.is_lost;
         }
-        let error = if is_gap { None } else { self.running_error(result) };
-        (confidence.confidence, error)
+        Judged { confidence: confidence.confidence, is_lost: confidence.is_lost, is_gap }
     }
 
     fn journal_name(&self) -> String {
@@ -161,8 +174,13 @@ impl<'a> Run<'a> {
         self.done += 1;
     }
 
+    /// [`Self::error_up_to`] a frame; none where it is a gap.
+    fn running_error(&mut self, result: &FrameResult, judged: Judged) -> Option<f64> {
+        if judged.is_gap { None } else { self.error_up_to(result) }
+    }
+
     /// Mean error against the truth up to and with this frame, mm.
-    fn running_error(&mut self, result: &FrameResult) -> Option<f64> {
+    fn error_up_to(&mut self, result: &FrameResult) -> Option<f64> {
         let frame = self.pace.in_sequence(result.frame);
         self.truth.as_mut()?.running_error(&self.plan.body, frame, &result.pose, self.sequence.fps)
     }
@@ -178,9 +196,16 @@ impl<'a> Run<'a> {
         }
         let mut feed =
             self.pace.feed(self.sequence, &self.plan, if learns_again { self.plan.range.start } else { next })?;
+        let searched = self.search_each(feed.as_mut(), next, progress);
+        // What waits for frames that do not come goes out with what there is.
+        let given = self.give_out_all();
+        searched.and(given)
+    }
+
+    fn search_each(&mut self, feed: &mut dyn Frames, next: usize, progress: &mut dyn Progress) -> Result<()> {
         loop {
             let start = Instant::now();
-            let Some(mut prepared) = feed.next()? else { break };
+            let Some(mut prepared) = feed.next()? else { return Ok(()) };
             let waited = Span::since(start);
             let frame = prepared.index;
             self.observe(&mut prepared)?;
@@ -191,13 +216,16 @@ impl<'a> Run<'a> {
             }
             self.note_features(&prepared, waited)?;
             let result = self.search(&prepared)?;
-            let done = self.finish_frame(&prepared, result)?;
+            let done = if self.delayed.is_some() {
+                self.delay(prepared, result)?
+            } else {
+                self.finish_frame(&prepared, result)?
+            };
             progress.frame(&done);
             if progress.should_stop() {
-                break;
+                return Ok(());
             }
         }
-        Ok(())
     }
 
     /// Goes over all frames again, now that what comes after each is known; not where the run was stopped before its last.
@@ -269,23 +297,39 @@ impl<'a> Run<'a> {
 
     /// Keeps a frame's result, gives it out and learns from it.
     pub(super) fn finish_frame(&mut self, prepared: &Prepared, result: FrameResult) -> Result<FrameDone> {
-        let frame = prepared.index;
         let start = Instant::now();
+        self.give_out(prepared, &result)?;
+        self.timings.record("output", Thread::Search, prepared.index, Span::since(start))?;
+        let judged = self.judge(&result);
+        let mean_error = self.running_error(&result, judged);
+        self.learn(prepared, &result)?;
+        Ok(self.done_with(result, judged, mean_error))
+    }
+
+    /// Writes what a frame came to, for those who wait for it.
+    fn give_out(&mut self, prepared: &Prepared, result: &FrameResult) -> Result<()> {
+        let frame = prepared.index;
         // The second pass draws its own.
         let is_last = self.settings.passes() == Passes::Forward;
         if is_last && self.settings.overlay_every > 0 && frame.is_multiple_of(self.settings.overlay_every) {
             let overlay = Overlay::new(&self.plan.body, self.plan.mesh.as_ref(), &self.sequence.cameras)?;
             overlay.write(self.output, frame, &prepared.pictures, &result.pose)?;
         }
-        self.journal.append(&result)?;
-        self.pace.deliver(&self.plan.body, &result, prepared.captured)?;
-        self.timings.record("output", Thread::Search, frame, Span::since(start))?;
-        let (confidence, mean_error) = self.judge(&result);
-        let fitness = result.fitness;
-        self.learn(prepared, &result)?;
+        self.journal.append(result)?;
+        self.pace.deliver(&self.plan.body, result, prepared.captured)
+    }
+
+    /// Keeps a frame's result for the frames after it.
+    fn done_with(
+        &mut self,
+        result: FrameResult,
+        Judged { confidence, .. }: Judged,
+        mean_error: Option<f64>,
+    ) -> FrameDone {
+        let (frame, fitness) = (result.frame, result.fitness);
         self.keep(result);
         self.pace.judge(fitness, confidence);
-        Ok(FrameDone { frame, done: frame + 1 - self.plan.range.start, fitness, confidence, mean_error })
+        FrameDone { frame, done: frame + 1 - self.plan.range.start, fitness, confidence, mean_error }
     }
 
     /// Learns the person's colours from a frame, unless she is lost in it.
@@ -410,7 +454,7 @@ impl<'a> Run<'a> {
         let Searched { estimate, evaluations, passes, .. } = searched;
 
         let whole = Span::since(begin);
-        self.pace.searched(estimate.evaluations, whole);
+        self.pace.searched(frame, estimate.evaluations, whole);
         self.timings.trace("frame", Thread::Search, frame, whole)?;
         for evaluation in &evaluations {
             self.timings.trace("evaluate", Thread::Search, frame, *evaluation)?;
@@ -420,70 +464,5 @@ impl<'a> Run<'a> {
         self.timings.record_passes(frame, &passes)?;
         self.timings.count("search", whole.time.saturating_sub(evaluating));
         Ok(found)
-    }
-
-    /// Writes the results, unless the run was stopped.
-    pub(super) fn finish(self, record: &RunRecord, warnings: Vec<String>) -> Result<TrackSummary> {
-        let (sequence, output, body) = (self.sequence, self.output, &self.plan.body);
-        let next = self.next_frame();
-        let is_stopped = self.is_stopped || next < self.plan.range.end;
-        let stopped_before = (!self.pace.ends_anywhere() && is_stopped).then_some(next);
-        let extent = Extent::of(body, &sequence.cameras);
-        let frames = self.pace.all_frames(self.frames, &output.path().join(Journal::NAME), extent, self.done)?;
-        let confidences = Confidence::of_all(body, LossRule::default(), &frames);
-        let held = Held::new(&frames, &confidences, self.recovery.is_some());
-        let mut summary = TrackSummary {
-            first_frame: self.plan.range.start,
-            new_frames: 0,
-            frames_per_second: 0.0,
-            mean_fitness: mean(frames.iter().map(|result| f64::from(result.fitness))),
-            mean_confidence: mean(confidences.iter().map(|frame| frame.confidence)),
-            error: None,
-            timings: Vec::new(),
-            backend: [self.plan.backend.evaluator.name(), self.plan.backend.evaluator.variant()],
-            warnings,
-            stopped_before,
-            realtime: None,
-            frames,
-        };
-        let has_passes = self.timings.has_device_passes();
-        summary.timings = self.timings.finish()?;
-        if self.settings.trace && summary.timings.iter().any(|timing| timing.name == "search") && !has_passes {
-            let [name, variant] = summary.backend;
-            summary.warnings.push(format!("the trace holds no device passes: {name} ({variant}) told of none"));
-        }
-        // Per frame: waiting for the features, searching, writing; the rest runs beside it.
-        let busy: f64 = ["wait", "evaluate", "search", "output", "hindsight"]
-            .iter()
-            .filter_map(|name| summary.timings.iter().find(|timing| timing.name == *name))
-            .map(|timing| timing.total)
-            .sum();
-        let searched = summary.timings.iter().find(|timing| timing.name == "search").map_or(0, |timing| timing.count);
-        summary.new_frames = searched as usize;
-        summary.frames_per_second = if busy > 0.0 { searched as f64 / busy * 1e3 } else { 0.0 };
-        if stopped_before.is_some() {
-            return Ok(summary);
-        }
-        summary.warnings.extend(lost_sentence(&held.runs(), summary.frames.len()));
-        if !summary.frames.is_empty() {
-            results::write(output, body, &sequence.cameras, &summary.frames, &confidences, &held, sequence.fps)?;
-        }
-        // A finished run that is gone on with has no times to tell; those of the run that did the work stay.
-        if summary.new_frames > 0 || !output.path().join("stages.json").exists() {
-            output.write("stages.json", |writer| {
-                let object = json!({
-                    "unit": "ms",
-                    "frames": summary.new_frames,
-                    "frames_per_second": summary.frames_per_second,
-                    "stages": summary.timings,
-                });
-                Ok(serde_json::to_writer_pretty(writer, &object)?)
-            })?;
-        }
-        let (settings, truth, done) = (self.settings, self.truth.as_ref(), self.done);
-        let run =
-            Finished { sequence, settings, output, body, confidences: &confidences, held: &held, truth, record, done };
-        self.pace.close(&run, &mut summary)?;
-        Ok(summary)
     }
 }
