@@ -33,7 +33,7 @@ impl Axis {
             Self::Sequence => run.sequence.clone(),
             Self::Backend => run.backend.to_string(),
             Self::Model => run.model.to_string(),
-            Self::Objective => run.objective.to_string(),
+            Self::Objective => run.objective_name().to_string(),
             Self::Search => run.search.to_string(),
             Self::Particles => run.particles.to_string(),
             Self::Iterations => run.iterations.to_string(),

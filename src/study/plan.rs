@@ -19,7 +19,7 @@ impl Study {
                 let spread = sequence.spread.unwrap_or(self.spread);
                 for &backend in &self.backends {
                     for &model in &self.models {
-                        for &objective in &self.objectives {
+                        for objective in self.objectives() {
                             for &search in &self.searches {
                                 for &particles in &self.particles {
                                     for &iterations in &self.iterations {

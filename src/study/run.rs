@@ -17,8 +17,9 @@ pub struct Run {
     pub backend: Backend,
     /// What the body is drawn as.
     pub model: Model,
-    /// The objective function.
-    pub objective: ObjectiveKind,
+    /// The objective function, if not the one that `track` takes for this search and sequence.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub objective: Option<ObjectiveKind>,
     /// How poses are searched.
     pub search: SearchKind,
     /// Poses scored at once.
@@ -37,9 +38,15 @@ pub struct Run {
 }
 
 impl Run {
+    /// The name of its objective function.
+    pub(super) fn objective_name(&self) -> &'static str {
+        self.objective.map_or("usual", ObjectiveKind::name)
+    }
+
     /// The name of its folder.
     pub fn folder(&self) -> String {
-        let Self { sequence, backend, model, objective, search, particles, iterations, seed, .. } = self;
+        let objective = self.objective_name();
+        let Self { sequence, backend, model, search, particles, iterations, seed, .. } = self;
         format!("{sequence}_{backend}_{model}_{objective}_{search}_{particles}x{iterations}_seed{seed}")
     }
 }

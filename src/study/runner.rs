@@ -158,11 +158,12 @@ fn one(run: &Run, prepared: &Prepared, output: &OutputFolder, progress: &dyn Pro
     outcome(prepared, &folder, &summary).map(Some)
 }
 
-fn settings(run: &Run, folder: &Path) -> Result<TrackSettings> {
+/// What `track` is told for a run.
+pub(super) fn settings(run: &Run, folder: &Path) -> Result<TrackSettings> {
     Ok(TrackSettings {
         backend: run.backend,
         model: run.model,
-        objective: ObjectiveChoice { kind: Some(run.objective), ..ObjectiveChoice::default() },
+        objective: ObjectiveChoice { kind: run.objective, ..ObjectiveChoice::default() },
         search: SearchSettings {
             kind: run.search,
             particles: run.particles,

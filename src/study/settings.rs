@@ -31,9 +31,9 @@ pub struct Study {
     /// Times that many poses are scored a frame.
     #[serde(default = "default_iterations")]
     pub iterations: Vec<usize>,
-    /// Objective functions.
-    #[serde(default = "only_default")]
-    pub objectives: Vec<ObjectiveKind>,
+    /// Objective functions; without any, the one that `track` takes for each search and sequence.
+    #[serde(default)]
+    pub objectives: Option<Vec<ObjectiveKind>>,
     /// Searches.
     #[serde(default = "only_default")]
     pub searches: Vec<SearchKind>,
@@ -250,6 +250,11 @@ impl Study {
         }
     }
 
+    /// The objective functions of its runs; none for that which `track` takes by itself.
+    pub(super) fn objectives(&self) -> Vec<Option<ObjectiveKind>> {
+        self.objectives.as_ref().map_or_else(|| vec![None], |kinds| kinds.iter().copied().map(Some).collect())
+    }
+
     /// Whether the study makes sense by itself.
     ///
     /// # Errors
@@ -258,7 +263,7 @@ impl Study {
         several("seeds", &self.seeds)?;
         several("particles", &self.particles)?;
         several("iterations", &self.iterations)?;
-        several("objectives", &self.objectives)?;
+        self.objectives.as_ref().map_or(Ok(()), |kinds| several("objectives", kinds))?;
         several("searches", &self.searches)?;
         several("models", &self.models)?;
         several("backends", &self.backends)?;
@@ -278,7 +283,7 @@ impl Study {
             );
         }
         self.check_pictures()?;
-        let lists = [self.seeds.len(), self.particles.len(), self.iterations.len(), self.objectives.len()];
+        let lists = [self.seeds.len(), self.particles.len(), self.iterations.len(), self.objectives().len()];
         let more = [self.searches.len(), self.models.len(), self.backends.len(), self.sequences.len()];
         let runs = lists.into_iter().chain(more).fold(1_usize, usize::saturating_mul);
         ensure!(runs <= MOST_RUNS, "the lists make {runs} runs, expected at most {MOST_RUNS}");

@@ -105,7 +105,7 @@ pub(super) fn settings(study: &Study) -> Vec<TableSettings> {
     let varied: Vec<Axis> = [
         (Axis::Backend, study.backends.len()),
         (Axis::Model, study.models.len()),
-        (Axis::Objective, study.objectives.len()),
+        (Axis::Objective, study.objectives().len()),
         (Axis::Search, study.searches.len()),
         (Axis::Iterations, study.iterations.len()),
     ]

@@ -6,6 +6,8 @@ use anyhow::Result;
 
 use super::*;
 use crate::files::OutputFolder;
+use crate::search::SearchSettings;
+use crate::track::TrackSettings;
 
 const SMALL: &str = r#"
 name = "small"
@@ -118,6 +120,17 @@ fn statistics_are_those_of_a_sample() {
     assert_eq!(Statistic::of([]), None);
     assert_eq!(Statistic::of([3.0]), Some(Statistic { count: 1, mean: 3.0, std: 0.0 }));
     assert_eq!(Statistic::of([1.0, 3.0]), Some(Statistic { count: 2, mean: 2.0, std: 2.0_f64.sqrt() }));
+}
+
+#[test]
+fn a_study_that_names_no_setting_tracks_as_track_does() {
+    let text = "name = \"s\"\nseeds = [1]\n[[sequence]]\npreset = \"demo\"\n";
+    let runs = Study::parse(text, "s").unwrap().runs().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let settings = runner::settings(&runs[0], folder.path()).unwrap();
+    let search = SearchSettings { seed: 1, ..SearchSettings::default() };
+    assert_eq!(settings, TrackSettings { search, overlay_every: 0, ..TrackSettings::default() });
+    assert!(runs[0].folder().contains("_usual_"), "{}", runs[0].folder());
 }
 
 #[test]
