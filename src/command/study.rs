@@ -4,13 +4,14 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, bail, ensure};
+use serde::Serialize;
 
 use super::interrupt::Interrupt;
 use super::output::{say, tell};
 use super::progress::ProgressBar;
 use crate::files::{OutputFolder, Overwrite};
-use crate::study::{self, Outcome, Run, Study};
+use crate::study::{self, Outcome, Run, Study, StudySummary};
 
 /// Runs every combination of a study's settings over its sequences and seeds, and compares them: runs.csv has one row a run,
 /// stages.csv one a run and stage, tables.md and table-*.csv means and standard deviations over seeds, plot-*.svg the same as
@@ -27,6 +28,26 @@ pub(super) struct StudyArgs {
     /// Make the runs that the folder does not hold yet.
     #[arg(long)]
     resume: bool,
+    /// Print the runs instead of making them, a line of JSON each: its number, its folder and its settings.
+    #[arg(long, conflicts_with_all = ["resume", "run", "collect"])]
+    plan: bool,
+    /// Make this run of the plan alone, without tables; any number of processes may do so in one folder.
+    #[arg(long, value_name = "N", conflicts_with_all = ["resume", "collect"])]
+    run: Option<usize>,
+    /// Write rows, tables and plots of the runs that the folder holds, and make none.
+    #[arg(long, conflicts_with = "resume")]
+    collect: bool,
+}
+
+/// A line of a plan.
+#[derive(Serialize)]
+struct PlanLine {
+    /// What `--run` takes.
+    index: usize,
+    /// Its folder, within the study's.
+    folder: String,
+    #[serde(flatten)]
+    run: Run,
 }
 
 /// Runs the command.
@@ -36,6 +57,26 @@ pub(super) struct StudyArgs {
 /// interrupted: the sentence says how to go on.
 pub(super) fn run(args: &StudyArgs) -> Result<()> {
     let study = Study::load(&args.study)?;
+    if args.plan {
+        study.check()?;
+        for (index, run) in study.runs()?.into_iter().enumerate() {
+            let folder = format!("runs/{}", run.folder());
+            say!("{}", serde_json::to_string(&PlanLine { index, folder, run })?);
+        }
+        return Ok(());
+    }
+    if let Some(index) = args.run {
+        return run_one(args, &study, index);
+    }
+    if args.collect {
+        ensure!(args.output.is_dir(), "there is no folder {} to collect runs from", args.output.display());
+        let summary = study::collect(&study, &OutputFolder::open(&args.output)?)?;
+        told(args, &summary);
+        if summary.left > 0 {
+            tell!("{} runs are not there yet", summary.left);
+        }
+        return Ok(());
+    }
     if args.resume && !args.output.is_dir() {
         bail!("there is no folder {} to resume a study in: leave out --resume", args.output.display());
     }
@@ -47,15 +88,8 @@ pub(super) fn run(args: &StudyArgs) -> Result<()> {
             error.context("a study is gone on with by --resume")
         })?
     };
-    let watch = Watch { interrupt: Interrupt::listen()?, bar: Mutex::new(None), runs: Mutex::new(Runs::default()) };
-    let summary = study::run(&study, &output, &watch)?;
-    say!("{}", summary.tables);
-    say!(
-        "{} runs in {}, start with {}",
-        summary.rows.len(),
-        output.path().display(),
-        output.path().join("tables.md").display()
-    );
+    let summary = study::run(&study, &output, &Watch::new()?)?;
+    told(args, &summary);
     if summary.left > 0 {
         bail!("stopped with {} runs left: run the same command with --resume to go on", summary.left);
     }
@@ -63,6 +97,27 @@ pub(super) fn run(args: &StudyArgs) -> Result<()> {
         bail!("{} runs failed, the first was {}: {error:#}", summary.failures.len(), run.folder());
     }
     Ok(())
+}
+
+/// Makes one run.
+fn run_one(args: &StudyArgs, study: &Study, index: usize) -> Result<()> {
+    let output = OutputFolder::open(&args.output)?;
+    let Some(row) = study::run_one(study, &output, index, &Watch::new()?)? else {
+        bail!("stopped midway: the same command goes on")
+    };
+    say!("{}: {}", row.run.folder(), outcome_line(&row.outcome));
+    Ok(())
+}
+
+fn told(args: &StudyArgs, summary: &StudySummary) {
+    say!("{}", summary.tables);
+    let (runs, folder) = (summary.rows.len(), &args.output);
+    say!("{runs} runs in {}, start with {}", folder.display(), folder.join("tables.md").display());
+}
+
+fn outcome_line(outcome: &Outcome) -> String {
+    let error = outcome.error.map_or(String::new(), |error| format!("{error:.1} mm, "));
+    format!("{error}{:.1} frames/s", outcome.frames_per_second)
 }
 
 /// Runs done, for the estimate of what is left.
@@ -78,6 +133,12 @@ struct Watch {
     interrupt: Interrupt,
     bar: Mutex<Option<ProgressBar>>,
     runs: Mutex<Runs>,
+}
+
+impl Watch {
+    fn new() -> Result<Self> {
+        Ok(Self { interrupt: Interrupt::listen()?, bar: Mutex::new(None), runs: Mutex::new(Runs::default()) })
+    }
 }
 
 impl study::Progress for Watch {
@@ -105,10 +166,7 @@ impl study::Progress for Watch {
         let spent = runs.begin.map_or(0.0, |begin| begin.elapsed().as_secs_f64());
         let left = spent / (runs.done - runs.before).max(1) as f64 * (runs.all - runs.done) as f64;
         let told = match outcome {
-            Ok(outcome) => {
-                let error = outcome.error.map_or(String::new(), |error| format!("{error:.1} mm, "));
-                format!("{error}{:.1} frames/s", outcome.frames_per_second)
-            }
+            Ok(outcome) => outcome_line(outcome),
             Err(error) => format!("failed: {error:#}"),
         };
         tell!("{}/{}, {left:.0} s left: {} {told}", runs.done, runs.all, run.folder());

@@ -1,7 +1,7 @@
 //! Writing results: to a temporary name first, renamed when complete, so that a reader never sees half a file and a
 //! killed run leaves the previous one whole.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -39,7 +39,7 @@ pub fn write_atomically(
         if fs::symlink_metadata(&temporary).is_ok() {
             fs::remove_file(&temporary)?;
         }
-        let mut writer = BufWriter::new(fs::File::create_new(&temporary)?);
+        let mut writer = BufWriter::new(File::create_new(&temporary)?);
         body(&mut writer)?;
         writer.flush()?;
         // Without this a crash of the machine after the rename could leave an empty file under the final name.
@@ -136,6 +136,20 @@ impl OutputFolder {
     pub fn write(&self, name: &str, body: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
         write_atomically(&self.file(name)?, self.overwrite, body)
     }
+}
+
+/// Does something while no other process does anything under the same lock; `path` is the lock's file, which stays.
+///
+/// # Errors
+/// When the file cannot be made or locked, or what is done fails.
+pub fn alone<T>(path: &Path, work: impl FnOnce() -> Result<T>) -> Result<T> {
+    if let Some(parent) = path.parent() {
+        fs::create_dir_all(parent).with_context(|| format!("cannot create the folder {}", parent.display()))?;
+    }
+    let cannot = || format!("cannot lock {}", path.display());
+    let lock = File::options().create(true).append(true).open(path).with_context(cannot)?;
+    lock.lock().with_context(cannot)?;
+    work()
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use anyhow::{Context, Result};
 use serde::Deserialize;
 
-use crate::files::{OutputFolder, choices};
+use crate::files::{OutputFolder, alone, choices};
 use crate::sequence::Sequence;
 use crate::synth::{Lottery, LotterySettings};
 use crate::track::write_unseen;
@@ -80,16 +80,24 @@ impl Drawn {
         let seed = self.settings.seed;
         let scenes = self.scenes.clone().unwrap_or_else(|| output.path().join("scenes"));
         let folder = OutputFolder::open(&scenes.join(format!("{seed:02}")))?;
+        // Other processes, and other studies, may want the scene too.
+        alone(&scenes.join(format!("{seed:02}.lock")), || self.make(&folder, progress))?;
+        Sequence::open(&folder.path().join(self.manifest.file()))
+    }
+
+    /// Draws the scene into its folder unless it is there.
+    fn make(&self, folder: &OutputFolder, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<()> {
+        let seed = self.settings.seed;
         if !folder.path().join("sequence.toml").exists() {
             let lottery = Lottery::draw(&self.settings)?;
             let frames = lottery.scene.frames + lottery.t_pose.frames;
             let done = AtomicUsize::new(0);
             let is_begun = folder.path().join("scene.toml").exists();
-            write_unseen(&lottery, &folder, is_begun, None, &|_| {
+            write_unseen(&lottery, folder, is_begun, None, &|_| {
                 progress(done.fetch_add(1, Ordering::Relaxed) + 1, frames);
             })
             .with_context(|| format!("the scene of seed {seed}"))?;
         }
-        Sequence::open(&folder.path().join(self.manifest.file()))
+        Ok(())
     }
 }

@@ -22,7 +22,7 @@ pub use axes::{Axis, Value};
 pub use lottery::{LotteryManifest, LotteryTable};
 pub use outcome::{Outcome, Row, StageShare};
 pub use run::Run;
-pub use runner::{Progress, StudySummary, run};
+pub use runner::{Progress, StudySummary, collect, run, run_one};
 pub use settings::{PlotSettings, SequenceSettings, SharesSettings, Study, TableSettings};
 pub use summary::{Cell, Statistic};
 

@@ -10,9 +10,9 @@ use super::plots;
 use super::run::Run;
 use super::runs_csv::{write_runs, write_stages};
 use super::scenes::Prepared;
-use super::settings::Study;
+use super::settings::{SequenceSettings, Study};
 use super::tables::{self, Table};
-use crate::files::OutputFolder;
+use crate::files::{OutputFolder, alone};
 use crate::search::SearchSettings;
 use crate::track::{self, ObjectiveChoice, Passes, TrackSettings, TrackSummary, track};
 
@@ -79,14 +79,11 @@ pub fn run(study: &Study, output: &OutputFolder, progress: &dyn Progress) -> Res
             Some(sequence) => sequence,
             empty => {
                 let making = |done: usize, frames: usize| progress.making(&run.sequence, done, frames);
-                empty.insert(Prepared::new(&study.sequences[place], output, &making)?)
+                empty.insert(prepare(&study.sequences[place], output, &making)?)
             }
         };
         match one(run, sequence, output, progress) {
-            Ok(Some(outcome)) => {
-                let row = Row { run: run.clone(), outcome };
-                let folder = output.path().join("runs").join(run.folder());
-                OutputFolder::open(&folder)?.write(ROW, |out| Ok(serde_json::to_writer_pretty(out, &row)?))?;
+            Ok(Some(row)) => {
                 progress.ran(run, Ok(&row.outcome));
                 rows[index] = Some(row);
                 // After every run, so that a study can be looked at while it lasts.
@@ -103,6 +100,52 @@ pub fn run(study: &Study, output: &OutputFolder, progress: &dyn Progress) -> Res
     let rows: Vec<Row> = rows.into_iter().flatten().collect();
     let tables = write(study, &rows, output)?;
     Ok(StudySummary { rows, failures, left, tables })
+}
+
+/// Makes run `index` of a study, counted from 0 in the order of [`Study::runs`], unless `output` holds it; none when it was stopped midway. Any
+/// number of processes may do so in one folder: sequences are made by one of them, and whoever comes to a run in work waits for it.
+///
+/// # Errors
+/// When the study has no such run, its sequence cannot be prepared, or the run fails.
+pub fn run_one(study: &Study, output: &OutputFolder, index: usize, progress: &dyn Progress) -> Result<Option<Row>> {
+    study.check()?;
+    let runs = study.runs()?;
+    let count = runs.len();
+    let Some(run) = runs.get(index) else { bail!("there is no run {index} of {count}, expected 0 to {}", count - 1) };
+    alone(&output.path().join("runs").join(format!("{}.lock", run.folder())), || {
+        if let Some(row) = finished(run, output)? {
+            return Ok(Some(row));
+        }
+        let Some(sequence) = study.sequences.iter().find(|sequence| sequence.name() == run.sequence) else {
+            bail!("there is no sequence {}", run.sequence)
+        };
+        let making = |done: usize, frames: usize| progress.making(&run.sequence, done, frames);
+        let prepared = prepare(sequence, output, &making)?;
+        one(run, &prepared, output, progress)
+    })
+}
+
+/// Writes what [`run`] writes beside the runs, of those that `output` holds.
+///
+/// # Errors
+/// When a row cannot be read, or a file cannot be written.
+pub fn collect(study: &Study, output: &OutputFolder) -> Result<StudySummary> {
+    study.check()?;
+    let runs = study.runs()?;
+    let rows = runs.iter().map(|run| finished(run, output)).collect::<Result<Vec<_>>>()?;
+    let rows: Vec<Row> = rows.into_iter().flatten().collect();
+    let tables = write(study, &rows, output)?;
+    Ok(StudySummary { left: runs.len() - rows.len(), rows, failures: Vec::new(), tables })
+}
+
+/// Opens or makes a sequence while no other process does.
+fn prepare(
+    sequence: &SequenceSettings,
+    output: &OutputFolder,
+    making: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Prepared> {
+    let lock = output.path().join("sequences").join(format!("{}.lock", sequence.name()));
+    alone(&lock, || Prepared::new(sequence, output, making))
 }
 
 /// The row of a run that an earlier call made.
@@ -138,7 +181,7 @@ impl track::Progress for Watch<'_> {
 }
 
 /// One run; none when it was stopped midway.
-fn one(run: &Run, prepared: &Prepared, output: &OutputFolder, progress: &dyn Progress) -> Result<Option<Outcome>> {
+fn one(run: &Run, prepared: &Prepared, output: &OutputFolder, progress: &dyn Progress) -> Result<Option<Row>> {
     let folder = OutputFolder::open(&output.path().join("runs").join(run.folder()))?;
     let sequence = prepared.with_model(run.model, output)?;
     let mut settings = settings(run, folder.path())?;
@@ -155,7 +198,9 @@ fn one(run: &Run, prepared: &Prepared, output: &OutputFolder, progress: &dyn Pro
     if summary.stopped_before.is_some() {
         return Ok(None);
     }
-    outcome(prepared, &folder, &summary).map(Some)
+    let row = Row { run: run.clone(), outcome: outcome(prepared, &folder, &summary)? };
+    folder.write(ROW, |out| Ok(serde_json::to_writer_pretty(out, &row)?))?;
+    Ok(Some(row))
 }
 
 /// What `track` is told for a run.

@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use super::settings::SequenceSettings;
 use super::taken::{taken, taken_truth};
 use crate::body::{Body, Model};
-use crate::files::{OutputFolder, Overwrite};
+use crate::files::{OutputFolder, Overwrite, alone};
 use crate::motion::{PointTrajectory, TrajectoryError, read_points};
 use crate::sequence::Sequence;
 use crate::synth::{Scene, SyntheticSequence};
@@ -76,7 +76,7 @@ impl Prepared {
         let mut sequence = self.sequence.clone();
         if let Some(dressed) = model.dressed(&self.body) {
             sequence.body = output.file(&format!("bodies/{}_{model}.toml", self.settings.name()))?;
-            dressed.save(&sequence.body, Overwrite::Replace)?;
+            alone(&sequence.body.with_extension("lock"), || dressed.save(&sequence.body, Overwrite::Replace))?;
         }
         Ok(sequence)
     }

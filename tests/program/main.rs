@@ -35,6 +35,7 @@ mod rerun;
 mod scene;
 mod score_and_convert;
 mod streams;
+mod study;
 mod support;
 mod synth;
 mod texture;
