@@ -1,4 +1,4 @@
-//! Ctrl-C: once to stop after what is in work, twice to stop at once.
+//! Ctrl-C, or being asked to end by the system (SIGTERM, SIGHUP): once to stop after what is in work, twice to stop at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,7 +17,7 @@ impl Interrupt {
         let flag = Arc::new(AtomicBool::new(false));
         let asked = Arc::clone(&flag);
         ctrlc::set_handler(move || {
-            // A second Ctrl-C does not wait for the frame: the journal keeps those before.
+            // A second time it does not wait for the frame: the journal keeps those before.
             if asked.swap(true, Ordering::SeqCst) {
                 std::process::exit(130);
             }

@@ -1,7 +1,7 @@
 //! Writing results: to a temporary name first, renamed when complete, so that a reader never sees half a file and a
 //! killed run leaves the previous one whole.
 
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -138,6 +138,32 @@ impl OutputFolder {
     }
 }
 
+/// A folder that a run writes into; free again when this is dropped or the process ends, however it does.
+#[derive(Debug)]
+pub struct Occupied {
+    _folder: Option<File>,
+}
+
+impl OutputFolder {
+    /// Keeps every other run that asks likewise out of the folder. Where the system locks no folders (Windows, some network shares) none is kept
+    /// out.
+    ///
+    /// # Errors
+    /// When another run is in it.
+    pub fn occupy(&self) -> Result<Occupied> {
+        let Ok(folder) = File::open(&self.path) else { return Ok(Occupied { _folder: None }) };
+        match folder.try_lock() {
+            Err(TryLockError::WouldBlock) => {
+                bail!(
+                    "another run is writing into {}: wait until it has ended, or choose another folder",
+                    self.path.display()
+                )
+            }
+            Ok(()) | Err(TryLockError::Error(_)) => Ok(Occupied { _folder: Some(folder) }),
+        }
+    }
+}
+
 /// Does something while no other process does anything under the same lock; `path` is the lock's file, which stays.
 ///
 /// # Errors
@@ -155,6 +181,18 @@ pub fn alone<T>(path: &Path, work: impl FnOnce() -> Result<T>) -> Result<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn one_run_at_a_time_is_in_a_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let output = OutputFolder::open(folder.path()).unwrap();
+        let first = output.occupy().unwrap();
+        let error = output.occupy().unwrap_err().to_string();
+        assert!(error.contains("another run is writing into") && error.contains("choose another folder"), "{error}");
+        drop(first);
+        output.occupy().unwrap();
+    }
 
     #[test]
     fn a_failed_write_leaves_the_old_file() {

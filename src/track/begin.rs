@@ -67,6 +67,7 @@ impl<'a> Planned<'a> {
     /// When a run cannot be gone on with, or the folder cannot be written.
     pub(super) fn begin(self) -> Result<Begun<'a>> {
         let Self { sequence, settings, output, mut plan, truth, record, mut warnings } = self;
+        let occupied = output.occupy()?;
         let journal_path = output.path().join(Journal::NAME);
         let (journal, done) = if settings.resume {
             record.check_same(output)?;
@@ -94,7 +95,7 @@ impl<'a> Planned<'a> {
             None => Box::new(Offline::new(settings)),
         };
         plan.backend.evaluator.measure_passes(settings.trace)?;
-        let run = Run::new(sequence, settings, output, plan, truth, journal, timings, pace)?;
+        let run = Run::new(sequence, settings, output, occupied, plan, truth, journal, timings, pace)?;
         Ok(Begun { run, record, done, warnings })
     }
 }

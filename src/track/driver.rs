@@ -1,6 +1,6 @@
 //! The driver: offline every frame of a range in order, however long it takes; in real time those that can be done in time.
 
-use anyhow::{Result, anyhow, ensure};
+use anyhow::{Result, anyhow, bail, ensure};
 
 use super::TrackSettings;
 use super::begin::{Begun, Planned};
@@ -43,9 +43,15 @@ pub fn track(
     run.take_over(done)?;
     let searched = run.search_all(progress).and_then(|()| run.look_back(progress));
     let done = run.done();
-    if !run.ends_anywhere() || done == 0 {
+    let ends_anywhere = run.ends_anywhere();
+    if !ends_anywhere || done == 0 {
         searched?;
-        return run.finish(&record, warnings);
+        let summary = run.finish(&record, warnings)?;
+        if ends_anywhere {
+            let ended = summary.realtime.and_then(|realtime| realtime.ended);
+            bail!("no pose was made: {}", ended.as_deref().unwrap_or("no set of pictures of all views came"));
+        }
+        return Ok(summary);
     }
     // What a source delivered before it failed is as good as ever.
     let finished = run.finish(&record, warnings);

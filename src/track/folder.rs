@@ -27,7 +27,7 @@ const FILES: [&str; 14] = [
     Journal::NAME,
 ];
 
-/// Removes what an earlier run left in the folder, so that a new one never stands beside old results.
+/// Removes what an earlier run left in the folder, so that a new one never stands beside old results; files that no run writes stay.
 pub(super) fn clear(output: &OutputFolder) -> Result<()> {
     let remove = |path: &Path| fs::remove_file(path).with_context(|| format!("cannot replace {}", path.display()));
     for name in FILES {
@@ -41,7 +41,7 @@ pub(super) fn clear(output: &OutputFolder) -> Result<()> {
         let cannot = || format!("cannot read the folder {}", overlays.display());
         for entry in fs::read_dir(&overlays).with_context(cannot)? {
             let path = entry.with_context(cannot)?.path();
-            if path.extension().is_some_and(|extension| extension == "png") {
+            if overlay::is_one(&path) {
                 remove(&path)?;
             }
         }

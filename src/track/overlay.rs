@@ -1,6 +1,7 @@
 //! The estimated model drawn over what the cameras saw.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use anyhow::Result;
 use glam::DVec2;
@@ -104,6 +105,13 @@ impl<'a> Overlay<'a> {
 /// `overlay/<camera>_%06d.png`. A camera may carry any name, a file may not.
 pub(super) fn file_name(camera: &str, frame: usize) -> String {
     format!("{FOLDER}/{}_{frame:06}.png", file_stem(camera))
+}
+
+/// Whether a file has a name that a run gives to an overlay.
+pub(super) fn is_one(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let number = name.strip_suffix(".png").and_then(|stem| stem.rsplit_once('_')).map(|(_, number)| number);
+    number.is_some_and(|number| number.len() >= 6 && number.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 /// A camera's name with what no file name can hold replaced.

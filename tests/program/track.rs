@@ -232,6 +232,37 @@ fn caught_at_work(output: &Path) -> std::process::Child {
     child
 }
 
+/// A second run into the folder of one at work is refused, whatever it wants there, and harms nothing.
+#[cfg(unix)]
+#[test]
+fn one_run_at_a_time_is_in_a_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    let child = caught_at_work(&output);
+    for more in ["--resume", "--force"] {
+        let second = pantin(
+            &[&["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap(), more], &SLOW[..]].concat(),
+        );
+        refused(&second, &["another run is writing into", "wait until it has ended, or choose another folder"]);
+    }
+    succeeded(&child.wait_with_output().unwrap());
+    assert_eq!(result_files(&output).len(), 19);
+}
+
+#[test]
+fn a_new_run_leaves_what_is_not_a_run_s() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    let two = ["--frames", "0..1"];
+    succeeded(&track_with(sequence(), &output, &two));
+    let strange = ["notes.txt", "overlay/mine.png", "overlay/cam_12.png"].map(|name| output.join(name));
+    strange.iter().for_each(|path| fs::write(path, "mine").unwrap());
+    let old = output.join("overlay/cam9_000004.png");
+    fs::write(&old, "an earlier run's").unwrap();
+    succeeded(&track_with(sequence(), &output, &[&two[..], &["--force"]].concat()));
+    assert!(strange.iter().all(|path| path.exists()) && !old.exists());
+}
+
 #[cfg(unix)]
 #[test]
 fn killed_or_interrupted_it_goes_on() {

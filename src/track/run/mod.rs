@@ -23,7 +23,7 @@ use super::timings::{Span, Thread, Timings};
 use super::truth::Truth;
 use super::{Passes, Prediction, TrackSettings, Width};
 use crate::evaluate::{Evaluator, ViewCounts};
-use crate::files::OutputFolder;
+use crate::files::{Occupied, OutputFolder};
 use crate::gpu::DeviceLost;
 use crate::sequence::Sequence;
 
@@ -32,6 +32,8 @@ pub(super) struct Run<'a> {
     sequence: &'a Sequence,
     settings: &'a TrackSettings,
     output: &'a OutputFolder,
+    /// Keeps other runs out of the folder.
+    _occupied: Occupied,
     pub(super) plan: Plan,
     truth: Option<Truth>,
     journal: Journal,
@@ -76,6 +78,7 @@ impl<'a> Run<'a> {
         sequence: &'a Sequence,
         settings: &'a TrackSettings,
         output: &'a OutputFolder,
+        occupied: Occupied,
         plan: Plan,
         truth: Option<Truth>,
         journal: Journal,
@@ -99,6 +102,7 @@ impl<'a> Run<'a> {
             sequence,
             settings,
             output,
+            _occupied: occupied,
             plan,
             truth,
             journal,

@@ -138,3 +138,29 @@ fn a_pipe_that_stalls_is_named_and_the_poses_stay() {
     refused(&stalled, &["camera \"cam1\" stalled", "--stall-timeout", "poses before it are in"]);
     assert!(journalled(&output) > 0 && output.join("joints.trc").exists());
 }
+
+/// One view that never delivers and another that ends: no set of pictures came, so there is no track and no success.
+#[cfg(unix)]
+#[test]
+fn where_no_set_comes_it_is_said() {
+    if !has_ffmpeg("where_no_set_comes_it_is_said") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    as_videos(folder.path());
+    let pipe = folder.path().join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    live(folder.path(), |camera, view| {
+        if camera == 1 {
+            "camera = \"cam1\"\nbackground = \"plate1.png\"\nsource = \"pipe\"\ninput = [\"-f\", \"nut\"]\n".to_string()
+        } else {
+            view.replace("\"24\"", "\"4\"")
+        }
+    });
+    let silent = format!("exec 3>'{}'; exec sleep 60", pipe.display());
+    let mut silent = Command::new("sh").args(["-c", &silent]).stdin(Stdio::null()).spawn().unwrap();
+    let failed = track(&folder.path().join("live.toml"), &folder.path().join("track"), &FEW);
+    silent.kill().unwrap();
+    silent.wait().unwrap();
+    refused(&failed, &["no pose was made: ", "ended after"]);
+}

@@ -141,6 +141,28 @@ fn killed_in_real_time_it_keeps_its_rows_and_goes_on() {
     }
 }
 
+/// Asked to end by the system it writes all files, as with Ctrl-C.
+#[cfg(unix)]
+#[test]
+fn asked_to_end_it_writes_what_it_has() {
+    let folder = tempfile::tempdir().unwrap();
+    for signal in ["-TERM", "-INT"] {
+        let output = folder.path().join(signal);
+        let more = [&FEW[..], &["--loop", "500"]].concat();
+        let mut child = command(sequence(), &output, &more).stderr(std::process::Stdio::null()).spawn().unwrap();
+        let begin = std::time::Instant::now();
+        while journalled(&output) < 4 {
+            assert!(begin.elapsed().as_secs() < 120 && child.try_wait().unwrap().is_none(), "no frame was done");
+            std::thread::sleep(std::time::Duration::from_millis(2));
+        }
+        let kill = std::process::Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+        assert!(kill.success() && child.wait().unwrap().success(), "{signal}");
+        for name in ["joints.trc", "markers.c3d", "motion.bvh", "confidence.csv", "realtime.json"] {
+            assert!(output.join(name).exists(), "{name} after {signal}");
+        }
+    }
+}
+
 fn killed_it_goes_on(delay: &str) {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("track");
