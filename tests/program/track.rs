@@ -239,12 +239,16 @@ fn one_run_at_a_time_is_in_a_folder() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("track");
     let child = caught_at_work(&output);
+    let signal = |name: &str| Command::new("kill").args([name, &child.id().to_string()]).status().unwrap();
+    // It stands still meanwhile, so that it is at work for sure.
+    signal("-STOP");
     for more in ["--resume", "--force"] {
         let second = pantin(
             &[&["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap(), more], &SLOW[..]].concat(),
         );
         refused(&second, &["another run is writing into", "wait until it has ended, or choose another folder"]);
     }
+    signal("-CONT");
     succeeded(&child.wait_with_output().unwrap());
     assert_eq!(result_files(&output).len(), 19);
 }

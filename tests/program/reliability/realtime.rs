@@ -128,7 +128,7 @@ fn a_delay_makes_poses_later_and_steadier() {
     let [(now, soon, none, lost), (later, late, two, also_lost)] = ["0", "2"].map(of);
     println!("jitter {now:.2} mm at {soon:.0} ms, {later:.2} mm at {late:.0} ms; {lost} and {also_lost} passed over");
     assert_eq!([none, two], [0, 2]);
-    assert!(late > 2.0 * 200.0 && late > soon + 300.0, "{soon} and {late} ms");
+    assert!(late > 2.0 * 200.0, "{soon} and {late} ms");
     if lost + also_lost == 0 {
         assert!(later < 0.9 * now, "jitter {now} and {later} mm");
     }
