@@ -60,8 +60,7 @@ pub(super) fn run(args: &StudyArgs) -> Result<()> {
     if args.plan {
         study.check()?;
         for (index, run) in study.runs()?.into_iter().enumerate() {
-            let folder = format!("runs/{}", run.folder());
-            say!("{}", serde_json::to_string(&PlanLine { index, folder, run })?);
+            say!("{}", serde_json::to_string(&PlanLine { index, folder: run.place(), run })?);
         }
         return Ok(());
     }

@@ -162,20 +162,18 @@ impl OutputFolder {
             Ok(()) | Err(TryLockError::Error(_)) => Ok(Occupied { _folder: Some(folder) }),
         }
     }
-}
 
-/// Does something while no other process does anything under the same lock; `path` is the lock's file, which stays.
-///
-/// # Errors
-/// When the file cannot be made or locked, or what is done fails.
-pub fn alone<T>(path: &Path, work: impl FnOnce() -> Result<T>) -> Result<T> {
-    if let Some(parent) = path.parent() {
-        fs::create_dir_all(parent).with_context(|| format!("cannot create the folder {}", parent.display()))?;
+    /// Does something while no other process does anything under the same lock, `<name>.lock` in this folder, which stays.
+    ///
+    /// # Errors
+    /// When the file cannot be made or locked, or what is done fails.
+    pub fn alone<T>(&self, name: &str, work: impl FnOnce() -> Result<T>) -> Result<T> {
+        let path = self.file(&format!("{name}.lock"))?;
+        let cannot = || format!("cannot lock {}", path.display());
+        let lock = File::options().create(true).append(true).open(&path).with_context(cannot)?;
+        lock.lock().with_context(cannot)?;
+        work()
     }
-    let cannot = || format!("cannot lock {}", path.display());
-    let lock = File::options().create(true).append(true).open(path).with_context(cannot)?;
-    lock.lock().with_context(cannot)?;
-    work()
 }
 
 #[cfg(test)]

@@ -99,7 +99,9 @@ pub fn timeline_chart(chart: &TimelineChart) -> Result<String> {
                       where late · numbers: frames";
         root.draw(&Text::new(legend, (LEFT, floor + 28), small.clone()))?;
         for mark in chart.marks.iter().filter(|mark| mark.row == 0 && !mark.is_dropped) {
-            let Some(done) = chart.bars.iter().find(|bar| bar.row == last && bar.frame == mark.frame) else { continue };
+            let Some(done) = chart.bars.iter().rfind(|bar| bar.row == last && bar.frame == mark.frame) else {
+                continue;
+            };
             let ends = [(x(mark.at), middle(0)), (x(done.end), middle(last))];
             let style = colour(mark.frame).mix(0.7).stroke_width(1);
             if chart.deadline.is_some_and(|deadline| done.end - mark.at > deadline) {

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use anyhow::{Context, Result};
 use serde::Deserialize;
 
-use crate::files::{OutputFolder, alone, choices};
+use crate::files::{OutputFolder, choices};
 use crate::sequence::Sequence;
 use crate::synth::{Lottery, LotterySettings};
 use crate::track::write_unseen;
@@ -79,9 +79,10 @@ impl Drawn {
     pub(super) fn open(&self, output: &OutputFolder, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<Sequence> {
         let seed = self.settings.seed;
         let scenes = self.scenes.clone().unwrap_or_else(|| output.path().join("scenes"));
-        let folder = OutputFolder::open(&scenes.join(format!("{seed:02}")))?;
+        let name = format!("{seed:02}");
+        let folder = OutputFolder::open(&scenes.join(&name))?;
         // Other processes, and other studies, may want the scene too.
-        alone(&scenes.join(format!("{seed:02}.lock")), || self.make(&folder, progress))?;
+        OutputFolder::open(&scenes)?.alone(&name, || self.make(&folder, progress))?;
         Sequence::open(&folder.path().join(self.manifest.file()))
     }
 

@@ -43,6 +43,11 @@ impl Run {
         self.objective.map_or("usual", ObjectiveKind::name)
     }
 
+    /// Its folder within the study's.
+    pub fn place(&self) -> String {
+        format!("runs/{}", self.folder())
+    }
+
     /// The name of its folder.
     pub fn folder(&self) -> String {
         let objective = self.objective_name();

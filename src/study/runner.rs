@@ -1,5 +1,7 @@
 //! The runs of a study, one after the other.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::fs;
 use std::path::Path;
 
@@ -10,9 +12,9 @@ use super::plots;
 use super::run::Run;
 use super::runs_csv::{write_runs, write_stages};
 use super::scenes::Prepared;
-use super::settings::{SequenceSettings, Study};
+use super::settings::Study;
 use super::tables::{self, Table};
-use crate::files::{OutputFolder, alone};
+use crate::files::OutputFolder;
 use crate::search::SearchSettings;
 use crate::track::{self, ObjectiveChoice, Passes, TrackSettings, TrackSummary, track};
 
@@ -63,7 +65,7 @@ pub fn run(study: &Study, output: &OutputFolder, progress: &dyn Progress) -> Res
     let runs = study.runs()?;
     let mut rows: Vec<Option<Row>> = runs.iter().map(|run| finished(run, output)).collect::<Result<_>>()?;
     progress.begin(runs.len(), rows.iter().flatten().count());
-    let mut prepared: Vec<Option<Prepared>> = study.sequences.iter().map(|_| None).collect();
+    let mut prepared: HashMap<&str, Prepared> = HashMap::new();
     let mut failures = Vec::new();
     let mut left = 0;
     for (index, run) in runs.iter().enumerate() {
@@ -74,13 +76,9 @@ pub fn run(study: &Study, output: &OutputFolder, progress: &dyn Progress) -> Res
             left += 1;
             continue;
         }
-        let place = study.sequences.iter().position(|sequence| sequence.name() == run.sequence).unwrap_or(0);
-        let sequence = match &mut prepared[place] {
-            Some(sequence) => sequence,
-            empty => {
-                let making = |done: usize, frames: usize| progress.making(&run.sequence, done, frames);
-                empty.insert(prepare(&study.sequences[place], output, &making)?)
-            }
+        let sequence = match prepared.entry(run.sequence.as_str()) {
+            Entry::Occupied(sequence) => sequence.into_mut(),
+            Entry::Vacant(empty) => empty.insert(prepare(study, run, output, progress)?),
         };
         match one(run, sequence, output, progress) {
             Ok(Some(row)) => {
@@ -112,17 +110,10 @@ pub fn run_one(study: &Study, output: &OutputFolder, index: usize, progress: &dy
     let runs = study.runs()?;
     let count = runs.len();
     let Some(run) = runs.get(index) else { bail!("there is no run {index} of {count}, expected 0 to {}", count - 1) };
-    alone(&output.path().join("runs").join(format!("{}.lock", run.folder())), || {
-        if let Some(row) = finished(run, output)? {
-            return Ok(Some(row));
-        }
-        let Some(sequence) = study.sequences.iter().find(|sequence| sequence.name() == run.sequence) else {
-            bail!("there is no sequence {}", run.sequence)
-        };
-        let making = |done: usize, frames: usize| progress.making(&run.sequence, done, frames);
-        let prepared = prepare(sequence, output, &making)?;
-        one(run, &prepared, output, progress)
-    })
+    match finished(run, output)? {
+        Some(row) => Ok(Some(row)),
+        None => one(run, &prepare(study, run, output, progress)?, output, progress),
+    }
 }
 
 /// Writes what [`run`] writes beside the runs, of those that `output` holds.
@@ -138,19 +129,19 @@ pub fn collect(study: &Study, output: &OutputFolder) -> Result<StudySummary> {
     Ok(StudySummary { left: runs.len() - rows.len(), rows, failures: Vec::new(), tables })
 }
 
-/// Opens or makes a sequence while no other process does.
-fn prepare(
-    sequence: &SequenceSettings,
-    output: &OutputFolder,
-    making: &(dyn Fn(usize, usize) + Sync),
-) -> Result<Prepared> {
-    let lock = output.path().join("sequences").join(format!("{}.lock", sequence.name()));
-    alone(&lock, || Prepared::new(sequence, output, making))
+/// Opens or makes the sequence of a run while no other process does.
+fn prepare(study: &Study, run: &Run, output: &OutputFolder, progress: &dyn Progress) -> Result<Prepared> {
+    let name = &run.sequence;
+    let Some(sequence) = study.sequences.iter().find(|sequence| sequence.name() == *name) else {
+        bail!("there is no sequence {name}")
+    };
+    let making = |done: usize, frames: usize| progress.making(name, done, frames);
+    output.alone(&format!("sequences/{name}"), || Prepared::new(sequence, output, &making))
 }
 
 /// The row of a run that an earlier call made.
 fn finished(run: &Run, output: &OutputFolder) -> Result<Option<Row>> {
-    let path = output.path().join("runs").join(run.folder()).join(ROW);
+    let path = output.path().join(run.place()).join(ROW);
     if !path.exists() {
         return Ok(None);
     }
@@ -180,9 +171,16 @@ impl track::Progress for Watch<'_> {
     }
 }
 
-/// One run; none when it was stopped midway.
+/// One run, unless another process made it meanwhile; none when it was stopped midway.
 fn one(run: &Run, prepared: &Prepared, output: &OutputFolder, progress: &dyn Progress) -> Result<Option<Row>> {
-    let folder = OutputFolder::open(&output.path().join("runs").join(run.folder()))?;
+    output.alone(&run.place(), || match finished(run, output)? {
+        Some(row) => Ok(Some(row)),
+        None => make(run, prepared, output, progress),
+    })
+}
+
+fn make(run: &Run, prepared: &Prepared, output: &OutputFolder, progress: &dyn Progress) -> Result<Option<Row>> {
+    let folder = OutputFolder::open(&output.path().join(run.place()))?;
     let sequence = prepared.with_model(run.model, output)?;
     let mut settings = settings(run, folder.path())?;
     let mut watch = Watch(progress);

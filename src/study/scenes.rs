@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use super::settings::SequenceSettings;
 use super::taken::{taken, taken_truth};
 use crate::body::{Body, Model};
-use crate::files::{OutputFolder, Overwrite, alone};
+use crate::files::{OutputFolder, Overwrite};
 use crate::motion::{PointTrajectory, TrajectoryError, read_points};
 use crate::sequence::Sequence;
 use crate::synth::{Scene, SyntheticSequence};
@@ -75,8 +75,9 @@ impl Prepared {
     pub(super) fn with_model(&self, model: Model, output: &OutputFolder) -> Result<Sequence> {
         let mut sequence = self.sequence.clone();
         if let Some(dressed) = model.dressed(&self.body) {
-            sequence.body = output.file(&format!("bodies/{}_{model}.toml", self.settings.name()))?;
-            alone(&sequence.body.with_extension("lock"), || dressed.save(&sequence.body, Overwrite::Replace))?;
+            let name = format!("bodies/{}_{model}", self.settings.name());
+            sequence.body = output.file(&format!("{name}.toml"))?;
+            output.alone(&name, || dressed.save(&sequence.body, Overwrite::Replace))?;
         }
         Ok(sequence)
     }

@@ -19,16 +19,17 @@ impl Run<'_> {
         if !goes_on {
             self.give_out_all()?;
         }
-        let judged = self.judge(&result);
+        let confidence = self.judge(&result);
         self.learn(&prepared, &result)?;
-        let Some(delayed) = &mut self.delayed else { return self.finish_frame(&prepared, result) };
-        if !goes_on {
-            delayed.begin_anew();
+        if let Some(delayed) = &mut self.delayed {
+            if !goes_on {
+                delayed.begin_anew();
+            }
+            delayed.push(prepared, result.clone(), confidence.is_lost);
         }
-        delayed.push(prepared, result.clone(), judged.is_lost);
         let mean_error = self.give_out_until(frame)?;
         self.timings.record("output", Thread::Search, frame, Span::since(start))?;
-        Ok(self.done_with(result, judged, mean_error))
+        Ok(self.done_with(result, &confidence, mean_error))
     }
 
     /// Gives out all that have waited long enough when frame `last` is searched; the mean error up to them.

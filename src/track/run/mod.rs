@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, anyhow};
 
 use super::appearance::RunAppearance;
-use super::confidence::{Confidence, JointProbe, LossRule};
+use super::confidence::{Confidence, FrameConfidence, JointProbe, LossRule};
 use super::feed::{Frames, Prepared};
 use super::hindsight::{Delayed, Hindsight};
 use super::journal::{FrameResult, Journal};
@@ -58,15 +58,6 @@ pub(super) struct Run<'a> {
     motion: LearntMotion,
     /// The frames that wait for those after them, where there is a delay.
     delayed: Option<Delayed>,
-}
-
-/// What a frame's result is taken for.
-#[derive(Clone, Copy)]
-struct Judged {
-    confidence: f64,
-    is_lost: bool,
-    /// Whether its pose is left out of the results.
-    is_gap: bool,
 }
 
 impl<'a> Run<'a> {
@@ -142,27 +133,25 @@ impl<'a> Run<'a> {
         for result in done {
             let values: Vec<f64> = result.pose.iter().map(|value| f64::from(*value)).collect();
             self.plan.body.check_limits(&values).with_context(|| format!("{name}, frame {}", result.frame))?;
-            let judged = self.judge(&result);
-            self.running_error(&result, judged);
+            let confidence = self.judge(&result);
+            self.running_error(&result, &confidence);
             self.keep(result);
         }
         Ok(())
     }
 
     /// Takes note of a frame that is searched: how sure it is.
-    fn judge(&mut self, result: &FrameResult) -> Judged {
+    fn judge(&mut self, result: &FrameResult) -> FrameConfidence {
         let confidence = self.confidence.next(result);
         if confidence.is_lost {
             self.lost.push(result.frame);
         }
         let follows = self.motion.last_frame().is_some_and(|before| self.pace.follows(before, result.frame));
         self.motion.note(result, follows && !confidence.is_lost);
-        let mut is_gap = false;
         if let Some(recovery) = &mut self.recovery {
             recovery.note(&result.pose, confidence.is_lost);
-            is_gap = confidence.is_lost;
         }
-        Judged { confidence: confidence.confidence, is_lost: confidence.is_lost, is_gap }
+        confidence
     }
 
     fn journal_name(&self) -> String {
@@ -178,9 +167,10 @@ impl<'a> Run<'a> {
         self.done += 1;
     }
 
-    /// [`Self::error_up_to`] a frame; none where it is a gap.
-    fn running_error(&mut self, result: &FrameResult, judged: Judged) -> Option<f64> {
-        if judged.is_gap { None } else { self.error_up_to(result) }
+    /// [`Self::error_up_to`] a frame; none where it is lost and so left out of the results.
+    fn running_error(&mut self, result: &FrameResult, confidence: &FrameConfidence) -> Option<f64> {
+        let is_gap = confidence.is_lost && self.recovery.is_some();
+        if is_gap { None } else { self.error_up_to(result) }
     }
 
     /// Mean error against the truth up to and with this frame, mm.
@@ -304,10 +294,10 @@ impl<'a> Run<'a> {
         let start = Instant::now();
         self.give_out(prepared, &result)?;
         self.timings.record("output", Thread::Search, prepared.index, Span::since(start))?;
-        let judged = self.judge(&result);
-        let mean_error = self.running_error(&result, judged);
+        let confidence = self.judge(&result);
+        let mean_error = self.running_error(&result, &confidence);
         self.learn(prepared, &result)?;
-        Ok(self.done_with(result, judged, mean_error))
+        Ok(self.done_with(result, &confidence, mean_error))
     }
 
     /// Writes what a frame came to, for those who wait for it.
@@ -324,13 +314,8 @@ impl<'a> Run<'a> {
     }
 
     /// Keeps a frame's result for the frames after it.
-    fn done_with(
-        &mut self,
-        result: FrameResult,
-        Judged { confidence, .. }: Judged,
-        mean_error: Option<f64>,
-    ) -> FrameDone {
-        let (frame, fitness) = (result.frame, result.fitness);
+    fn done_with(&mut self, result: FrameResult, confidence: &FrameConfidence, mean_error: Option<f64>) -> FrameDone {
+        let (frame, fitness, confidence) = (result.frame, result.fitness, confidence.confidence);
         self.keep(result);
         self.pace.judge(fitness, confidence);
         FrameDone { frame, done: frame + 1 - self.plan.range.start, fitness, confidence, mean_error }

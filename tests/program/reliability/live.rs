@@ -1,8 +1,8 @@
 //! Live sources: streams that ffmpeg opens, by way of files it reads at their rate and of named pipes.
 
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Stdio};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
 
 use super::{journalled, track};
 use crate::support::{has_ffmpeg, refused, sequence, stderr, succeeded};
@@ -102,6 +102,27 @@ fn what_goes_wrong_with_a_live_view_is_named() {
     failed("options", "source = \"x\"\ninput = [\"-i\", \"y\"]", &["source of camera \"cam2\"", "`input` has \"-i\""]);
 }
 
+/// Lays the walk out with its second view from a named pipe, whose path this is; the others play `loops` times more.
+#[cfg(unix)]
+fn piped(folder: &Path, loops: usize) -> PathBuf {
+    as_videos(folder);
+    let pipe = folder.join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    live(folder, |camera, view| {
+        if camera == 1 {
+            "camera = \"cam1\"\nbackground = \"plate1.png\"\nsource = \"pipe\"\ninput = [\"-f\", \"nut\"]\n".to_string()
+        } else {
+            view.replace("\"24\"", &format!("\"{loops}\""))
+        }
+    });
+    pipe
+}
+
+#[cfg(unix)]
+fn shell(script: &str) -> Child {
+    Command::new("sh").args(["-c", script]).stdin(Stdio::null()).spawn().unwrap()
+}
+
 /// A named pipe whose writer stops in the middle: the frames before are kept, the view is named.
 #[cfg(unix)]
 #[test]
@@ -110,23 +131,14 @@ fn a_pipe_that_stalls_is_named_and_the_poses_stay() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    as_videos(folder.path());
-    let pipe = folder.path().join("pipe");
-    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-    live(folder.path(), |camera, view| {
-        if camera == 1 {
-            "camera = \"cam1\"\nbackground = \"plate1.png\"\nsource = \"pipe\"\ninput = [\"-f\", \"nut\"]\n".to_string()
-        } else {
-            view.replace("\"24\"", "\"400\"")
-        }
-    });
+    let pipe = piped(folder.path(), 400);
     // Six seconds of pictures, then silence with the pipe held open.
     let writer = format!(
         "exec 3>'{}'; ffmpeg -v error -nostdin -re -stream_loop 24 -i '{}' -c:v rawvideo -f nut -flush_packets 1 pipe:1 >&3; exec sleep 60",
         pipe.display(),
         folder.path().join("cam1.mkv").display()
     );
-    let mut writer = Command::new("sh").args(["-c", &writer]).stdin(Stdio::null()).spawn().unwrap();
+    let mut writer = shell(&writer);
     let output = folder.path().join("track");
     let stalled = track(
         &folder.path().join("live.toml"),
@@ -147,18 +159,8 @@ fn where_no_set_comes_it_is_said() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    as_videos(folder.path());
-    let pipe = folder.path().join("pipe");
-    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-    live(folder.path(), |camera, view| {
-        if camera == 1 {
-            "camera = \"cam1\"\nbackground = \"plate1.png\"\nsource = \"pipe\"\ninput = [\"-f\", \"nut\"]\n".to_string()
-        } else {
-            view.replace("\"24\"", "\"4\"")
-        }
-    });
-    let silent = format!("exec 3>'{}'; exec sleep 60", pipe.display());
-    let mut silent = Command::new("sh").args(["-c", &silent]).stdin(Stdio::null()).spawn().unwrap();
+    let pipe = piped(folder.path(), 4);
+    let mut silent = shell(&format!("exec 3>'{}'; exec sleep 60", pipe.display()));
     let failed = track(&folder.path().join("live.toml"), &folder.path().join("track"), &FEW);
     silent.kill().unwrap();
     silent.wait().unwrap();
