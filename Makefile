@@ -4,6 +4,7 @@
 #   make bench   the speed tables of docs/PERFORMANCE.md
 #   make portability   the GPU tests on lavapipe (three subgroup sizes), SwiftShader and Mesa 25
 #   make gpu-report    packs target/gpu-report, to be run on a machine with a graphics card; FROM=its results fills docs/PERFORMANCE.md
+#   make shaders compiles glsl/ into glsl/compiled, which every build takes
 #   make fuzz    a minute of fuzzing for every reader of a user's file (SECONDS_EACH=60)
 
 CARGO ?= cargo
@@ -11,24 +12,24 @@ OUT ?= out/demo
 SECONDS_EACH ?= 60
 SUDO := $(shell [ "$$(id -u)" = 0 ] || command -v sudo)
 
-# The shader compiler, a C++ library that only the build uses. .cargo/config.toml names this folder, whatever CARGO_TARGET_DIR is.
+# The shader compiler, a C++ library that only `make shaders` and the tests use. .cargo/config.toml names this folder, whatever CARGO_TARGET_DIR is.
 SHADERC := target/shaderc/libshaderc_combined.a
 # Debian's packages that hold its static libraries, and the libraries: libshaderc-dev's own "combined" one lacks glslang and SPIRV-Tools.
 SHADERC_PACKAGES := libshaderc-dev glslang-dev spirv-tools
 SHADERC_PARTS := shaderc_combined glslang SPIRV MachineIndependent GenericCodeGen OSDependent OGLCompiler HLSL SPIRV-Tools-opt \
 	SPIRV-Tools glslang-default-resource-limits
 
-.PHONY: demo test bench portability gpu-report fuzz build ffmpeg vulkan shaderc toolchain help
+.PHONY: demo test bench portability gpu-report shaders fuzz build ffmpeg vulkan shaderc toolchain help
 
 help:
 	@sed -n 's/^#   //p' Makefile
 
-demo: toolchain shaderc
+demo: toolchain
 	$(CARGO) build --release --locked
 	$(CARGO) run --release --locked --quiet -- demo -o $(OUT) --force
 	@echo "open $(OUT)/report.html in a browser"
 
-build: toolchain shaderc
+build: toolchain
 	$(CARGO) build --release --locked
 
 # Whether a Vulkan driver and the validation layer are installed, as shell commands.
@@ -66,6 +67,9 @@ ifdef FROM
 else
 	tests/gpu-report/pack.sh
 endif
+
+shaders: toolchain shaderc
+	PANTIN_WRITE_SHADERS=1 $(CARGO) check --locked --features reload
 
 fuzz: toolchain shaderc
 	tests/fuzz/run.sh all $(SECONDS_EACH)

@@ -15,14 +15,18 @@ mod constants;
 mod generate;
 #[path = "../src/gpu/interface.rs"]
 mod interface;
+#[path = "../src/gpu/shaders/kept.rs"]
+mod kept;
 #[path = "../src/gpu/shaders/layouts.rs"]
 mod layouts;
 #[path = "../src/gpu/shaders/reflect.rs"]
 mod reflect;
+#[path = "../src/gpu/shaders/write.rs"]
+mod write;
 
 use interface::{Access, BindingKind};
 use reflect::Reflection;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// A shader folder with these files.
@@ -39,7 +43,7 @@ fn folder(files: &[(&str, &str)]) -> TempDir {
 /// The Rust of the room `room`, or the error's sentence.
 fn generated(files: &[(&str, &str)]) -> Result<String, String> {
     let root = folder(files);
-    generate::generate(root.path(), "room").map_err(|error| format!("{error:#}"))
+    generate::generate(root.path(), "room").map(|room| room.source).map_err(|error| format!("{error:#}"))
 }
 
 fn refused(files: &[(&str, &str)]) -> String {
@@ -441,7 +445,96 @@ fn the_repository_s_stages_compile() {
         assert_eq!(source, generate::generate(&root, &room).unwrap(), "{room} is written differently the second time");
     }
     let double = generate::generate(&root, "gpu").unwrap();
-    assert_eq!(fields(&double, "DoublePush"), ["count: u32", "factor: f32"]);
+    assert_eq!(fields(&double.source, "DoublePush"), ["count: u32", "factor: f32"]);
+}
+
+/// The compiler's mark in a module's header: who wrote it and in which version.
+fn compiler(module: &[u8]) -> &[u8] {
+    &module[8..12]
+}
+
+/// What a build takes is what the sources compile to, file by file, and nothing else lies there.
+#[test]
+fn the_kept_shaders_are_those_of_the_sources() {
+    let base = Path::new(env!("CARGO_MANIFEST_DIR"));
+    kept::check(base).unwrap();
+    let folder = base.join("glsl").join(kept::FOLDER);
+    let files = write::files(base).unwrap();
+    assert!(files.len() > 80, "{} files", files.len());
+    let mut other_compiler = 0;
+    for (name, content) in &files {
+        let found = std::fs::read(folder.join(name)).unwrap_or_else(|error| panic!("{}: {error}", name.display()));
+        // Another version of the compiler may choose other words. What they mean to the host is the same.
+        if name.extension().is_some_and(|kind| kind == "spv") && compiler(&found) != compiler(content) {
+            other_compiler += 1;
+            continue;
+        }
+        assert!(found == *content, "{} is not what its source compiles to: run `make shaders`", name.display());
+    }
+    if other_compiler > 0 {
+        println!("SKIPPED: the words of {other_compiler} stages, which another version of the compiler made");
+    }
+    let mut left = vec![folder.clone()];
+    while let Some(path) = left.pop() {
+        if path.is_dir() {
+            left.extend(std::fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
+        } else {
+            let name = path.strip_prefix(&folder).unwrap();
+            assert!(files.contains_key(name), "{} belongs to no source", name.display());
+        }
+    }
+}
+
+/// Everything that the kept shaders were made from, copied, and what a build says after `change` was done to it.
+fn after(change: impl Fn(&Path)) -> Result<(), String> {
+    let base = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let copy = tempfile::tempdir().unwrap();
+    let mut left = vec![base.join("glsl"), base.join("src/gpu/shaders"), base.join("src/gpu/interface.rs")];
+    while let Some(path) = left.pop() {
+        let to = copy.path().join(path.strip_prefix(base).unwrap());
+        if path.is_dir() {
+            std::fs::create_dir_all(&to).unwrap();
+            left.extend(std::fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
+        } else {
+            std::fs::create_dir_all(to.parent().unwrap()).unwrap();
+            std::fs::copy(&path, &to).unwrap();
+        }
+    }
+    change(copy.path());
+    kept::check(copy.path()).map_err(|error| format!("{error:#}"))
+}
+
+#[test]
+fn a_stale_shader_fails_the_build_with_a_sentence() {
+    let since = "since the shaders in glsl/compiled were compiled: run `make shaders`";
+    assert_eq!(after(|_| {}), Ok(()));
+    let edited = |base: &Path| {
+        let path = base.join("glsl/gpu/double.comp");
+        let text = std::fs::read_to_string(&path).unwrap();
+        std::fs::write(&path, text.replace("push.factor *", "2.0 * push.factor *")).unwrap();
+    };
+    assert_eq!(after(edited).unwrap_err(), format!("glsl/gpu/double.comp has changed {since}"));
+    let other_ends = |base: &Path| {
+        let path = base.join("glsl/gpu/double.comp");
+        let text = std::fs::read_to_string(&path).unwrap();
+        std::fs::write(&path, text.replace('\n', "\r\n")).unwrap();
+    };
+    assert_eq!(after(other_ends), Ok(()));
+    let new = |base: &Path| std::fs::write(base.join("glsl/gpu/triple.comp"), "").unwrap();
+    assert_eq!(after(new).unwrap_err(), format!("glsl/gpu/triple.comp is new {since}"));
+    let swap = |base: &Path| std::fs::write(base.join("glsl/gpu/.triple.comp.swp"), "").unwrap();
+    assert_eq!(after(swap), Ok(()));
+    let gone = |base: &Path| std::fs::remove_file(base.join("src/gpu/shaders/layouts.rs")).unwrap();
+    assert_eq!(after(gone).unwrap_err(), format!("src/gpu/shaders/layouts.rs is gone {since}"));
+    let list = |base: &Path| std::fs::write(base.join("glsl/compiled/sources.txt"), "0123\n").unwrap();
+    let sentence = after(list).unwrap_err();
+    assert!(
+        sentence.contains("sources.txt, line 1: expected a hash of 16 digits and a path, found \"0123\""),
+        "{sentence}"
+    );
+    let none = |base: &Path| std::fs::remove_dir_all(base.join("glsl/compiled")).unwrap();
+    let sentence = after(none).unwrap_err();
+    assert!(sentence.contains("sources.txt: run `make shaders`"), "{sentence}");
 }
 
 /// A second opinion beside naga's, where spirv-val (Debian package spirv-tools) is installed.
@@ -454,7 +547,7 @@ fn spirv_val_accepts_every_stage() {
     let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/glsl"));
     let output = tempfile::tempdir().unwrap();
     let mut count = 0;
-    for room in std::fs::read_dir(&root).unwrap().map(|entry| entry.unwrap().path()) {
+    for room in generate::rooms(&root).unwrap().iter().map(|room| root.join(room)) {
         for file in std::fs::read_dir(&room).unwrap().map(|entry| entry.unwrap().path()) {
             let name = file.strip_prefix(&root).unwrap().to_str().unwrap();
             if compile::kind_of(name).is_none() {

@@ -7,7 +7,7 @@
     reason = "written by the build; the variants of a stage are bound through one of them"
 )]
 
-include!(concat!(env!("OUT_DIR"), "/evaluate_stages.rs"));
+include!(concat!(env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate.rs"));
 
 const _: () = assert!(LARGEST_SIDE == crate::geometry::LARGEST_SIDE, "pictures are as large as stages count");
 const _: () = assert!(FARTHEST_PIXEL == LARGEST_SIDE as f32, "corners go as far as pictures do");

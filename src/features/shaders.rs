@@ -2,4 +2,4 @@
 
 #![allow(dead_code, clippy::unreadable_literal, reason = "written by the build")]
 
-include!(concat!(env!("OUT_DIR"), "/features_stages.rs"));
+include!(concat!(env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/features.rs"));

@@ -47,6 +47,7 @@ pub use pass::{Clear, Dispatch, Draw, Feedback, Groups, Target, Viewport};
 pub use pipeline::{Blend, Drawing, Pipeline, Topology};
 pub use recorder::Recorder;
 pub use recording::Recording;
+pub(crate) use shader::words;
 pub use shader::{Binding, BindingLayout, Bound, Shader, ShaderStage, SpecConstant};
 pub use staged::StagedBuffer;
 pub use timing::{ClockPair, DevicePass, PassStatistics, PassTiming, Timing, by_name};
@@ -54,7 +55,7 @@ pub use validation::{Validation, ValidationLog};
 
 #[cfg(test)]
 mod generated {
-    include!(concat!(env!("OUT_DIR"), "/gpu_stages.rs"));
+    include!(concat!(env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/gpu.rs"));
 }
 
 #[cfg(test)]

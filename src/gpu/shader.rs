@@ -1,4 +1,4 @@
-//! What the build knows of a shader stage: generated from GLSL by `build.rs`, so that a binding has one source.
+//! What the build knows of a shader stage: generated from GLSL by `make shaders`, so that a binding has one source.
 
 use super::interface::{Access, BindingKind, ShaderKind};
 use super::{Buffer, Image};
@@ -20,6 +20,23 @@ pub struct Shader {
     pub bindings: &'static [BindingLayout],
     /// Its specialisation constants.
     pub constants: &'static [SpecConstant],
+}
+
+/// A stage's words from the bytes of its file, in which the lowest byte of a word comes first.
+///
+/// # Panics
+/// When the file is not that long: while compiling, since it is called for statics.
+#[allow(clippy::panic, reason = "a build stops there, no program does")]
+pub(crate) const fn words<const WORDS: usize, const BYTES: usize>(bytes: &[u8; BYTES]) -> [u32; WORDS] {
+    assert!(BYTES == 4 * WORDS, "a stage's file is as long as the words that were written");
+    let mut words = [0; WORDS];
+    let mut index = 0;
+    while index < WORDS {
+        let at = 4 * index;
+        words[index] = u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
+        index += 1;
+    }
+    words
 }
 
 impl Shader {

@@ -2,4 +2,4 @@
 
 #![allow(clippy::unreadable_literal, reason = "written by the build")]
 
-include!(concat!(env!("OUT_DIR"), "/matrix_stages.rs"));
+include!(concat!(env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/matrix.rs"));

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unreadable_literal, clippy::large_stack_arrays, reason = "written by the build")]
 
-include!(concat!(env!("OUT_DIR"), "/search_stages.rs"));
+include!(concat!(env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/search.rs"));
 
 // `weigh.comp` goes down the tree of its halvings in whole rounds, each of which a workgroup has room for.
 const _: () =

@@ -2,4 +2,4 @@
 
 #![allow(clippy::unreadable_literal, reason = "written by the build")]
 
-include!(concat!(env!("OUT_DIR"), "/synth_stages.rs"));
+include!(concat!(env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/synth.rs"));

@@ -1,9 +1,10 @@
 //! A room's stages as Rust source text: a module a stage, the memory layouts they share, the constants of
-//! `constants.glsl`.
+//! `constants.glsl`; and their words, which that text takes in as files.
 
 use super::compile::{Compiled, compile, kind_of};
 use super::constants::constants;
 use super::interface::{Access, BindingKind, ShaderKind};
+use super::kept::FOLDER;
 use super::layouts::{Layouts, camel_case, identifier};
 use super::reflect::{Constant, Reflection, reflect};
 use anyhow::{Context, Result, ensure};
@@ -35,16 +36,25 @@ fn listed(folder: &Path) -> Result<Vec<String>> {
     Ok(names)
 }
 
-/// Rust source of every stage in the folder `room` under `root`, to be included as the content of a module of this
-/// crate.
+/// What a room's stages become.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Generated {
+    /// Rust source, to be included as the content of a module of this crate.
+    pub source: String,
+    /// Each stage's path under the shader folder, as in `evaluate/project.comp`, and its words.
+    pub words: Vec<(String, Vec<u32>)>,
+}
+
+/// Every stage in the folder `room` under `root`.
 ///
 /// # Errors
 /// One sentence with the file, and the line where there is one, for whatever does not compile, has no Rust type, or is
 /// laid out in two ways under one name.
-pub fn generate(root: &Path, room: &str) -> Result<String> {
+pub fn generate(root: &Path, room: &str) -> Result<Generated> {
     let mut layouts = Layouts::default();
     let mut modules = String::new();
     let mut statics = Vec::new();
+    let mut words = Vec::new();
     for file in listed(&root.join(room))?.iter().filter(|file| kind_of(file).is_some()) {
         let name = format!("{room}/{file}");
         let compiled = compile(root, &name)?;
@@ -53,6 +63,7 @@ pub fn generate(root: &Path, room: &str) -> Result<String> {
         ensure!(!statics.contains(&module), "{name}: another stage of the folder has the module name {module}");
         modules += &stage(&name, &module, &compiled, &reflection, &mut layouts)?;
         statics.push(module);
+        words.push((name, compiled.spirv));
     }
     let mut text = String::new();
     let shared = root.join(room).join("constants.glsl");
@@ -65,7 +76,7 @@ pub fn generate(root: &Path, room: &str) -> Result<String> {
     writeln!(text, "/// Every stage of the folder, for tests that try them all.")?;
     writeln!(text, "#[cfg(test)]\n#[allow(dead_code, unreachable_pub, reason = \"written by the build\")]")?;
     writeln!(text, "pub static SHADERS: &[&crate::gpu::Shader] = &[{}];", list.join(", "))?;
-    Ok(text)
+    Ok(Generated { source: text, words })
 }
 
 fn stage(
@@ -116,7 +127,8 @@ fn stage(
     writeln!(text, "    /// The compiled stage.")?;
     writeln!(text, "    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {{")?;
     writeln!(text, "        name: {name:?},\n        kind: crate::gpu::ShaderKind::{kind:?},")?;
-    writeln!(text, "        spirv: &{:?},", compiled.spirv)?;
+    writeln!(text, "        spirv: &crate::gpu::words::<{}, _>(include_bytes!(concat!(", compiled.spirv.len())?;
+    writeln!(text, "            env!(\"CARGO_MANIFEST_DIR\"), {:?}))),", format!("/glsl/{FOLDER}/{name}.spv"))?;
     writeln!(text, "        workgroup_size: {:?},\n        push_size: {push_size},", reflection.workgroup_size)?;
     writeln!(text, "        bindings: &[")?;
     for resource in &reflection.resources {

@@ -1,13 +1,15 @@
 //! GLSL under `glsl/` to typed Rust: compiled by shaderc, reflected by spirq and naga, written out as source text.
 //!
-//! `build.rs` runs this code. The feature `reload` has it in the library as well, to compile an edited stage while the
-//! program runs.
+//! `make shaders` runs this code, in `build.rs`, and keeps what it makes in `glsl/compiled/`. The feature `reload` has it in the
+//! library as well, to compile an edited stage while the program runs.
 
 pub mod compile;
 pub mod constants;
 pub mod generate;
+pub mod kept;
 pub mod layouts;
 pub mod reflect;
+pub mod write;
 
 use super::interface;
 use super::shader::Shader;

@@ -22,7 +22,7 @@ use crate::search::{FilterSettings, Search, SearchKind, philox4x32};
     reason = "written by the build"
 )]
 mod generated {
-    include!(concat!(env!("OUT_DIR"), "/search_tests_stages.rs"));
+    include!(concat!(env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/search_tests.rs"));
 }
 use generated::{random_comp, score_comp};
 
