@@ -1,5 +1,6 @@
 //! The subcommands: arguments to library calls, progress bars, messages. Nothing is computed here.
 
+mod batch;
 mod bench;
 mod calibrate;
 mod check;
@@ -21,6 +22,7 @@ mod score;
 mod study;
 mod synth;
 mod texture;
+mod threads_flag;
 mod track;
 
 use std::ffi::OsString;
@@ -42,6 +44,7 @@ struct Arguments {
 
 #[derive(Subcommand, Debug)]
 enum Command {
+    Batch(batch::BatchArgs),
     /// Measure how fast every backend is here, side by side and stage by stage.
     Bench(bench::BenchArgs),
     /// Calibrate cameras from points known in the world and in the pictures.
@@ -91,6 +94,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 fn dispatch(command: Command) -> Result<()> {
     match command {
+        Command::Batch(args) => batch::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Calibrate(args) => calibrate::run(&args),
         Command::Check(args) => check::run(&args),

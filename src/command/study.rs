@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::interrupt::Interrupt;
 use super::output::{say, tell};
 use super::progress::ProgressBar;
+use super::threads_flag::ThreadsFlag;
 use crate::files::{OutputFolder, Overwrite};
 use crate::study::{self, Outcome, Run, Study, StudySummary};
 
@@ -25,6 +26,8 @@ pub(super) struct StudyArgs {
     /// The folder for rows, tables, plots and all runs.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    #[command(flatten)]
+    threads: ThreadsFlag,
     /// Make the runs that the folder does not hold yet.
     #[arg(long)]
     resume: bool,
@@ -57,6 +60,7 @@ struct PlanLine {
 /// interrupted: the sentence says how to go on.
 pub(super) fn run(args: &StudyArgs) -> Result<()> {
     let study = Study::load(&args.study)?;
+    args.threads.apply()?;
     if args.plan {
         study.check()?;
         for (index, run) in study.runs()?.into_iter().enumerate() {

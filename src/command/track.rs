@@ -11,13 +11,14 @@ use super::objective_flags::ObjectiveFlags;
 use super::output::{say, tell};
 use super::progress::TerminalBar;
 use super::realtime_flags::{RealtimeFlags, duration};
+use super::threads_flag::ThreadsFlag;
 use crate::body::Model;
 use crate::files::{OutputFolder, Overwrite};
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::{STALL_TIMEOUT, Sequence};
 use crate::track::{
-    Backend, FrameDone, FrameRange, Passes, PersonSummary, Prediction, Progress, RealtimeSummary, RunStart,
-    TrackSettings, TrackSummary, Width, track, track_people,
+    Backend, FrameDone, FrameRange, Passes, Prediction, Progress, RealtimeSummary, RunStart, TrackSettings,
+    TrackSummary, Width, track_all,
 };
 
 /// Tracks a person through a sequence: poses, joints and markers over time (CSV, TRC, C3D, BVH), how far they can be
@@ -31,6 +32,19 @@ pub(super) struct TrackArgs {
     /// The folder for the results.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    #[command(flatten)]
+    options: TrackOptions,
+    /// Go on with the run that the folder holds.
+    #[arg(long, conflicts_with = "force")]
+    resume: bool,
+    /// Replace what the folder holds.
+    #[arg(long)]
+    force: bool,
+}
+
+/// How a person is tracked.
+#[derive(clap::Args, Debug)]
+pub(super) struct TrackOptions {
     /// Who scores the poses.
     #[arg(long, value_name = "NAME", default_value_t)]
     backend: Backend,
@@ -90,12 +104,8 @@ pub(super) struct TrackArgs {
     stall_timeout: f64,
     #[command(flatten)]
     realtime: RealtimeFlags,
-    /// Go on with the run that the folder holds.
-    #[arg(long, conflicts_with = "force")]
-    resume: bool,
-    /// Replace what the folder holds.
-    #[arg(long)]
-    force: bool,
+    #[command(flatten)]
+    pub(super) threads: ThreadsFlag,
 }
 
 fn yes_or_no(word: &str) -> Result<bool> {
@@ -106,11 +116,15 @@ fn yes_or_no(word: &str) -> Result<bool> {
     }
 }
 
-impl TrackArgs {
-    fn settings(&self) -> Result<TrackSettings> {
+impl TrackOptions {
+    /// The settings they ask for.
+    ///
+    /// # Errors
+    /// When one makes no sense.
+    pub(super) fn settings(&self) -> Result<TrackSettings> {
         let realtime = self.realtime.settings()?;
         let default_overlay = if realtime.is_some() { 0 } else { TrackSettings::default().overlay_every };
-        Ok(TrackSettings {
+        let settings = TrackSettings {
             backend: self.backend,
             model: self.model,
             objective: self.objective.choice(),
@@ -132,10 +146,12 @@ impl TrackArgs {
             overlay_every: self.overlay_every.unwrap_or(default_overlay),
             trace: self.trace,
             recording: self.rerun,
-            resume: self.resume,
+            resume: false,
             stall_timeout: duration("the stall time-out", self.stall_timeout)?,
             realtime,
-        })
+        };
+        settings.check()?;
+        Ok(settings)
     }
 }
 
@@ -144,8 +160,29 @@ impl TrackArgs {
 /// # Errors
 /// As [`track`]; and when it was interrupted: the sentence says how to go on.
 pub(super) fn run(args: &TrackArgs) -> Result<()> {
-    let settings = args.settings()?;
-    settings.check()?;
+    let mut bar = TrackProgress::new()?;
+    let tracked = tracked(args, &mut bar);
+    bar.clear();
+    let tracked = tracked?;
+    for (_, summary) in &tracked {
+        check_ended(summary, args)?;
+    }
+    for (folder, summary) in &tracked {
+        if *folder != args.output {
+            say!("{}:", folder.file_name().unwrap_or_default().to_string_lossy());
+        }
+        print_summary(summary, folder, args.options.rerun);
+    }
+    Ok(())
+}
+
+/// Every person's folder and what was tracked there; one, that of the results, where the manifest names no people.
+///
+/// # Errors
+/// As [`track`].
+pub(super) fn tracked(args: &TrackArgs, progress: &mut dyn Progress) -> Result<Vec<(PathBuf, TrackSummary)>> {
+    let settings = TrackSettings { resume: args.resume, ..args.options.settings()? };
+    args.options.threads.apply()?;
     let sequence = if settings.realtime.is_some() {
         Sequence::open_live(&args.sequence)?
     } else {
@@ -159,18 +196,7 @@ pub(super) fn run(args: &TrackArgs) -> Result<()> {
     } else {
         OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?
     };
-    let mut bar = TrackProgress::new()?;
-    if !sequence.people.is_empty() {
-        let people = track_people(&sequence, &settings, &output, &mut bar);
-        bar.clear();
-        return print_people(&people?, args);
-    }
-    let summary = track(&sequence, &settings, &output, &mut bar);
-    bar.clear();
-    let summary = summary?;
-    check_ended(&summary, args)?;
-    print_summary(&summary, &args.output, args.rerun);
-    Ok(())
+    track_all(&sequence, &settings, &output, progress)
 }
 
 fn check_ended(summary: &TrackSummary, args: &TrackArgs) -> Result<()> {
@@ -180,18 +206,6 @@ fn check_ended(summary: &TrackSummary, args: &TrackArgs) -> Result<()> {
             summary.frames.len(),
             args.output.display()
         );
-    }
-    Ok(())
-}
-
-/// What the user sees of several people.
-fn print_people(people: &[PersonSummary], args: &TrackArgs) -> Result<()> {
-    for PersonSummary { summary, .. } in people {
-        check_ended(summary, args)?;
-    }
-    for PersonSummary { name, summary } in people {
-        say!("{name}:");
-        print_summary(summary, &args.output.join(name), args.rerun);
     }
     Ok(())
 }

@@ -168,11 +168,28 @@ impl OutputFolder {
     /// # Errors
     /// When the file cannot be made or locked, or what is done fails.
     pub fn alone<T>(&self, name: &str, work: impl FnOnce() -> Result<T>) -> Result<T> {
-        let path = self.file(&format!("{name}.lock"))?;
-        let cannot = || format!("cannot lock {}", path.display());
-        let lock = File::options().create(true).append(true).open(&path).with_context(cannot)?;
-        lock.lock().with_context(cannot)?;
+        let (lock, path) = self.lock(name)?;
+        lock.lock().with_context(|| format!("cannot lock {}", path.display()))?;
         work()
+    }
+
+    /// [`Self::alone`], or nothing where another process is at it.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn alone_at_once<T>(&self, name: &str, work: impl FnOnce() -> Result<T>) -> Result<Option<T>> {
+        let (lock, path) = self.lock(name)?;
+        match lock.try_lock() {
+            Ok(()) => work().map(Some),
+            Err(TryLockError::WouldBlock) => Ok(None),
+            Err(TryLockError::Error(error)) => Err(error).with_context(|| format!("cannot lock {}", path.display())),
+        }
+    }
+
+    fn lock(&self, name: &str) -> Result<(File, PathBuf)> {
+        let path = self.file(&format!("{name}.lock"))?;
+        let lock = File::options().create(true).append(true).open(&path);
+        Ok((lock.with_context(|| format!("cannot lock {}", path.display()))?, path))
     }
 }
 

@@ -2,9 +2,10 @@
 //! with several seeds and told as mean and standard deviation).
 //!
 //! A [`Study`] is read from a TOML file; [`run`] makes its runs one after the other into a folder, goes on where an
-//! earlier call stopped, and writes a tidy row a run, tables and plots.
+//! earlier call stopped, and writes a tidy row a run, tables and plots. A [`batch`] tracks every sequence under a folder alike.
 
 mod axes;
+mod batch;
 mod lottery;
 mod outcome;
 mod plan;
@@ -19,6 +20,9 @@ mod tables;
 mod taken;
 
 pub use axes::{Axis, Value};
+pub use batch::{
+    BatchProgress, BatchSummary, Trial, TrialRow, batch, collect as collect_trials, numbered, track_trial, trials,
+};
 pub use lottery::{LotteryManifest, LotteryTable};
 pub use outcome::{Outcome, Row, StageShare};
 pub use run::Run;

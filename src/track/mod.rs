@@ -52,7 +52,7 @@ pub use journal::FrameResult;
 pub use motion::Width;
 pub use objective_choice::ObjectiveChoice;
 pub use passes::Passes;
-pub use people::{PersonSummary, track_people};
+pub use people::{PersonSummary, track_all, track_people};
 pub use prediction::Prediction;
 pub use progress::{FrameDone, Progress, RunStart, Silent};
 pub use realtime::{Drops, LatencySummary, RealtimeSettings, RealtimeSummary, Repeat};

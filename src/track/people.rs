@@ -1,6 +1,7 @@
 //! Several people of one sequence, tracked together frame by frame: the pictures are read once, and what shows one of them counts
 //! neither for nor against another (METHOD A8).
 
+use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
@@ -26,6 +27,25 @@ pub struct PersonSummary {
     pub name: String,
     /// What [`super::track`] yields for one person.
     pub summary: TrackSummary,
+}
+
+/// Tracks whom a sequence names: the person ([`super::track`]), or the people together. Each one's folder with what was tracked there; one, that
+/// of the results, where the manifest names no people.
+///
+/// # Errors
+/// As [`super::track`] and [`track_people`].
+pub fn track_all(
+    sequence: &Sequence,
+    settings: &TrackSettings,
+    output: &OutputFolder,
+    progress: &mut dyn Progress,
+) -> Result<Vec<(PathBuf, TrackSummary)>> {
+    let folder = output.path();
+    if sequence.people.is_empty() {
+        return Ok(vec![(folder.to_path_buf(), super::track(sequence, settings, output, progress)?)]);
+    }
+    let people = track_people(sequence, settings, output, progress)?;
+    Ok(people.into_iter().map(|PersonSummary { name, summary }| (folder.join(name), summary)).collect())
 }
 
 /// Tracks the people of a sequence together and fills a folder of `output` for each, of her name, with what FORMATS calls a track's

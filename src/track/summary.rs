@@ -21,6 +21,8 @@ pub struct TrackSummary {
     pub first_frame: usize,
     /// Every frame that was tracked, in order; none after a run in real time that was too long to be kept.
     pub frames: Vec<FrameResult>,
+    /// Frames of them in which the person is lost.
+    pub lost: usize,
     /// Frames of them that this run did itself, not an earlier one it went on from.
     pub new_frames: usize,
     /// Frames a second of this run.

@@ -9,6 +9,7 @@
     reason = "a test says what went wrong by panicking"
 )]
 
+mod batch;
 mod beam;
 mod body_import;
 mod calibrate;

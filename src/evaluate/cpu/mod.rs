@@ -15,6 +15,7 @@ mod kernel;
 mod outline;
 mod planes;
 mod portable;
+mod processors;
 mod simd;
 mod workers;
 
@@ -64,13 +65,13 @@ pub struct Cpu {
 }
 
 impl Cpu {
-    /// For a body and its cameras at working size, with the best instruction set and a worker on every processor.
+    /// For a body and its cameras at working size, with the best instruction set and as many workers as rayon has: one a processor,
+    /// where nobody asked for another number.
     ///
     /// # Errors
     /// As [`Self::with`].
     pub fn new(body: &Body, cameras: &[Camera]) -> Result<Self> {
-        let processors = std::thread::available_parallelism().map_or(1, usize::from);
-        Self::with(body, cameras, InstructionSet::best(), processors)
+        Self::with(body, cameras, InstructionSet::best(), rayon::current_num_threads())
     }
 
     /// With a chosen instruction set and number of workers; the results do not depend on either.
@@ -101,9 +102,8 @@ impl Cpu {
                 })
             })
             .collect();
-        let pin = workers > 1 && std::thread::available_parallelism().is_ok_and(|count| count.get() >= workers);
         let labels = body.parts.iter().map(|part| part.label).collect();
-        let workers = Workers::new(workers, pin)?;
+        let workers = Workers::new(workers)?;
         Ok(Self {
             projector,
             planes,

@@ -1,4 +1,4 @@
-//! Threads that stay: pinned to their processors, woken for each batch without allocating.
+//! Threads that stay: bound to processors of their own where there are free ones, woken for each batch without allocating.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -6,6 +6,8 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 
 use anyhow::{Context, Result};
+
+use super::processors::claimed;
 
 /// A task as the workers see it: called with the worker's number.
 type Task = dyn Fn(usize) + Sync;
@@ -52,8 +54,8 @@ unsafe impl Send for TaskPointer {}
 const SPINS: u32 = 2_000;
 
 impl Workers {
-    /// A team of `count` (at least 1); with `pin`, each helper thread is bound to a processor of its own.
-    pub(super) fn new(count: usize, pin: bool) -> Result<Self> {
+    /// A team of `count` (at least 1); each helper thread is bound to a processor of its own, while there are such.
+    pub(super) fn new(count: usize) -> Result<Self> {
         let shared = Arc::new(Shared {
             state: Mutex::new(State { task: None, stop: false }),
             wake: Condvar::new(),
@@ -61,17 +63,17 @@ impl Workers {
             busy: AtomicUsize::new(0),
             failed: AtomicBool::new(false),
         });
-        // The caller is left to the scheduler: pinning it would pin every thread it starts later.
-        let cores = if pin { core_affinity::get_core_ids().unwrap_or_default() } else { Vec::new() };
+        // The caller is left to the scheduler: binding it would bind every thread it starts later.
+        let mut processors = claimed(count - 1).into_iter();
         let mut threads = Vec::new();
         for worker in 1..count {
             let shared = Arc::clone(&shared);
-            let core = cores.get(worker).copied();
+            let processor = processors.next();
             let thread = std::thread::Builder::new()
                 .name(format!("pantin-cpu-{worker}"))
                 .spawn(move || {
-                    if let Some(core) = core {
-                        core_affinity::set_for_current(core);
+                    if let Some(processor) = &processor {
+                        processor.bind();
                     }
                     shared.serve(worker);
                 })
@@ -165,7 +167,7 @@ mod tests {
 
     #[test]
     fn every_worker_is_called_once_a_batch() {
-        let mut workers = Workers::new(3, false).unwrap();
+        let mut workers = Workers::new(3).unwrap();
         let calls = [const { AtomicUsize::new(0) }; 3];
         for _ in 0..1000 {
             assert!(workers.run(&|worker| {
@@ -177,7 +179,7 @@ mod tests {
 
     #[test]
     fn a_panic_is_reported_and_the_team_goes_on() {
-        let mut workers = Workers::new(2, false).unwrap();
+        let mut workers = Workers::new(2).unwrap();
         assert!(!workers.run(&|worker| assert!(worker == 0, "planned")));
         assert!(workers.run(&|_| ()));
     }

@@ -38,7 +38,7 @@ impl Scorer {
         frames: &[Vec<Observation>],
         objective: Objective,
     ) -> Result<Self> {
-        let count = std::thread::available_parallelism().map_or(1, usize::from);
+        let count = rayon::current_num_threads();
         let thread = |_| -> Result<Mutex<Vec<Cpu>>> {
             let evaluators = frames.iter().map(|observations| {
                 let mut cpu = Cpu::with(body, cameras, InstructionSet::best(), 1)?;
