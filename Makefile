@@ -4,6 +4,8 @@
 #   make bench   the speed tables of docs/PERFORMANCE.md
 #   make portability   the GPU tests on lavapipe (three subgroup sizes), SwiftShader and Mesa 25
 #   make gpu-report    packs target/gpu-report, to be run on a machine with a graphics card; FROM=its results fills docs/PERFORMANCE.md
+#   make wheel   the Python package, for any Linux with glibc 2.17, into target/wheels
+#   make dist    an archive with the program for such a Linux, its licences, manual and completions, into target/dist
 #   make shaders compiles glsl/ into glsl/compiled, which every build takes
 #   make fuzz    a minute of fuzzing for every reader of a user's file (SECONDS_EACH=60)
 
@@ -19,7 +21,7 @@ SHADERC_PACKAGES := libshaderc-dev glslang-dev spirv-tools
 SHADERC_PARTS := shaderc_combined glslang SPIRV MachineIndependent GenericCodeGen OSDependent OGLCompiler HLSL SPIRV-Tools-opt \
 	SPIRV-Tools glslang-default-resource-limits
 
-.PHONY: demo test bench portability gpu-report shaders fuzz build ffmpeg vulkan shaderc toolchain help
+.PHONY: demo test bench portability gpu-report wheel python dist shaders fuzz build ffmpeg vulkan shaderc toolchain help
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -48,11 +50,12 @@ test: export CARGO_PROFILE_DEV_DEBUG = 0
 # The crate's own tests are built as a user builds it. All that runs the program, and the benchmarks, of which each row runs once,
 # have the feature rerun too: 185 crates more, but no library is built a second time.
 test: toolchain shaderc ffmpeg vulkan
-	$(CARGO) fmt --check
+	$(CARGO) fmt --all --check
 	$(CARGO) clippy --locked --features rerun,reload --all-targets -- -D warnings
 	env $(NEEDS_VULKAN) $(CARGO) test --locked --lib
 	env $(NEEDS_VULKAN) $(CARGO) test --locked --features rerun --test '*' --bench '*'
 	$(CARGO) test --locked --features rerun --doc
+	$(MAKE) --no-print-directory python
 	@[ -d ../shared/data ] || echo "SKIPPED: the tests on real recordings; ../shared/data is absent"
 
 bench: toolchain shaderc
@@ -67,6 +70,36 @@ ifdef FROM
 else
 	tests/gpu-report/pack.sh
 endif
+
+# Python with what builds and tests the package, in a virtual environment of its own.
+PYTHON := target/python/bin/python
+$(PYTHON): python/requirements-build.txt python/requirements-test.txt
+	@command -v python3 >/dev/null && python3 -c 'import ensurepip, venv' 2>/dev/null || { \
+		if command -v apt-get >/dev/null; then \
+			echo "installing python3-venv (Debian package) for the Python package"; \
+			$(SUDO) apt-get update -qq && $(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq python3-venv >/dev/null; \
+		else echo "no Python with venv is installed: install Python 3.9 or newer"; exit 1; fi; }
+	@echo "fetching what the Python package is built and tested with into target/python"
+	rm -rf target/python && python3 -m venv target/python
+	target/python/bin/pip install --quiet --disable-pip-version-check -r python/requirements-build.txt -r python/requirements-test.txt
+	touch $(PYTHON)
+
+wheel: toolchain $(PYTHON)
+	PATH="$(abspath target/python/bin):$$PATH" $(PYTHON) -m maturin build --manifest-path python/Cargo.toml --locked --release --zig \
+		--compatibility manylinux2014 --interpreter $(PYTHON) --out target/wheels
+	@ls -l target/wheels
+
+# Its tests, on a wheel of the tests' own profile, against the program that those left.
+python: toolchain ffmpeg $(PYTHON)
+	rm -rf target/wheels-for-tests
+	$(PYTHON) -m maturin build --manifest-path python/Cargo.toml --locked --profile dev --compatibility linux \
+		--interpreter $(PYTHON) --out target/wheels-for-tests
+	target/python/bin/pip install --quiet --disable-pip-version-check --force-reinstall --no-deps target/wheels-for-tests/*.whl
+	@[ -x target/debug/pantin ] || echo "SKIPPED: the comparisons with the program; target/debug/pantin is absent (make test builds it)"
+	env $$([ -x target/debug/pantin ] && echo PANTIN_PROGRAM=$(abspath target/debug/pantin)) $(PYTHON) -m pytest -q python/tests
+
+dist: toolchain $(PYTHON)
+	tests/dist/pack.sh $(abspath $(PYTHON))
 
 shaders: toolchain shaderc
 	PANTIN_WRITE_SHADERS=1 $(CARGO) check --locked --features reload

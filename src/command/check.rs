@@ -32,8 +32,7 @@ pub(super) struct CheckArgs {
 /// # Errors
 /// As [`check`]; and when a check failed.
 pub(super) fn run(args: &CheckArgs) -> Result<()> {
-    let settings = CheckSettings { start: args.frames.start, end: args.frames.end, samples: args.samples };
-    let report = check(&args.sequence, &settings)?;
+    let report = checked(args)?;
     if args.json {
         say!("{}", serde_json::to_string_pretty(&report)?);
     } else {
@@ -44,6 +43,15 @@ pub(super) fn run(args: &CheckArgs) -> Result<()> {
         bail!("{} of {} checks failed, the first is `{}`", failed.len(), report.checks.len(), first.check);
     }
     Ok(())
+}
+
+/// What was found out.
+///
+/// # Errors
+/// As [`check`].
+pub(super) fn checked(args: &CheckArgs) -> Result<CheckReport> {
+    let settings = CheckSettings { start: args.frames.start, end: args.frames.end, samples: args.samples };
+    check(&args.sequence, &settings)
 }
 
 fn print(report: &CheckReport) {

@@ -72,7 +72,10 @@ pub(super) fn run(args: &DemoArgs) -> Result<()> {
     let folder = OutputFolder::open(&args.output.join("sequence"))?;
     let begin = Instant::now();
     let bar = Mutex::new(ProgressBar::new("making the sequence", scene.frames));
-    synthetic.write(&folder, false, None, &|_| bar.lock().unwrap_or_else(PoisonError::into_inner).advance())?;
+    synthetic.write(&folder, false, None, &|_| {
+        bar.lock().unwrap_or_else(PoisonError::into_inner).advance();
+        Ok(())
+    })?;
     drop(bar);
     let views = synthetic.cameras().len();
     let made = begin.elapsed().as_secs_f64();

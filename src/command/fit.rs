@@ -61,6 +61,15 @@ pub(super) struct FitArgs {
 /// # Errors
 /// As [`fit`]; and when a file exists and may not be replaced, or cannot be written.
 pub(super) fn run(args: &FitArgs) -> Result<()> {
+    put!("{}", summary(&fitted(args)?));
+    Ok(())
+}
+
+/// The person measured, and written where the arguments say.
+///
+/// # Errors
+/// As [`run`].
+pub(super) fn fitted(args: &FitArgs) -> Result<Fit> {
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     // Said before the work, not after it.
     for file in [&args.output, &args.start_out].into_iter().flatten() {
@@ -87,17 +96,16 @@ pub(super) fn run(args: &FitArgs) -> Result<()> {
         seed: args.seed,
     };
     let fit = fit(&sequence, &settings)?;
-    let summary = summary(&fit);
-    put!("{summary}");
     if let Some(file) = &args.output {
-        let comment: String = summary.lines().map(|line| format!("# {line}").trim_end().to_string() + "\n").collect();
+        let comment: String =
+            summary(&fit).lines().map(|line| format!("# {line}").trim_end().to_string() + "\n").collect();
         let text = format!("# Measured by `pantin fit` on {}.\n#\n{comment}\n{}", sequence.name, fit.body.to_toml());
         write_atomically(file, overwrite, |writer| Ok(writer.write_all(text.as_bytes())?))?;
     }
     if let Some(file) = &args.start_out {
         fit.poses.write(file, overwrite, &fit.body)?;
     }
-    Ok(())
+    Ok(fit)
 }
 
 /// What the user sees.

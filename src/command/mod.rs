@@ -3,6 +3,7 @@
 mod batch;
 mod bench;
 mod calibrate;
+pub mod call;
 mod check;
 mod convert;
 mod demo;

@@ -1,6 +1,7 @@
 //! `pantin synth`.
 
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
@@ -12,7 +13,7 @@ use super::progress::ProgressBar;
 use crate::files::{OutputFolder, Overwrite};
 use crate::gpu::Device;
 use crate::synth::{Lottery, LotterySettings, Scene, ScenePreset, SyntheticSequence};
-use crate::track::{StartPose, write_unseen};
+use crate::track::{StartPose, UnseenSummary, write_unseen};
 
 /// Makes a synthetic sequence with exact truth from scene.toml: people who walk, run, jump or follow a recorded motion (BVH,
 /// ASF/AMC, DeepMimic) in a room before any number of cameras. The folder can be tracked as it is; truth.trc holds the
@@ -62,8 +63,55 @@ pub(super) struct SynthArgs {
 /// When the scene makes no sense, a file it names cannot be read, the folder is not empty (without `--force` or
 /// `--resume`) or a file cannot be written; one sentence.
 pub(super) fn run(args: &SynthArgs) -> Result<()> {
+    let begin = Instant::now();
+    let bar: Mutex<Option<ProgressBar>> = Mutex::new(None);
+    let made = made(args, &|_, frames| {
+        let mut bar = bar.lock().unwrap_or_else(PoisonError::into_inner);
+        bar.get_or_insert_with(|| ProgressBar::new("making the sequence", frames)).advance();
+        Ok(())
+    })?;
+    drop(bar);
+    if let Some((person, measured)) = &made.unseen {
+        say!("{person}");
+        say!(
+            "measured: body off by {:.1} mm in the T-pose, start pose by {:.1} mm{}",
+            measured.body_error,
+            measured.start_error,
+            match measured.start {
+                StartPose::Searched => "",
+                StartPose::Improved => ", searched from a pose set by hand",
+                StartPose::ByHand => ", set by hand",
+            }
+        );
+    }
+    let seconds = begin.elapsed().as_secs_f64();
+    say!(
+        "made {} frames in {} views in {seconds:.1} s, {:.3} s a frame of all views: {}",
+        made.frames,
+        made.views,
+        seconds / made.frames as f64,
+        made.folder.display()
+    );
+    Ok(())
+}
+
+/// A sequence that was made.
+pub(super) struct Made {
+    /// Its folder.
+    pub(super) folder: PathBuf,
+    frames: usize,
+    views: usize,
+    /// Who was drawn by lot, and how well a user's files fit.
+    unseen: Option<(String, UnseenSummary)>,
+}
+
+/// Makes the sequence. `progress` is told how many of how many frames are done, from any thread; its error ends the work.
+///
+/// # Errors
+/// As [`run`].
+pub(super) fn made(args: &SynthArgs, progress: &(dyn Fn(usize, usize) -> Result<()> + Sync)) -> Result<Made> {
     if let Some(seed) = args.lottery {
-        return run_lottery(args, seed);
+        return drawn_by_lot(args, seed, progress);
     }
     let mut scene = match (&args.scene, &args.preset) {
         (Some(path), _) => Scene::load(path)?,
@@ -74,20 +122,25 @@ pub(super) fn run(args: &SynthArgs) -> Result<()> {
     let synthetic = SyntheticSequence::new(&scene)?;
     let device = device(args, &synthetic)?;
     let folder = folder(args)?;
-    let begin = Instant::now();
-    let bar = Mutex::new(ProgressBar::new("making the sequence", scene.frames));
-    synthetic.write(&folder, args.resume, device.as_ref(), &|_| {
-        bar.lock().unwrap_or_else(PoisonError::into_inner).advance()
+    synthetic.write(&folder, args.resume, device.as_ref(), &|done| progress(done, scene.frames))?;
+    let views = synthetic.cameras().len();
+    Ok(Made { folder: folder.path().to_path_buf(), frames: scene.frames, views, unseen: None })
+}
+
+fn drawn_by_lot(args: &SynthArgs, seed: u64, progress: &(dyn Fn(usize, usize) -> Result<()> + Sync)) -> Result<Made> {
+    let settings =
+        LotterySettings { seed, motions: args.motions.clone(), people: args.people.clone(), frames: args.frames };
+    let lottery = Lottery::draw(&settings)?;
+    let synthetic = SyntheticSequence::new(&lottery.scene)?;
+    let device = device(args, &synthetic)?;
+    let folder = folder(args)?;
+    let frames = lottery.scene.frames + lottery.t_pose.frames;
+    let done = AtomicUsize::new(0);
+    let measured = write_unseen(&lottery, &folder, args.resume, device.as_ref(), &|_| {
+        progress(done.fetch_add(1, Ordering::Relaxed) + 1, frames)
     })?;
-    drop(bar);
-    let (seconds, views) = (begin.elapsed().as_secs_f64(), synthetic.cameras().len());
-    say!(
-        "made {} frames in {views} views in {seconds:.1} s, {:.3} s a frame of all views: {}",
-        scene.frames,
-        seconds / scene.frames as f64,
-        folder.path().display()
-    );
-    Ok(())
+    let unseen = Some((lottery.summary(), measured));
+    Ok(Made { folder: folder.path().to_path_buf(), frames, views: synthetic.cameras().len(), unseen })
 }
 
 /// What draws, if not the processor.
@@ -108,32 +161,4 @@ fn device(args: &SynthArgs, synthetic: &SyntheticSequence) -> Result<Option<Devi
 fn folder(args: &SynthArgs) -> Result<OutputFolder> {
     let overwrite = if args.force || args.resume { Overwrite::Replace } else { Overwrite::Refuse };
     OutputFolder::create(&args.output, overwrite)
-}
-
-fn run_lottery(args: &SynthArgs, seed: u64) -> Result<()> {
-    let settings =
-        LotterySettings { seed, motions: args.motions.clone(), people: args.people.clone(), frames: args.frames };
-    let lottery = Lottery::draw(&settings)?;
-    let device = device(args, &SyntheticSequence::new(&lottery.scene)?)?;
-    let folder = folder(args)?;
-    say!("{}", lottery.summary());
-    let begin = Instant::now();
-    let frames = lottery.scene.frames + lottery.t_pose.frames;
-    let bar = Mutex::new(ProgressBar::new("making the sequence", frames));
-    let made = write_unseen(&lottery, &folder, args.resume, device.as_ref(), &|_| {
-        bar.lock().unwrap_or_else(PoisonError::into_inner).advance()
-    })?;
-    drop(bar);
-    say!(
-        "measured: body off by {:.1} mm in the T-pose, start pose by {:.1} mm{}",
-        made.body_error,
-        made.start_error,
-        match made.start {
-            StartPose::Searched => "",
-            StartPose::Improved => ", searched from a pose set by hand",
-            StartPose::ByHand => ", set by hand",
-        }
-    );
-    say!("made {frames} frames in {:.1} s: {}", begin.elapsed().as_secs_f64(), folder.path().display());
-    Ok(())
 }

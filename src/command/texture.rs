@@ -31,7 +31,7 @@ pub(super) struct TextureArgs {
     #[arg(long, value_name = "PICTURE")]
     example: Option<PathBuf>,
     /// The PNG to write
-    #[arg(short, long, value_name = "FILE", required_unless_present = "list")]
+    #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Pixels
     #[arg(long, value_name = "WxH", default_value = "512x512", value_parser = parse_size)]
@@ -128,13 +128,45 @@ fn parse_offset(text: &str) -> Result<[f32; 3], String> {
 /// When the material or a parameter is unknown, a size makes no sense, or a file cannot be read or written.
 pub(super) fn run(args: &TextureArgs) -> Result<()> {
     match (&args.example, &args.material, &args.output) {
-        (Some(example), _, Some(output)) => from_example(args, example, output),
-        (None, Some(material), Some(output)) => of_material(args, material, output),
-        (_, _, output) => list(args, output.as_deref()),
+        (None, None, output) => list(args, output.as_deref()),
+        (_, _, None) => bail!("the PNG to write is not given, expected -o FILE"),
+        (example, material, Some(output)) => {
+            let Drawn { picture, resynthesised } = drawn(args)?;
+            let (width, height, output) = (picture.width(), picture.height(), output.display());
+            match (example, material) {
+                (None, Some(name)) => say!("wrote {name}, {width} x {height} pixels, to {output}"),
+                _ => say!("wrote {width} x {height} pixels, of them {resynthesised} synthesised anew, to {output}"),
+            }
+            Ok(())
+        }
     }
 }
 
-fn write(args: &TextureArgs, picture: DynamicImage, path: &Path) -> Result<()> {
+/// What was drawn.
+pub(super) struct Drawn {
+    /// The picture.
+    pub(super) picture: DynamicImage,
+    /// From an example: pixels that were synthesised anew.
+    resynthesised: usize,
+}
+
+/// The picture, or the sheet of all materials, which is written too where the arguments say.
+///
+/// # Errors
+/// As [`run`].
+pub(super) fn drawn(args: &TextureArgs) -> Result<Drawn> {
+    let drawn = match (&args.example, &args.material) {
+        (Some(example), _) => from_example(args, example)?,
+        (None, Some(name)) => Drawn { picture: of_depth(args, of_material(args, name)?), resynthesised: 0 },
+        (None, None) => Drawn { picture: of_depth(args, contact_sheet(256, args.seed)?.into()), resynthesised: 0 },
+    };
+    if let Some(output) = &args.output {
+        write(args, &drawn.picture, output)?;
+    }
+    Ok(drawn)
+}
+
+fn write(args: &TextureArgs, picture: &DynamicImage, path: &Path) -> Result<()> {
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     write_atomically(path, overwrite, |writer| Ok(picture.write_with_encoder(PngEncoder::new(writer))?))
 }
@@ -153,12 +185,12 @@ fn list(args: &TextureArgs, output: Option<&Path>) -> Result<()> {
         say!("{kind:<10} {}", looks.trim_start());
     }
     let Some(output) = output else { return Ok(()) };
-    write(args, of_depth(args, contact_sheet(256, args.seed)?.into()), output)?;
+    drawn(args)?;
     say!("wrote {}", output.display());
     Ok(())
 }
 
-fn of_material(args: &TextureArgs, name: &str, output: &Path) -> Result<()> {
+fn of_material(args: &TextureArgs, name: &str) -> Result<DynamicImage> {
     check_size(args.size)?;
     let scale = args.scale.unwrap_or(if args.preview.is_some() { 1.0 } else { 4.0 });
     let view = View { size: args.size, offset: args.offset, scale }.checked()?;
@@ -167,15 +199,12 @@ fn of_material(args: &TextureArgs, name: &str, output: &Path) -> Result<()> {
     if args.person.is_some() && !matches!(args.preview, Some(Preview::Person)) {
         bail!("--person is for --preview person and means nothing with another one");
     }
-    let picture = match args.preview.map(Preview::solid) {
+    Ok(match args.preview.map(Preview::solid) {
         Some(Some(solid)) => lit(&material, solid, args.size, args.offset, scale).into(),
         Some(None) => portrait(&material, args.person.as_deref(), args.size, args.offset, scale)?.into(),
         None if args.height_map => heights(&material, &view).into(),
         None => flat(&material, &view).into(),
-    };
-    write(args, of_depth(args, picture), output)?;
-    say!("wrote {name}, {} x {} pixels, to {}", args.size[0], args.size[1], output.display());
-    Ok(())
+    })
 }
 
 fn read(path: &Path) -> Result<RgbImage> {
@@ -184,7 +213,7 @@ fn read(path: &Path) -> Result<RgbImage> {
     Ok(picture.decode().with_context(context)?.into_rgb8())
 }
 
-fn from_example(args: &TextureArgs, example: &Path, output: &Path) -> Result<()> {
+fn from_example(args: &TextureArgs, example: &Path) -> Result<Drawn> {
     for (name, given) in [
         ("--params", args.params.is_some()),
         ("--preview", args.preview.is_some()),
@@ -213,20 +242,12 @@ fn from_example(args: &TextureArgs, example: &Path, output: &Path) -> Result<()>
     let synthesis = synthesise(&picture, mask.as_ref(), &settings, device.as_ref(), || progress.advance())
         .with_context(|| format!("cannot synthesise from {}", example.display()))?;
     drop(progress);
-    write(args, synthesis.picture.into(), output)?;
     for (path, picture) in
         [(&args.decomposition, synthesis.decomposition), (&args.resynthesised, synthesis.resynthesised)]
     {
         if let Some(path) = path {
-            write(args, picture.into(), path)?;
+            write(args, &picture.into(), path)?;
         }
     }
-    say!(
-        "wrote {} x {} pixels, of them {} synthesised anew, to {}",
-        args.size[0],
-        args.size[1],
-        synthesis.resynthesised_count,
-        output.display()
-    );
-    Ok(())
+    Ok(Drawn { picture: synthesis.picture.into(), resynthesised: synthesis.resynthesised_count })
 }

@@ -1,8 +1,11 @@
 //! What the comparison of one candidate image with one observation yields (METHOD A6).
 
+use bytemuck::{Pod, Zeroable};
+
 /// Sums over the pixels of one candidate in one view. All integers, so the same drawn image gives the same numbers in
 /// any order on any device.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Pod, Zeroable)]
 pub struct Components {
     /// Pixels of the observed silhouette.
     pub area_obs: u32,

@@ -96,6 +96,7 @@ impl Drawn {
             let is_begun = folder.path().join("scene.toml").exists();
             write_unseen(&lottery, folder, is_begun, None, &|_| {
                 progress(done.fetch_add(1, Ordering::Relaxed) + 1, frames);
+                Ok(())
             })
             .with_context(|| format!("the scene of seed {seed}"))?;
         }

@@ -122,5 +122,8 @@ fn make(
     let frames = scene.frames;
     let synthetic = SyntheticSequence::new(&scene)?;
     let begun = fs::read_dir(folder.path())?.next().is_some();
-    synthetic.write(folder, begun, None, &|done| progress(done, frames))
+    synthetic.write(folder, begun, None, &|done| {
+        progress(done, frames);
+        Ok(())
+    })
 }

@@ -214,7 +214,7 @@ mod tests {
         let made = OutputFolder::open(&folder.path().join("made")).unwrap();
         let mut scene = crate::synth::Scene { frames: 5, ..crate::synth::Scene::default() };
         scene.rig.size = [160, 90];
-        crate::synth::SyntheticSequence::new(&scene).unwrap().write(&made, false, None, &|_| {}).unwrap();
+        crate::synth::SyntheticSequence::new(&scene).unwrap().write(&made, false, None, &|_| Ok(())).unwrap();
         let sequence = Sequence::open(made.path()).unwrap();
         let output = OutputFolder::open(folder.path()).unwrap();
         let asked = SequenceSettings {

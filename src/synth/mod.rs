@@ -33,6 +33,7 @@ pub mod triangle;
 pub use finish::{Finish, FinishParameters, FinishSettings};
 pub use lottery::{Lottery, LotterySettings};
 pub use portrait::portrait;
+pub use recording::Advance;
 pub use scene::{
     ActorSettings, CameraSettings, Gait, Garment, LensKind, LightSettings, MotionSettings, MotionUnit, OutputSettings,
     PictureForm, RigKind, RigSettings, RoomSettings, Scene, ScenePreset, SensorSettings, StationSettings,

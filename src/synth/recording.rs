@@ -23,6 +23,9 @@ use crate::files::{OutputFolder, shortened};
 use crate::geometry::Camera;
 use crate::sequence::VideoEncoder;
 
+/// Told the number of frames that are drawn, from any thread. Its error ends the work.
+pub type Advance<'a> = dyn Fn(usize) -> Result<()> + Sync + 'a;
+
 /// Frames that are drawn at once before they go to the videos' encoders in order.
 const BATCH: usize = 16;
 
@@ -210,9 +213,8 @@ impl Studio<'_> {
         self.shutters[view].sensor.expose_clean(self.views[view].plate())
     }
 
-    /// Draws all frames into `folder`. With `resume` pictures and videos that are there are kept. `progress` is called with
-    /// the number of frames done, from any thread.
-    pub(super) fn record(&self, folder: &OutputFolder, resume: bool, progress: &(dyn Fn(usize) + Sync)) -> Result<()> {
+    /// Draws all frames into `folder`. With `resume` pictures and videos that are there are kept.
+    pub(super) fn record(&self, folder: &OutputFolder, resume: bool, progress: &Advance<'_>) -> Result<()> {
         let output = &self.scene.output;
         let is_video = output.pictures == PictureForm::Video;
         folder.file(if is_video { "videos/x" } else { "frames/x" })?;
@@ -266,7 +268,7 @@ impl Studio<'_> {
                             write_picture(&file, size, &shot.mask, output.quality)?;
                         }
                     }
-                    progress(done.fetch_add(1, Ordering::Relaxed) + 1);
+                    progress(done.fetch_add(1, Ordering::Relaxed) + 1)?;
                     let to_encode = asked.into_iter().zip(shots).filter(|(view, _)| encoded.contains(view));
                     Ok(to_encode.map(|(_, shot)| shot).collect())
                 })

@@ -11,7 +11,7 @@ use super::device::DevicePainter;
 use super::figure::{Figure, Wardrobe};
 use super::packing::PackedFinishes;
 use super::performance::Performance;
-use super::recording::{Shutter, Studio, shutters, source_of, write_picture};
+use super::recording::{Advance, Shutter, Studio, shutters, source_of, write_picture};
 use super::render::View;
 use super::rig;
 use super::room::Room;
@@ -163,18 +163,18 @@ impl SyntheticSequence {
     /// Writes the sequence (FORMATS, sequence.toml) with its pictures, plates/ and its truth: truth.trc (joints), truth.c3d
     /// (markers), truth_poses.csv; dropped.csv where cameras drop frames; scene.toml, which makes it again. sequence.toml
     /// comes last, so that a folder that has one is complete. With `resume` the pictures that are there are kept.
-    /// `progress` is called with the number of frames done, from any thread. A `device` draws the pictures instead of the
+    /// A `device` draws the pictures instead of the
     /// processor, nearly the same ones; plates and truth are the processor's all the same.
     ///
     /// # Errors
-    /// When a file cannot be written (the message names it), the folder to resume was made with other settings, or the device
+    /// When a file cannot be written (the message names it), `progress` says so, the folder to resume was made with other settings, or the device
     /// fails or cannot draw what someone wears ([`Self::check_for_device`]).
     pub fn write(
         &self,
         folder: &OutputFolder,
         resume: bool,
         device: Option<&Device>,
-        progress: &(dyn Fn(usize) + Sync),
+        progress: &Advance<'_>,
     ) -> Result<()> {
         self.write_as(&FileNames::default(), folder, resume, device, progress)
     }
@@ -189,7 +189,7 @@ impl SyntheticSequence {
         folder: &OutputFolder,
         resume: bool,
         device: Option<&Device>,
-        progress: &(dyn Fn(usize) + Sync),
+        progress: &Advance<'_>,
     ) -> Result<()> {
         let record = toml::to_string(&self.scene).context("cannot write the scene's settings")?;
         if resume {
@@ -304,7 +304,7 @@ mod tests {
     fn write(scene: &Scene) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         let output = OutputFolder::create(folder.path(), Overwrite::Refuse).unwrap();
-        SyntheticSequence::new(scene).unwrap().write(&output, false, None, &|_| {}).unwrap();
+        SyntheticSequence::new(scene).unwrap().write(&output, false, None, &|_| Ok(())).unwrap();
         folder
     }
 
@@ -493,14 +493,14 @@ mod tests {
         let (whole, kept) = (fs::read(&frame).unwrap(), folder.path().join("frames/cam1_0001.png"));
         fs::remove_file(&frame).unwrap();
         fs::write(&kept, b"kept").unwrap();
-        SyntheticSequence::new(&short()).unwrap().write(&output, true, None, &|_| {}).unwrap();
+        SyntheticSequence::new(&short()).unwrap().write(&output, true, None, &|_| Ok(())).unwrap();
         assert_eq!(fs::read(&frame).unwrap(), whole);
         assert_eq!(fs::read(&kept).unwrap(), b"kept", "what is there is not made again");
         let other = SyntheticSequence::new(&Scene { seed: 7, ..short() }).unwrap();
-        let error = other.write(&output, true, None, &|_| {}).unwrap_err().to_string();
+        let error = other.write(&output, true, None, &|_| Ok(())).unwrap_err().to_string();
         assert!(error.contains("scene.toml has other settings"), "{error}");
         let empty = tempfile::tempdir().unwrap();
-        let error = other.write(&OutputFolder::open(empty.path()).unwrap(), true, None, &|_| {}).unwrap_err();
+        let error = other.write(&OutputFolder::open(empty.path()).unwrap(), true, None, &|_| Ok(())).unwrap_err();
         assert!(format!("{error:#}").contains("expected a folder that was begun"), "{error:#}");
     }
 

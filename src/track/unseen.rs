@@ -9,7 +9,7 @@ use crate::files::{OutputFolder, Overwrite};
 use crate::gpu::Device;
 use crate::motion::{PointPairs, TrajectoryError};
 use crate::sequence::Sequence;
-use crate::synth::{FileNames, Lottery, SyntheticSequence};
+use crate::synth::{Advance, FileNames, Lottery, SyntheticSequence};
 
 /// Names of the files that hold what nobody would know.
 const TRUE: FileNames<'_> =
@@ -50,7 +50,7 @@ pub enum StartPose {
 /// Writes a lottery's scene: pictures, plates, exact silhouettes (masks/), cameras.toml and the truth; `t_pose/`, the T-pose
 /// second; body.toml, measured in it with the height that the person states, from the T-pose as a hand sets it; start.csv, the pose
 /// of frame 0 as searched with that body, knowing roughly where he faces ([`StartPose`] says what where that went wrong). `true_sequence.toml` names the actor's own bones and pose, `exact.toml` the exact silhouettes; sequence.toml, which
-/// has neither, comes last. `progress` is called whenever a frame is drawn, from any thread.
+/// has neither, comes last.
 ///
 /// # Errors
 /// As [`SyntheticSequence::write`] and [`fit`].
@@ -59,7 +59,7 @@ pub fn write_unseen(
     folder: &OutputFolder,
     resume: bool,
     device: Option<&Device>,
-    progress: &(dyn Fn(usize) + Sync),
+    progress: &Advance<'_>,
 ) -> Result<UnseenSummary> {
     let synthetic = SyntheticSequence::new(&lottery.scene)?;
     synthetic.write_as(&TRUE, folder, resume, device, progress)?;

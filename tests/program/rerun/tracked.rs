@@ -53,7 +53,7 @@ fn tracked() -> &'static Tracked {
         let folder = tempfile::tempdir().unwrap();
         let scene = Scene { frames: FRAMES, ..Scene::preset("demo").unwrap() };
         let made = OutputFolder::open(&folder.path().join("sequence")).unwrap();
-        SyntheticSequence::new(&scene).unwrap().write(&made, false, None, &|_| ()).unwrap();
+        SyntheticSequence::new(&scene).unwrap().write(&made, false, None, &|_| Ok(())).unwrap();
         let sequence = Sequence::open(made.path()).unwrap();
         let output = OutputFolder::open(&folder.path().join("result")).unwrap();
         // The first frame to be tracked is not the sequence's first.
