@@ -17,6 +17,7 @@ mod matrix;
 mod name_pair;
 mod objective_flags;
 mod output;
+mod pages;
 mod progress;
 mod realtime_flags;
 mod score;
@@ -52,6 +53,7 @@ enum Command {
     Calibrate(calibrate::CalibrateArgs),
     /// Is this sequence sane: units, up axis, cameras, silhouettes, timing; every check with its number and what to do.
     Check(check::CheckArgs),
+    Completions(pages::CompletionsArgs),
     /// Convert a recording between C3D, TRC, BVH and CSV.
     Convert(convert::ConvertArgs),
     Demo(demo::DemoArgs),
@@ -64,6 +66,7 @@ enum Command {
     /// Measure the error of tracked points against a truth: per point, per frame, mean and standard deviation, mm.
     Score(score::ScoreArgs),
     Features(features::FeaturesArgs),
+    Man(pages::ManArgs),
     Matrix(matrix::MatrixArgs),
     /// Run many settings over many sequences and seeds, and compare them in tables and plots.
     Study(study::StudyArgs),
@@ -99,6 +102,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Bench(args) => bench::run(&args),
         Command::Calibrate(args) => calibrate::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Completions(args) => pages::completions(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Demo(args) => demo::run(&args),
         Command::Devices(args) => devices::run(&args),
@@ -106,6 +110,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Fit(args) => fit::run(&args),
         Command::Score(args) => score::run(&args),
         Command::Features(args) => features::run(&args),
+        Command::Man(args) => pages::man(&args),
         Command::Matrix(args) => matrix::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Synth(args) => synth::run(&args),

@@ -26,6 +26,7 @@ mod losses;
 mod matrix;
 mod observe;
 mod obstacles;
+mod pages;
 mod people;
 mod reliability;
 mod report_in_browser;
