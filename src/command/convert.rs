@@ -9,7 +9,7 @@ use super::name_pair::name_pair;
 use super::output::say;
 use crate::body::{ADULT_HEIGHT, Body};
 use crate::files::{Overwrite, write_atomically};
-use crate::motion::{PointFormat, read_bvh, read_points, write_bvh, write_points};
+use crate::motion::{Convention, PointFormat, read_bvh, read_points, write_bvh, write_points_by};
 
 /// Converts a recording between C3D, TRC, BVH and CSV, each known by its extension. Lengths become millimetres (BVH has
 /// no unit: its numbers are taken as millimetres, see --scale). A BVH becomes the points of its joints and free ends;
@@ -32,6 +32,9 @@ pub(super) struct ConvertArgs {
     /// The input is y-up (BVH, OpenSim): turn it z-up, (x, y, z) becoming (z, x, y).
     #[arg(long)]
     y_up: bool,
+    /// Whose axes and units OUT has; OpenSim's in .trc alone.
+    #[arg(long, value_name = "NAME", default_value_t)]
+    convention: Convention,
     /// The height of a skinned person in mm, for files that are not in metres.
     #[arg(long, value_name = "MM")]
     height: Option<f64>,
@@ -71,8 +74,9 @@ pub(super) fn run(args: &ConvertArgs) -> Result<()> {
             points = points.y_up_to_z_up();
         }
         points.rate = args.rate.unwrap_or(points.rate);
-        write_points(&args.output, &points, overwrite)?;
-        (points.names.len(), points.frames.len(), "points")
+        let counts = (points.names.len(), points.frames.len(), "points");
+        write_points_by(&args.output, points, args.convention, overwrite)?;
+        counts
     };
     say!("{}: {points} {what}, {frames} frames", args.output.display());
     Ok(())

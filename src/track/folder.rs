@@ -10,10 +10,11 @@ use super::{overlay, page, realtime, run_record};
 use crate::files::OutputFolder;
 
 /// Everything a run writes but its overlays.
-const FILES: [&str; 14] = [
+const FILES: [&str; 15] = [
     "poses.csv",
     "joints.csv",
     "joints.trc",
+    "joints_opensim.trc",
     "markers.c3d",
     "motion.bvh",
     "confidence.csv",

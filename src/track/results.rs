@@ -9,7 +9,9 @@ use super::journal::FrameResult;
 use crate::body::{Body, PoseTable, PoseWriter};
 use crate::files::{OutputFolder, Overwrite};
 use crate::geometry::Camera;
-use crate::motion::{PointTrajectory, write_bvh, write_points, write_points_csv_with_sigmas};
+use crate::motion::{
+    Convention, PointTrajectory, write_bvh, write_points, write_points_by, write_points_csv_with_sigmas,
+};
 
 /// The poses of a track as its files hold them: where the person is lost, and such frames are to be gaps, the last sure pose
 /// before stands in (the first after, where there is none), so that every frame has its row.
@@ -70,7 +72,7 @@ fn every_frame(table: &PoseTable) -> PoseTable {
     all
 }
 
-/// Writes poses.csv, joints.csv, joints.trc, markers.c3d, motion.bvh and confidence.csv. Frames that real time left out are
+/// Writes poses.csv, joints.csv, joints.trc, joints_opensim.trc, markers.c3d, motion.bvh and confidence.csv. Frames that real time left out are
 /// gaps, but for BVH, which knows none: there the pose before is held.
 pub(super) fn write(
     output: &OutputFolder,
@@ -95,6 +97,7 @@ pub(super) fn write(
         let sigmas = joint_sigmas(&joints, table, confidences);
         output.write("joints.csv", |writer| write_points_csv_with_sigmas(writer, &joints, &sigmas))?;
         write_points(&output.file("joints.trc")?, &joints, Overwrite::Replace)?;
+        write_points_by(&output.file("joints_opensim.trc")?, joints, Convention::OpenSim, Overwrite::Replace)?;
     }
     if !body.markers.is_empty() {
         let markers = held.with_gaps(body.marker_trajectory(table, fps)?);

@@ -150,7 +150,7 @@ fn a_person_who_leaves_is_a_gap_and_is_found_again() {
     let rows = |name: &str| fs::read_to_string(output.join(name)).unwrap().lines().count() - 1;
     assert_eq!((rows("poses.csv"), rows("confidence.csv")), (24, 24));
     let truth = read_points(&walk.join("truth.trc")).unwrap();
-    for name in ["joints.csv", "joints.trc", "markers.c3d"] {
+    for name in ["joints.csv", "joints.trc", "joints_opensim.trc", "markers.c3d"] {
         let points = read_points(&output.join(name)).unwrap();
         assert_eq!(points.frames.len(), 24, "{name}");
         for (frame, row) in points.frames.iter().enumerate() {

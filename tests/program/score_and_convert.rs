@@ -105,6 +105,14 @@ fn a_recording_goes_round_all_formats() {
     assert_eq!((points.names.join(" "), points.rate), ("hip hip_end".into(), 100.0));
     assert_eq!(points.frames[0][1], Some(DVec3::new(30.0, 10.0, 120.0)), "z up, mm");
 
+    let (status, _, error) = pantin(at, &["convert", "e.csv", "os.trc", "--convention", "opensim"]);
+    assert_eq!(status, 0, "{error}");
+    let text = fs::read_to_string(at.join("os.trc")).unwrap();
+    assert!(text.contains("\tm\t") && text.contains("\n1\t0.000000\t0.0100000\t0.0200000\t0.0300000\t"), "{text}");
+    let (status, _, error) = pantin(at, &["convert", "os.trc", "back.csv", "--y-up"]);
+    assert_eq!(status, 0, "{error}");
+    assert_eq!(fs::read(at.join("back.csv")).unwrap(), fs::read(at.join("e.csv")).unwrap());
+
     let (status, _, error) = pantin(at, &["convert", "a.bvh", "f.bvh", "--scale", "10", "--rate", "50"]);
     assert_eq!(status, 0, "{error}");
     let text = fs::read_to_string(at.join("f.bvh")).unwrap();
@@ -131,6 +139,7 @@ fn convert_refuses_in_one_sentence() {
     refused(at, &["convert", "a.bvh", "b.bvh", "--y-up"], "--y-up turns points");
     refused(at, &["convert", "a.bvh", "b.csv", "--scale", "nan"], "--scale is NaN");
     refused(at, &["convert", "a.bvh", "b.csv", "--scale", "1e300"], "expected coordinates below 1e9 mm");
+    refused(at, &["convert", "a.bvh", "b.csv", "--convention", "opensim"], "expected .trc for the convention opensim");
     refused(at, &["convert", "a.bvh", "b.csv", "--rate", "0"], "--rate is 0");
     let left: Vec<PathBuf> = fs::read_dir(at).unwrap().map(|entry| entry.unwrap().path()).collect();
     assert_eq!(left.len(), 3, "nothing was written: {left:?}");

@@ -13,6 +13,7 @@ use crate::files::shortened;
 pub(crate) const POINTS: PointFile = PointFile {
     read: |bytes, name| parse_bvh(text(bytes, name)?, name)?.to_points().with_context(|| name.to_string()),
     write: Err("BVH holds joint angles of a skeleton, which points alone do not give"),
+    write_metres: None,
 };
 
 /// Reads the text of a BVH file; `name` stands for the file in messages. Lengths are in the file's unit. Words may
