@@ -15,6 +15,16 @@ choices! {
     }
 }
 
+impl Convention {
+    /// Length of the unit that a BVH is written in, mm.
+    pub fn bvh_unit(self) -> f64 {
+        match self {
+            Self::Pantin => 10.0,
+            Self::OpenSim => 1000.0,
+        }
+    }
+}
+
 /// A vector of the z-up frame (x forward, y left) in the y-up frame (x left, z forward) of OpenSim, BVH and glTF files.
 pub(crate) fn y_up(p: DVec3) -> DVec3 {
     DVec3::new(p.y, p.z, p.x)

@@ -18,9 +18,10 @@ use std::path::Path;
 
 use anyhow::{Context, Result, anyhow};
 
+pub(crate) use convention::y_up;
 pub(crate) use number::{finite, whole};
 
-pub use bvh::{BvhChannel, BvhJoint, BvhMotion, parse_bvh, write_bvh};
+pub use bvh::{BvhChannel, BvhJoint, BvhMotion, BvhStatement, parse_bvh, write_bvh};
 pub use c3d::{parse_c3d, write_c3d};
 pub use convention::Convention;
 pub use error::{FrameError, Matching, PointError, TrajectoryError, write_frame_errors};
@@ -61,15 +62,28 @@ impl PointFormat {
     }
 }
 
-/// Reads points (mm) from a file, whose format its extension tells. BVH has no unit: its numbers are taken
-/// as millimetres, and its joints and free ends become points ([`BvhMotion::to_points`]). Axes stay as they are in the
-/// file.
+/// Reads points (mm) from a file, whose format its extension tells. A BVH's joints and free ends become points
+/// ([`BvhMotion::to_points`]); one that says no unit is taken to be in millimetres. Axes stay as they are in the file, but for a BVH that
+/// says them.
 ///
 /// # Errors
 /// One sentence with the file, the line or byte, what was found and what was expected.
 pub fn read_points(path: &Path) -> Result<PointTrajectory> {
     let format = PointFormat::of(path)?;
     (format.file().read)(&read_bytes(path)?, &path.display().to_string())
+}
+
+/// Reads points (mm) from a file whose axes are y-up, and turns them z-up; a BVH that says so itself is turned once.
+///
+/// # Errors
+/// As [`read_points`].
+pub fn read_y_up_points(path: &Path) -> Result<PointTrajectory> {
+    if PointFormat::of(path)? == PointFormat::Bvh {
+        let motion = read_bvh(path)?;
+        let points = motion.to_points().with_context(|| path.display().to_string())?;
+        return Ok(if motion.statement.is_some() { points } else { points.y_up_to_z_up() });
+    }
+    Ok(read_points(path)?.y_up_to_z_up())
 }
 
 /// Reads a BVH file with its skeleton.

@@ -137,6 +137,11 @@ fn convert_refuses_in_one_sentence() {
         "b.fbx: unknown point format `fbx`, the nearest is `c3d` (known: c3d, trc, csv, bvh)",
     );
     refused(at, &["convert", "a.bvh", "b.bvh", "--y-up"], "--y-up turns points");
+    refused(
+        at,
+        &["convert", "a.bvh", "b.bvh", "--convention", "opensim"],
+        "a.bvh: it says neither its unit nor its axes",
+    );
     refused(at, &["convert", "a.bvh", "b.csv", "--scale", "nan"], "--scale is NaN");
     refused(at, &["convert", "a.bvh", "b.csv", "--scale", "1e300"], "expected coordinates below 1e9 mm");
     refused(at, &["convert", "a.bvh", "b.csv", "--convention", "opensim"], "expected .trc for the convention opensim");

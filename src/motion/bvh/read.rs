@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::super::number::{finite, whole};
 use super::super::points::{LARGEST_COORDINATE, PointFile};
 use super::super::whole_file::text;
-use super::{BvhChannel, BvhJoint, BvhMotion};
+use super::{BvhChannel, BvhJoint, BvhMotion, BvhStatement};
 use crate::files::shortened;
 
 /// Files of points.
@@ -51,7 +51,7 @@ pub fn parse_bvh(text: &str, name: &str) -> Result<BvhMotion> {
         "{name} holds {} frames, expected {claimed} as its line `Frames:` says",
         frames.len()
     );
-    let motion = BvhMotion { joints, frame_time, frames };
+    let motion = BvhMotion { joints, frame_time, frames, statement: BvhStatement::find(text) };
     motion.check().with_context(|| name.to_string())?;
     Ok(motion)
 }
