@@ -2,6 +2,7 @@
 //! (METHOD A3, A4); poses, and where a pose puts bones, joints and markers in the world.
 
 mod adult;
+mod animation;
 mod bvh;
 mod kinematics;
 mod loader;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 
+use super::convert_poses::PoseFlags;
 use super::name_pair::name_pair;
 use super::output::say;
 use crate::body::{ADULT_HEIGHT, Body};
@@ -13,14 +14,15 @@ use crate::motion::{Convention, PointFormat, read_bvh, read_points, read_y_up_po
 
 /// Converts a recording between C3D, TRC, BVH and CSV, each known by its extension. Lengths become millimetres (BVH has
 /// no unit: but for a file that pantin wrote, its numbers are taken as millimetres, see --scale). A BVH becomes the points of its joints and free ends;
-/// points do not become a BVH, which needs the joint angles of a skeleton. A skinned person (.glb, .gltf) becomes a
+/// points do not become a BVH, which needs the joint angles of a skeleton. Poses and their body (--body) become any of these, a skinned
+/// motion (.glb). A skinned person (.glb, .gltf) becomes a
 /// body.toml: the default body's bones with the person's lengths, parts as thick as the skin, and the file as its mesh.
 #[derive(clap::Args, Debug)]
 pub(super) struct ConvertArgs {
     /// The file to read: .c3d, .trc, .csv (frame,time,<name>.x,…) or .bvh; .glb or .gltf for a body.
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// The file to write: .c3d, .trc, .csv, or .bvh from a .bvh; .toml from a .glb or .gltf.
+    /// The file to write: .c3d, .trc, .csv, or .bvh from a .bvh; .toml from a .glb or .gltf; .bvh, .glb and points from poses.csv.
     #[arg(value_name = "OUT")]
     output: PathBuf,
     /// Multiply every length, for files without a unit (10 for a BVH in centimetres).
@@ -41,6 +43,8 @@ pub(super) struct ConvertArgs {
     /// Name the joint of a skinned person that a bone (or left_wrist, head_top, …) stands for, where its name does not tell.
     #[arg(long, value_name = "BONE=JOINT", value_delimiter = ',', num_args = 1.., value_parser = name_pair)]
     bone: Vec<(String, String)>,
+    #[command(flatten)]
+    poses: PoseFlags,
     /// Replace OUT when it is there.
     #[arg(long)]
     force: bool,
@@ -61,6 +65,14 @@ pub(super) fn run(args: &ConvertArgs) -> Result<()> {
         return import(args, overwrite);
     }
     ensure!(args.height.is_none() && args.bone.is_empty(), "--height and --bone are for .glb and .gltf files alone");
+    let is_plain = args.scale == 1.0 && !args.y_up;
+    ensure!(
+        is_plain || !args.poses.is_asked(),
+        "--scale and --y-up are for recordings, expected neither beside --body"
+    );
+    if args.poses.convert(&args.input, &args.output, args.rate, args.convention, overwrite)? {
+        return Ok(());
+    }
     let formats = (PointFormat::of(&args.input)?, PointFormat::of(&args.output)?);
     let (points, frames, what) = if formats == (PointFormat::Bvh, PointFormat::Bvh) {
         ensure!(!args.y_up, "--y-up turns points, but a BVH stays a skeleton here: write .c3d, .trc or .csv instead");

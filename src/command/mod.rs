@@ -4,6 +4,7 @@ mod bench;
 mod calibrate;
 mod check;
 mod convert;
+mod convert_poses;
 mod demo;
 mod devices;
 mod draws;

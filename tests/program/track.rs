@@ -42,6 +42,7 @@ fn result_files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
         "joints_opensim.trc",
         "markers.c3d",
         "motion.bvh",
+        "motion.glb",
         "confidence.csv",
         "journal.txt",
     ];
