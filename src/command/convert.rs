@@ -15,14 +15,14 @@ use crate::motion::{Convention, PointFormat, read_bvh, read_points, read_y_up_po
 /// Converts a recording between C3D, TRC, BVH and CSV, each known by its extension. Lengths become millimetres (BVH has
 /// no unit: but for a file that pantin wrote, its numbers are taken as millimetres, see --scale). A BVH becomes the points of its joints and free ends;
 /// points do not become a BVH, which needs the joint angles of a skeleton. Poses and their body (--body) become any of these, a skinned
-/// motion (.glb). A skinned person (.glb, .gltf) becomes a
+/// motion (.glb) or OpenSim's (.mot). A skinned person (.glb, .gltf) becomes a
 /// body.toml: the default body's bones with the person's lengths, parts as thick as the skin, and the file as its mesh.
 #[derive(clap::Args, Debug)]
 pub(super) struct ConvertArgs {
     /// The file to read: .c3d, .trc, .csv (frame,time,<name>.x,…) or .bvh; .glb or .gltf for a body.
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// The file to write: .c3d, .trc, .csv, or .bvh from a .bvh; .toml from a .glb or .gltf; .bvh, .glb and points from poses.csv.
+    /// The file to write: .c3d, .trc, .csv, or .bvh from a .bvh; .toml from a .glb or .gltf; .bvh, .glb, .mot and points from poses.csv.
     #[arg(value_name = "OUT")]
     output: PathBuf,
     /// Multiply every length, for files without a unit (10 for a BVH in centimetres).

@@ -2,23 +2,26 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 
 use super::output::say;
-use crate::body::{Body, PoseTable};
+use crate::body::{Body, Coordinates, PoseTable};
 use crate::files::{Overwrite, write_atomically};
-use crate::motion::{Convention, PointFormat, write_bvh, write_points_by};
+use crate::motion::{Convention, PointFormat, write_bvh, write_mot, write_points_by};
 
 /// How poses become other files.
 #[derive(clap::Args, Debug)]
 pub(super) struct PoseFlags {
-    /// IN is poses.csv of this body: its joints become points, its bones and skin a motion (.bvh, .glb). Needs --rate.
+    /// IN is poses.csv of this body: its joints become points, its bones and skin a motion (.bvh, .glb, .mot). Needs --rate.
     #[arg(long, value_name = "body.toml")]
     body: Option<PathBuf>,
+    /// What a .mot calls the body's degrees of freedom, where not as usual: a mapping file.
+    #[arg(long, value_name = "FILE.toml", requires = "body")]
+    coordinates: Option<PathBuf>,
 }
 
 /// Endings of files that points alone do not make.
-const MOTIONS: [&str; 1] = ["glb"];
+const MOTIONS: [&str; 2] = ["glb", "mot"];
 
 fn is_motion(path: &Path) -> Option<&'static str> {
     let end = path.extension()?;
@@ -56,8 +59,21 @@ impl PoseFlags {
         let poses = PoseTable::read(input, &body)?;
         let rate = rate.with_context(|| format!("{} has no times, expected --rate HZ", input.display()))?;
         let frames = poses.frames.len();
+        let name = output.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let coordinates = self.coordinates.as_deref();
+        ensure!(
+            coordinates.is_none() || is_motion(output) == Some("mot"),
+            "--coordinates is for .mot files, found {}",
+            output.display()
+        );
         match is_motion(output) {
-            Some(_) => write_atomically(output, overwrite, |out| body.write_gltf(out, &poses, rate))?,
+            Some("glb") => write_atomically(output, overwrite, |out| body.write_gltf(out, &poses, rate))?,
+            Some(_) => {
+                let coordinates =
+                    coordinates.map_or_else(|| Coordinates::of_body(&body), |path| Coordinates::read(path, &body))?;
+                let table = coordinates.of_poses(&body, &poses, rate)?;
+                write_atomically(output, overwrite, |out| write_mot(out, &table, &name))?;
+            }
             None if PointFormat::of(output)? == PointFormat::Bvh => {
                 let motion = body.to_bvh(&poses, rate)?.in_unit(convention.bvh_unit())?;
                 write_atomically(output, overwrite, |out| write_bvh(out, &motion))?;

@@ -4,6 +4,7 @@ mod bvh;
 mod c3d;
 mod convention;
 mod error;
+mod mot;
 mod number;
 mod pairing;
 mod points;
@@ -25,6 +26,7 @@ pub use bvh::{BvhChannel, BvhJoint, BvhMotion, BvhStatement, parse_bvh, write_bv
 pub use c3d::{parse_c3d, write_c3d};
 pub use convention::Convention;
 pub use error::{FrameError, Matching, PointError, TrajectoryError, write_frame_errors};
+pub use mot::{CoordinateTable, write_mot};
 pub use pairing::PointPairs;
 pub use points::{LARGEST_COORDINATE, PointTrajectory};
 pub use points_csv::{parse_points_csv, write_points_csv, write_points_csv_with_sigmas};

@@ -35,6 +35,11 @@ impl Held {
         points
     }
 
+    /// Rows that are no gaps.
+    pub(super) fn sure(&self) -> Vec<usize> {
+        (0..self.table.frames.len()).filter(|row| self.gaps.binary_search(row).is_err()).collect()
+    }
+
     /// Runs of frames that are gaps: the first and the last of each.
     pub(super) fn runs(&self) -> Vec<[usize; 2]> {
         let mut runs: Vec<[usize; 2]> = Vec::new();

@@ -44,7 +44,7 @@ pub(super) fn write(
         let markers = held.with_gaps(body.marker_trajectory(table, fps)?);
         write_points(&output.file("markers.c3d")?, &markers, Overwrite::Replace)?;
     }
-    let warning = motion_files::write(output, body, held, fps)?;
+    let warning = motion_files::write(output, body, held, results, fps)?;
     output.write("confidence.csv", |writer| write_confidence(writer, body, cameras, results, confidences))?;
     Ok(warning)
 }

@@ -4,4 +4,6 @@
 
 environment opensim opensim==4.6
 "$PANTIN" convert "$track/markers.c3d" "$work/markers.trc" --convention opensim --force
+# OpenSim leaves a log where it runs.
+cd "$work"
 "$python" "$here/opensim_reads.py" "$track" "$work/markers.trc"

@@ -3,6 +3,7 @@
 import csv
 import math
 import sys
+import tomllib
 from pathlib import Path
 
 import opensim
@@ -63,3 +64,55 @@ for index in range(data.getNumFrames()):
     assert all(map(math.isnan, heights)) == (index in missing), f"{markers}: frame {index}"
     assert index in missing or -0.1 < min(heights) < 0.5 < max(heights) < 2.2, f"{markers}: {heights} m"
 print(f"{markers.name}: {data.getNumFrames()} frames of {data.getNumMarkers()} markers in {data.getUnits().getLabel()}")
+
+
+def compare_motion(name, expected, decimals):
+    """`expected` gives a row of values by coordinate, or None for a frame without one, for each row of joints.csv."""
+    path = str(track / name)
+    storage, table = opensim.Storage(path), opensim.TimeSeriesTable(path)
+    assert storage.isInDegrees(), name
+    labels = list(table.getColumnLabels())
+    assert [storage.getColumnLabels().get(index) for index in range(1, len(labels) + 1)] == labels, name
+    rows_there = [index for index, row in enumerate(joints) if expected(index) is not None]
+    assert table.getNumRows() == storage.getSize() == len(rows_there) < len(joints), f"{name}: {table.getNumRows()} rows"
+    worst = 0.0
+    for found, index in enumerate(rows_there):
+        values, meant = table.getRowAtIndex(found), expected(index)
+        assert sorted(meant) == sorted(labels), name
+        assert abs(table.getIndependentColumn()[found] - float(joints[index]["time"])) < 1e-5, name
+        data = storage.getStateVector(found).getData()
+        for column, label in enumerate(labels):
+            assert abs(data.get(column) - values[column]) < 1e-12, name
+            worst = max(worst, abs(values[column] - meant[label]))
+    assert worst < 10**-decimals, f"{name}: off by {worst}"
+    print(f"{name}: {len(rows_there)} rows, {len(labels)} coordinates in degrees and metres, at most {worst:.1e} off")
+
+
+poses, states = rows(track / "poses.csv"), [row["state"] for row in rows(track / "confidence.csv")]
+with open(track / "coordinates.toml", "rb") as file:
+    mapping = tomllib.load(file)["coordinate"]
+
+
+def coordinates(index):
+    if states[index] == "lost":
+        return None
+    values = {}
+    for dof, to in mapping.items():
+        value = float(poses[index][dof]) / (1000 if dof.split(".")[1][0] == "t" else 1)
+        values[to["name"]] = to.get("factor", 1) * value + to.get("offset", 0)
+    return values
+
+
+compare_motion("motion.mot", coordinates, 6)
+# The pelvis is where the markers' file has it.
+table, points = opensim.TimeSeriesTable(str(track / "motion.mot")), opensim.TimeSeriesTableVec3(str(track / "joints_opensim.trc"))
+pelvis = points.getDependentColumn("pelvis")
+place = [table.getDependentColumn(f"pelvis_t{axis}")[0] for axis in "xyz"]
+assert math.dist(place, [pelvis[0].get(axis) for axis in range(3)]) < 1e-6, place
+
+deviations = opensim.TimeSeriesTable(str(track / "motion_sd.mot"))
+assert list(deviations.getColumnLabels()) == list(table.getColumnLabels())
+assert list(deviations.getIndependentColumn()) == list(table.getIndependentColumn())
+knees = [deviations.getDependentColumn("knee_angle_l")[row] for row in range(deviations.getNumRows())]
+assert min(knees) > 0 and max(knees) < 90, knees
+print(f"motion_sd.mot: {deviations.getNumRows()} rows; the left knee's angle is known to {min(knees):.1f} to {max(knees):.1f} degrees")

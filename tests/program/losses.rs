@@ -158,6 +158,18 @@ fn a_person_who_leaves_is_a_gap_and_is_found_again() {
             assert_eq!(is_gap, states[frame] == "lost", "{name}, frame {frame}");
         }
     }
+    // The motion for OpenSim has a row a frame that is no gap.
+    let sure = states.iter().filter(|state| *state == "sure").count();
+    for name in ["motion.mot", "motion_sd.mot"] {
+        let text = fs::read_to_string(output.join(name)).unwrap();
+        let (header, table) = text.split_once("endheader\n").unwrap();
+        assert!(header.contains(&format!("nRows={sure}\n")) && table.lines().count() == 1 + sure, "{name}: {header}");
+        let times: Vec<f64> =
+            table.lines().skip(1).map(|row| row.split('\t').next().unwrap().parse().unwrap()).collect();
+        let expected: Vec<f64> =
+            (0..24).filter(|&frame| states[frame] == "sure").map(|frame| frame as f64 / 25.0).collect();
+        assert_eq!(times, expected, "{name}");
+    }
     let joints = read_points(&output.join("joints.csv")).unwrap();
     let off = off_by(&joints, 23, &truth, 23).unwrap();
     assert!(off < OFF, "found {off} mm off");

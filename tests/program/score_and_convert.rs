@@ -149,7 +149,7 @@ fn poses_become_every_file_of_motion() {
         let (status, out, error) = pantin(at, &arguments);
         assert!(status == 0 && out.contains("15 bones"), "{output}: {out}{error}");
     };
-    for output in ["j.csv", "j.trc", "j.c3d", "m.bvh", "m.glb"] {
+    for output in ["j.csv", "j.trc", "j.c3d", "m.bvh", "m.glb", "m.mot"] {
         convert("poses.csv", output, &[]);
     }
     convert("all.csv", "truth.csv", &[]);
@@ -183,6 +183,13 @@ fn poses_become_every_file_of_motion() {
             points.frames[9][knee].unwrap().distance(joints.frames[9][joints.column("left_knee").unwrap()].unwrap());
         assert!(far < 0.01 && points.first_frame == 100, "{far}");
     }
+    // Another name for a coordinate.
+    fs::write(at.join("names.toml"), "[coordinate]\n\"left_knee.ry\" = { name = \"bend\", factor = -1 }\n").unwrap();
+    convert("poses.csv", "own.mot", &["--coordinates", "names.toml"]);
+    let text = fs::read_to_string(at.join("own.mot")).unwrap();
+    assert!(text.contains("inDegrees=yes\nendheader\ntime\tpelvis_tz\tpelvis_tx\tpelvis_ty\t"), "{text}");
+    assert!(text.contains("\tbend\t") && text.contains("nRows=10\nnColumns=32\n"), "{text}");
+
     // Who says so too turns nothing twice.
     let (status, out, error) = pantin(at, &["score", "j.csv", "--truth", "m.bvh", "--truth-y-up", "--json"]);
     assert_eq!(status, 0, "{error}");
@@ -196,6 +203,15 @@ fn poses_become_every_file_of_motion() {
     let turned = ["convert", "poses.csv", "x.glb", "--body", "body.toml", "--rate", "50", "--y-up"];
     refused(at, &turned, "--scale and --y-up are for recordings");
     refused(at, &["convert", "j.csv", "x.glb"], "a .glb needs poses.csv and --body body.toml");
+    let named = ["convert", "poses.csv", "x.glb", "--body", "body.toml", "--rate", "50", "--coordinates", "names.toml"];
+    refused(at, &named, "--coordinates is for .mot files, found x.glb");
+    fs::write(at.join("names.toml"), "[coordinate]\n\"left_kne.ry\" = { name = \"bend\" }\n").unwrap();
+    let named = ["convert", "poses.csv", "x.mot", "--body", "body.toml", "--rate", "50", "--coordinates", "names.toml"];
+    refused(
+        at,
+        &named,
+        "names.toml: it names `left_kne.ry`, which is no degree of freedom, the nearest known one is `left_knee.ry`",
+    );
 }
 
 #[test]

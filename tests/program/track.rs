@@ -43,6 +43,9 @@ fn result_files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
         "markers.c3d",
         "motion.bvh",
         "motion.glb",
+        "motion.mot",
+        "motion_sd.mot",
+        "coordinates.toml",
         "confidence.csv",
         "journal.txt",
     ];

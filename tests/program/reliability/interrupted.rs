@@ -10,7 +10,7 @@ use super::{command, journalled, track};
 use crate::support::{has_ffmpeg, refused, sequence, stderr, succeeded};
 use crate::walk;
 
-const RESULTS: [&str; 9] = [
+const RESULTS: [&str; 12] = [
     "poses.csv",
     "joints.csv",
     "joints.trc",
@@ -18,6 +18,9 @@ const RESULTS: [&str; 9] = [
     "markers.c3d",
     "motion.bvh",
     "motion.glb",
+    "motion.mot",
+    "motion_sd.mot",
+    "coordinates.toml",
     "confidence.csv",
     "journal.txt",
 ];
