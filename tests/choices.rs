@@ -15,7 +15,7 @@ use pantin::features::{Adaptation, Cue, ForegroundKind, Magnitude, Metric, Norma
 use pantin::files::Choice;
 use pantin::geometry::LengthUnit;
 use pantin::matrix::{Arrangement, Multiplier, UnitKind};
-use pantin::motion::{MotionFormat, PointFormat, UpAxis};
+use pantin::motion::{Convention, MotionFormat, PointFormat, UpAxis};
 use pantin::search::SearchKind;
 use pantin::sequence::CalibrationFormat;
 use pantin::study::{Axis, Value};
@@ -50,6 +50,7 @@ fn lists() -> Vec<List> {
         list::<Shape>(),
         list::<Cue>(),
         list::<PointFormat>(),
+        list::<Convention>(),
         list::<MotionFormat>(),
         list::<CalibrationFormat>(),
         list::<ScenePreset>(),

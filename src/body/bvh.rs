@@ -4,13 +4,15 @@ use anyhow::{Context, Result, bail, ensure};
 use glam::{DAffine3, DVec3};
 
 use super::{Body, Bone, DofAxis, PoseTable};
-use crate::motion::{BvhChannel, BvhJoint, BvhMotion};
+use crate::motion::{BvhChannel, BvhJoint, BvhMotion, BvhStatement, Convention, y_up};
 
 const POSITIONS: [BvhChannel; 3] = [BvhChannel::XPosition, BvhChannel::YPosition, BvhChannel::ZPosition];
-const ROTATIONS: [BvhChannel; 3] = [BvhChannel::XRotation, BvhChannel::YRotation, BvhChannel::ZRotation];
+/// Turns about the body's x (forward), y (left) and z (up), which are the file's z, x and y.
+const ROTATIONS: [BvhChannel; 3] = [BvhChannel::ZRotation, BvhChannel::XRotation, BvhChannel::YRotation];
 
 impl Body {
-    /// The motion of a pose table as BVH: a joint a bone, parents first, in mm with z up; a leaf's free end is the `b` end
+    /// The motion of a pose table as BVH: a joint a bone, parents first, in centimetres with y up (x left, z
+    /// forward), which it says of itself with the number of its first frame; a leaf's free end is the `b` end
     /// of its bone's first part.
     ///
     /// Every joint has its three rotations in the order in which this body multiplies them, whichever of them can move:
@@ -48,7 +50,8 @@ impl Body {
             }
             frames.push(row);
         }
-        Ok(BvhMotion { joints, frame_time: 1.0 / rate, frames })
+        let statement = BvhStatement { millimetres: Convention::Pantin.bvh_unit(), first_frame: poses.frames[0] };
+        Ok(BvhMotion { joints, frame_time: 1.0 / rate, frames, statement: Some(statement) })
     }
 
     fn bvh_joint(&self, index: usize, place: &[usize]) -> BvhJoint {
@@ -60,11 +63,16 @@ impl Body {
         BvhJoint {
             name: bone.name.clone(),
             parent: bone.parent.map(|parent| place[parent]),
-            offset: if bone.parent.is_none() { DVec3::ZERO } else { bone.offset },
+            offset: if bone.parent.is_none() { DVec3::ZERO } else { in_file(bone.offset) },
             channels: positions.iter().copied().chain(rotations).collect(),
-            end_sites: end.filter(|_| leaf).into_iter().collect(),
+            end_sites: end.filter(|_| leaf).into_iter().map(in_file).collect(),
         }
     }
+}
+
+/// A vector (mm, z up) in the file's unit and axes.
+fn in_file(vector: DVec3) -> DVec3 {
+    y_up(vector) / Convention::Pantin.bvh_unit()
 }
 
 /// Whether a joint has position channels.
@@ -76,7 +84,7 @@ fn is_shifted(bone: &Bone) -> bool {
 fn bvh_values(bone: &Bone, values: &[f64], row: &mut Vec<f64>) {
     if is_shifted(bone) {
         let DAffine3 { translation, .. } = bone.parent_from_bone(values);
-        row.extend(translation.to_array());
+        row.extend(in_file(translation).to_array());
     }
     for axis in bone.order.axes() {
         let slot = DofAxis::Rx.slot() + axis;
@@ -100,6 +108,7 @@ mod tests {
             let mut text = Vec::new();
             write_bvh(&mut text, &body.to_bvh(&table, 60.0).unwrap()).unwrap();
             let points = parse_bvh(std::str::from_utf8(&text).unwrap(), "any.bvh").unwrap().to_points().unwrap();
+            prop_assert_eq!(points.first_frame, 4);
             for (row, pose) in points.frames.iter().zip(&table.poses) {
                 let bones = body.world_from_bones(pose).unwrap();
                 for (bone, matrix) in body.bones.iter().zip(&bones) {
@@ -127,6 +136,24 @@ mod tests {
             };
             assert!((at(&points, end) - at(&joints, name)).length() < 1e-9, "{end}");
         }
+    }
+
+    #[test]
+    fn the_file_is_y_up_in_centimetres() {
+        let body = Body::adult(1750.0).unwrap();
+        let mut pose = body.standing_pose();
+        pose[..2].copy_from_slice(&[1000.0, 200.0]);
+        let height = pose[2];
+        let motion = body.to_bvh(&PoseTable { frames: vec![0], poses: vec![pose] }, 25.0).unwrap();
+        use BvhChannel::*;
+        assert_eq!(motion.joints[0].channels, [XPosition, YPosition, ZPosition, ZRotation, XRotation, YRotation]);
+        let [left, up, forward] = [motion.frames[0][0], motion.frames[0][1], motion.frames[0][2]];
+        assert!((left - 20.0).abs() < 1e-9 && (forward - 100.0).abs() < 1e-9, "{left} {forward}");
+        assert!((up - height / 10.0).abs() < 1e-9 && (80.0..110.0).contains(&up), "{up}");
+        let knee = motion.joints.iter().find(|joint| joint.name == "left_knee").unwrap();
+        assert!(knee.offset.y < -35.0 && knee.end_sites[0].y < -35.0, "{knee:?}");
+        let hip = motion.joints.iter().find(|joint| joint.name == "left_hip").unwrap();
+        assert!(hip.offset.x > 5.0, "{hip:?}");
     }
 
     #[test]

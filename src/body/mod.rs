@@ -2,7 +2,9 @@
 //! (METHOD A3, A4); poses, and where a pose puts bones, joints and markers in the world.
 
 mod adult;
+mod animation;
 mod bvh;
+mod coordinates;
 mod kinematics;
 mod loader;
 mod mesh;
@@ -14,6 +16,7 @@ mod save;
 mod skeleton;
 
 pub use adult::ADULT_HEIGHT;
+pub use coordinates::Coordinates;
 pub use loader::parse_body;
 pub use mesh::{FrustumBase, Mesh, MeshEdge, MeshSource, MeshVertex, Skinning};
 pub use model::Model;

@@ -3,24 +3,26 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, ensure};
 
+use super::convert_poses::PoseFlags;
 use super::name_pair::name_pair;
 use super::output::say;
 use crate::body::{ADULT_HEIGHT, Body};
 use crate::files::{Overwrite, write_atomically};
-use crate::motion::{PointFormat, read_bvh, read_points, write_bvh, write_points};
+use crate::motion::{Convention, PointFormat, read_bvh, read_points, read_y_up_points, write_bvh, write_points_by};
 
 /// Converts a recording between C3D, TRC, BVH and CSV, each known by its extension. Lengths become millimetres (BVH has
-/// no unit: its numbers are taken as millimetres, see --scale). A BVH becomes the points of its joints and free ends;
-/// points do not become a BVH, which needs the joint angles of a skeleton. A skinned person (.glb, .gltf) becomes a
+/// no unit: but for a file that pantin wrote, its numbers are taken as millimetres, see --scale). A BVH becomes the points of its joints and free ends;
+/// points do not become a BVH, which needs the joint angles of a skeleton. Poses and their body (--body) become any of these, a skinned
+/// motion (.glb) or OpenSim's (.mot). A skinned person (.glb, .gltf) becomes a
 /// body.toml: the default body's bones with the person's lengths, parts as thick as the skin, and the file as its mesh.
 #[derive(clap::Args, Debug)]
 pub(super) struct ConvertArgs {
     /// The file to read: .c3d, .trc, .csv (frame,time,<name>.x,…) or .bvh; .glb or .gltf for a body.
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// The file to write: .c3d, .trc, .csv, or .bvh from a .bvh; .toml from a .glb or .gltf.
+    /// The file to write: .c3d, .trc, .csv, or .bvh from a .bvh; .toml from a .glb or .gltf; .bvh, .glb, .mot and points from poses.csv.
     #[arg(value_name = "OUT")]
     output: PathBuf,
     /// Multiply every length, for files without a unit (10 for a BVH in centimetres).
@@ -32,12 +34,17 @@ pub(super) struct ConvertArgs {
     /// The input is y-up (BVH, OpenSim): turn it z-up, (x, y, z) becoming (z, x, y).
     #[arg(long)]
     y_up: bool,
+    /// Whose axes and units OUT has; OpenSim's (metres, y up) in .trc, and in .bvh from one that pantin wrote.
+    #[arg(long, value_name = "NAME", default_value_t)]
+    convention: Convention,
     /// The height of a skinned person in mm, for files that are not in metres.
     #[arg(long, value_name = "MM")]
     height: Option<f64>,
     /// Name the joint of a skinned person that a bone (or left_wrist, head_top, …) stands for, where its name does not tell.
     #[arg(long, value_name = "BONE=JOINT", value_delimiter = ',', num_args = 1.., value_parser = name_pair)]
     bone: Vec<(String, String)>,
+    #[command(flatten)]
+    poses: PoseFlags,
     /// Replace OUT when it is there.
     #[arg(long)]
     force: bool,
@@ -58,21 +65,32 @@ pub(super) fn run(args: &ConvertArgs) -> Result<()> {
         return import(args, overwrite);
     }
     ensure!(args.height.is_none() && args.bone.is_empty(), "--height and --bone are for .glb and .gltf files alone");
+    let is_plain = args.scale == 1.0 && !args.y_up;
+    ensure!(
+        is_plain || !args.poses.is_asked(),
+        "--scale and --y-up are for recordings, expected neither beside --body"
+    );
+    if args.poses.convert(&args.input, &args.output, args.rate, args.convention, overwrite)? {
+        return Ok(());
+    }
     let formats = (PointFormat::of(&args.input)?, PointFormat::of(&args.output)?);
     let (points, frames, what) = if formats == (PointFormat::Bvh, PointFormat::Bvh) {
         ensure!(!args.y_up, "--y-up turns points, but a BVH stays a skeleton here: write .c3d, .trc or .csv instead");
         let mut motion = read_bvh(&args.input)?.scaled(args.scale);
+        if motion.statement.is_some() || args.convention != Convention::Pantin {
+            let millimetres = args.convention.bvh_unit();
+            motion = motion.in_unit(millimetres).with_context(|| args.input.display().to_string())?;
+        }
         motion.frame_time = args.rate.map_or(motion.frame_time, |rate| 1.0 / rate);
         write_atomically(&args.output, overwrite, |out| write_bvh(out, &motion))?;
         (motion.joints.len(), motion.frames.len(), "joints")
     } else {
-        let mut points = read_points(&args.input)?.scaled(args.scale);
-        if args.y_up {
-            points = points.y_up_to_z_up();
-        }
+        let points = if args.y_up { read_y_up_points(&args.input)? } else { read_points(&args.input)? };
+        let mut points = points.scaled(args.scale);
         points.rate = args.rate.unwrap_or(points.rate);
-        write_points(&args.output, &points, overwrite)?;
-        (points.names.len(), points.frames.len(), "points")
+        let counts = (points.names.len(), points.frames.len(), "points");
+        write_points_by(&args.output, points, args.convention, overwrite)?;
+        counts
     };
     say!("{}: {points} {what}, {frames} frames", args.output.display());
     Ok(())

@@ -6,6 +6,7 @@ mod calibrate;
 pub mod call;
 mod check;
 mod convert;
+mod convert_poses;
 mod demo;
 mod devices;
 mod draws;

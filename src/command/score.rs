@@ -8,7 +8,7 @@ use serde_json::json;
 use super::name_pair::name_pair;
 use super::output::{put, say};
 use crate::files::{Overwrite, write_atomically};
-use crate::motion::{Matching, PointPairs, TrajectoryError, read_points, write_frame_errors};
+use crate::motion::{Matching, PointPairs, TrajectoryError, read_points, read_y_up_points, write_frame_errors};
 use crate::track::tracked_points;
 
 /// Measures the error of tracked markers or joints against C3D, TRC or CSV truth, in mm: for every point its mean over
@@ -56,10 +56,7 @@ pub(super) struct ScoreArgs {
 /// # Errors
 /// When a file cannot be read or written, or when track and truth share no points or frames; one sentence.
 pub(super) fn run(args: &ScoreArgs) -> Result<()> {
-    let mut truth = read_points(&args.truth)?;
-    if args.truth_y_up {
-        truth = truth.y_up_to_z_up();
-    }
+    let truth = if args.truth_y_up { read_y_up_points(&args.truth)? } else { read_points(&args.truth)? };
     let (path, ours, mut pairs) = tracked_points(&args.track, &truth, &args.map)?;
     if !args.points.is_empty() {
         pairs.keep(&ours, &truth, &args.points)?;

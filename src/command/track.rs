@@ -21,8 +21,8 @@ use crate::track::{
     TrackSummary, Width, track_all,
 };
 
-/// Tracks a person through a sequence: poses, joints and markers over time (CSV, TRC, C3D, BVH), how far they can be
-/// trusted, the model drawn over the pictures, and a report. A run that was stopped or killed goes on with --resume and
+/// Tracks a person through a sequence: poses, joints and markers over time (CSV, TRC, C3D), how far they can be
+/// trusted, the motion for animation programs (BVH, glTF) and OpenSim (MOT), the model drawn over the pictures, and a report. A run that was stopped or killed goes on with --resume and
 /// ends with the same files. The same seed, inputs and backend give the same bytes.
 #[derive(clap::Args, Debug)]
 pub(super) struct TrackArgs {

@@ -2,7 +2,9 @@
 
 mod bvh;
 mod c3d;
+mod convention;
 mod error;
+mod mot;
 mod number;
 mod pairing;
 mod points;
@@ -17,11 +19,14 @@ use std::path::Path;
 
 use anyhow::{Context, Result, anyhow};
 
+pub(crate) use convention::y_up;
 pub(crate) use number::{finite, whole};
 
-pub use bvh::{BvhChannel, BvhJoint, BvhMotion, parse_bvh, write_bvh};
+pub use bvh::{BvhChannel, BvhJoint, BvhMotion, BvhStatement, parse_bvh, write_bvh};
 pub use c3d::{parse_c3d, write_c3d};
+pub use convention::Convention;
 pub use error::{FrameError, Matching, PointError, TrajectoryError, write_frame_errors};
+pub use mot::{CoordinateTable, write_mot};
 pub use pairing::PointPairs;
 pub use points::{LARGEST_COORDINATE, PointTrajectory};
 pub use points_csv::{parse_points_csv, write_points_csv, write_points_csv_with_sigmas};
@@ -59,15 +64,28 @@ impl PointFormat {
     }
 }
 
-/// Reads points (mm) from a file, whose format its extension tells. BVH has no unit: its numbers are taken
-/// as millimetres, and its joints and free ends become points ([`BvhMotion::to_points`]). Axes stay as they are in the
-/// file.
+/// Reads points (mm) from a file, whose format its extension tells. A BVH's joints and free ends become points
+/// ([`BvhMotion::to_points`]); one that says no unit is taken to be in millimetres. Axes stay as they are in the file, but for a BVH that
+/// says them.
 ///
 /// # Errors
 /// One sentence with the file, the line or byte, what was found and what was expected.
 pub fn read_points(path: &Path) -> Result<PointTrajectory> {
     let format = PointFormat::of(path)?;
     (format.file().read)(&read_bytes(path)?, &path.display().to_string())
+}
+
+/// Reads points (mm) from a file whose axes are y-up, and turns them z-up; a BVH that says so itself is turned once.
+///
+/// # Errors
+/// As [`read_points`].
+pub fn read_y_up_points(path: &Path) -> Result<PointTrajectory> {
+    if PointFormat::of(path)? == PointFormat::Bvh {
+        let motion = read_bvh(path)?;
+        let points = motion.to_points().with_context(|| path.display().to_string())?;
+        return Ok(if motion.statement.is_some() { points } else { points.y_up_to_z_up() });
+    }
+    Ok(read_points(path)?.y_up_to_z_up())
 }
 
 /// Reads a BVH file with its skeleton.
@@ -86,14 +104,48 @@ pub fn read_bvh(path: &Path) -> Result<BvhMotion> {
 /// When the trajectory breaks [`PointTrajectory::check`], the format needs a frame rate that is unknown, the file is
 /// there and may not be replaced, writing fails, or the extension is `.bvh`, which needs a skeleton.
 pub fn write_points(path: &Path, points: &PointTrajectory, overwrite: Overwrite) -> Result<()> {
-    let format = PointFormat::of(path)?;
+    let write = writer_of(path)?;
     let file_name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let write = format.file().write.map_err(|why| {
+    write_atomically(path, overwrite, |out| write(out, points, &file_name))
+}
+
+/// Writes points (mm, z up) as the extension says, in the axes and the unit of a convention.
+///
+/// # Errors
+/// As [`write_points`], and when the format states no unit but the convention's is not mm.
+pub fn write_points_by(
+    path: &Path,
+    points: PointTrajectory,
+    convention: Convention,
+    overwrite: Overwrite,
+) -> Result<()> {
+    if convention == Convention::Pantin {
+        return write_points(path, &points, overwrite);
+    }
+    writer_of(path)?;
+    let format = PointFormat::of(path)?;
+    let write = format.file().write_metres.ok_or_else(|| {
+        let others = PointFormat::ALL.into_iter().filter(|format| format.file().write_metres.is_some());
+        let others: Vec<String> = others.map(|format| format!(".{format}")).collect();
+        anyhow!(
+            "cannot write {}: .{format} files here are in mm with z up, expected {} for the convention {convention}",
+            path.display(),
+            others.join(", ")
+        )
+    })?;
+    let points = points.z_up_to_y_up();
+    let file_name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    write_atomically(path, overwrite, |out| write(out, &points, &file_name))
+}
+
+/// How points are written into a file of that name.
+fn writer_of(path: &Path) -> Result<points::WritePoints> {
+    let format = PointFormat::of(path)?;
+    format.file().write.map_err(|why| {
         let others = PointFormat::ALL.into_iter().filter(|format| format.file().write.is_ok());
         let others: Vec<String> = others.map(|format| format!(".{format}")).collect();
         anyhow!("cannot write {}: {why}; expected one of {}", path.display(), others.join(", "))
-    })?;
-    write_atomically(path, overwrite, |out| write(out, points, &file_name))
+    })
 }
 
 #[cfg(test)]
@@ -138,6 +190,13 @@ mod tests {
         let mut points = trajectories().new_tree(&mut runner).unwrap().current();
         let refused = format!("{:#}", write_points(&at("a.bvh"), &points, Overwrite::Refuse).unwrap_err());
         assert!(refused.contains("a skeleton, which points alone do not give"), "{refused}");
+        points.rate = 50.0;
+        let by = |name: &str, convention| write_points_by(&at(name), points.clone(), convention, Overwrite::Refuse);
+        let refused = format!("{:#}", by("b.csv", Convention::OpenSim).unwrap_err());
+        assert!(refused.contains("b.csv: .csv files here are in mm with z up, expected .trc for"), "{refused}");
+        assert!(format!("{:#}", by("b.bvh", Convention::OpenSim).unwrap_err()).contains("a skeleton"));
+        by("b.trc", Convention::OpenSim).unwrap();
+        assert!(close(&points, &read_points(&at("b.trc")).unwrap().y_up_to_z_up(), 6e-5));
         points.rate = 0.0;
         for file in ["a.c3d", "a.trc"] {
             let refused = format!("{:#}", write_points(&at(file), &points, Overwrite::Refuse).unwrap_err());

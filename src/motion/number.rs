@@ -49,7 +49,12 @@ pub(super) fn point(cells: [&str; 3], factor: f64) -> Result<Option<DVec3>> {
 
 /// A coordinate in mm with a tenth of a micrometre, without the sign of a rounded zero.
 pub(super) fn millimetres(value: f64) -> String {
-    let text = format!("{value:.4}");
+    fixed(value, 4)
+}
+
+/// A number with that many decimals, without the sign of a rounded zero.
+pub(crate) fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
         Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_string(),
         _ => text,

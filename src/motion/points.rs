@@ -6,6 +6,8 @@ use std::io::Write;
 use anyhow::{Result, bail, ensure};
 use glam::DVec3;
 
+use super::convention::y_up;
+
 /// No recording is a thousand kilometres wide: a coordinate beyond this (mm) is damage or a wrong unit, and refusing it
 /// keeps every later sum, square and 32-bit copy finite.
 pub const LARGEST_COORDINATE: f64 = 1e9;
@@ -29,6 +31,8 @@ pub(crate) struct PointFile {
     pub(crate) read: fn(&[u8], &str) -> Result<PointTrajectory>,
     /// Writes points into the file of a name, or why that cannot be.
     pub(crate) write: Result<WritePoints, &'static str>,
+    /// Writes them with every length in metres, and says so in the file; none where the format states no unit.
+    pub(crate) write_metres: Option<WritePoints>,
 }
 
 /// Writes points; the name of their file is the last argument.
@@ -92,6 +96,12 @@ impl PointTrajectory {
     /// z-up frame (x forward, y left): (x, y, z) becomes (z, x, y).
     pub fn y_up_to_z_up(mut self) -> Self {
         self.each(|p| DVec3::new(p.z, p.x, p.y));
+        self
+    }
+
+    /// The same points turned from this crate's z-up frame to a y-up one (x left, z forward): what [`Self::y_up_to_z_up`] turns back.
+    pub fn z_up_to_y_up(mut self) -> Self {
+        self.each(y_up);
         self
     }
 
@@ -172,6 +182,7 @@ mod tests {
         let turn = |p: DVec3| DVec3::new(p.z, p.x, p.y);
         assert_eq!(turn(DVec3::X).cross(turn(DVec3::Y)), turn(DVec3::Z));
         assert_eq!(turn(DVec3::Y), DVec3::Z);
+        assert_eq!(turned.z_up_to_y_up(), two());
     }
 
     #[test]

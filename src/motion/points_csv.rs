@@ -15,6 +15,7 @@ use crate::files::shortened;
 pub(super) const POINTS: PointFile = PointFile {
     read: |bytes, name| parse_points_csv(text(bytes, name)?, name),
     write: Ok(|out, points, _| write_points_csv(out, points)),
+    write_metres: None,
 };
 
 /// What ends the name of a column with a point's expected error.

@@ -1,18 +1,36 @@
-//! TRC, the tab-separated marker format of OpenSim and Cortex. `Frame#` counts from 1, missing points are empty cells,
+//! TRC, the tab-separated marker format of OpenSim and Cortex. `Frame#` counts from 1, missing points are `NaN` (or empty cells),
 //! the unit is in the header. Nothing in the file says which axis is up: coordinates are kept as they stand.
 
 use std::io::Write;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 
-use super::number::{finite, millimetres, point, whole};
+use super::number::{finite, fixed, point, whole};
 use super::points::{PointFile, PointTrajectory, millimetres_in};
 use super::whole_file::text;
 use crate::files::shortened;
 
 /// Files of points.
-pub(super) const POINTS: PointFile =
-    PointFile { read: |bytes, name| parse_trc(text(bytes, name)?, name), write: Ok(write_trc) };
+pub(super) const POINTS: PointFile = PointFile {
+    read: |bytes, name| parse_trc(text(bytes, name)?, name),
+    write: Ok(write_trc),
+    write_metres: Some(|out, points, file_name| write_in(out, points, file_name, METRES)),
+};
+
+/// A unit that files are written in.
+struct Unit {
+    name: &'static str,
+    millimetres: f64,
+    /// Decimals that give a tenth of a micrometre.
+    decimals: usize,
+}
+
+const MILLIMETRES: Unit = Unit { name: "mm", millimetres: 1.0, decimals: 4 };
+const METRES: Unit = Unit { name: "m", millimetres: 1000.0, decimals: 7 };
+
+/// How a coordinate of a missing point is written. OpenSim (4.6) reads it, and empty cells, as missing; but it refuses a row that ends
+/// in empty cells, of which it counts too few.
+const MISSING: &str = "NaN";
 
 /// Cells before the first marker: `Frame#` and `Time`.
 const LEADING: usize = 2;
@@ -142,16 +160,30 @@ fn data_row(row: &str, markers: usize, factor: f64) -> Result<(usize, Vec<Option
     let points = cells[LEADING..]
         .chunks_exact(3)
         .enumerate()
-        .map(|(marker, xyz)| point([xyz[0], xyz[1], xyz[2]], factor).with_context(|| format!("marker {}", marker + 1)))
+        .map(|(marker, xyz)| {
+            point([0, 1, 2].map(|axis| without_nan(xyz[axis])), factor)
+                .with_context(|| format!("marker {}", marker + 1))
+        })
         .collect::<Result<_>>()?;
     Ok((number, points))
 }
 
-/// Writes the points as TRC in mm, to a tenth of a micrometre; `file_name` goes into the file's first line.
+/// The cell, empty where it says that there is no number: `nan` in any case, with or without a sign.
+fn without_nan(cell: &str) -> &str {
+    let bare = cell.trim();
+    let is_nan = bare.strip_prefix(['-', '+']).unwrap_or(bare).eq_ignore_ascii_case("nan");
+    if is_nan { "" } else { cell }
+}
+
+/// Writes the points as TRC in mm, to a tenth of a micrometre, a missing one as `NaN`; `file_name` goes into the file's first line.
 ///
 /// # Errors
 /// When the trajectory breaks [`PointTrajectory::check`], its rate is unknown, or writing fails.
 pub fn write_trc(out: &mut dyn Write, points: &PointTrajectory, file_name: &str) -> Result<()> {
+    write_in(out, points, file_name, MILLIMETRES)
+}
+
+fn write_in(out: &mut dyn Write, points: &PointTrajectory, file_name: &str, unit: Unit) -> Result<()> {
     points.check()?;
     ensure!(points.rate > 0.0, "the frame rate is unknown, but TRC needs one: give it");
     let frames = points.frames.len();
@@ -164,8 +196,9 @@ pub fn write_trc(out: &mut dyn Write, points: &PointTrajectory, file_name: &str)
     let rate = points.rate;
     writeln!(
         out,
-        "{rate}\t{rate}\t{frames}\t{}\tmm\t{rate}\t{}\t{frames}",
+        "{rate}\t{rate}\t{frames}\t{}\t{}\t{rate}\t{}\t{frames}",
         points.names.len(),
+        unit.name,
         points.first_frame + 1
     )?;
     write!(out, "Frame#\tTime")?;
@@ -182,8 +215,12 @@ pub fn write_trc(out: &mut dyn Write, points: &PointTrajectory, file_name: &str)
         write!(out, "{}\t{:.6}", points.first_frame + row + 1, points.time(row).unwrap_or(0.0))?;
         for point in frame {
             match point {
-                Some(p) => write!(out, "\t{}\t{}\t{}", millimetres(p.x), millimetres(p.y), millimetres(p.z))?,
-                None => write!(out, "\t\t\t")?,
+                Some(p) => {
+                    for coordinate in p.to_array() {
+                        write!(out, "\t{}", fixed(coordinate / unit.millimetres, unit.decimals))?;
+                    }
+                }
+                None => write!(out, "\t{MISSING}\t{MISSING}\t{MISSING}")?,
             }
         }
         writeln!(out)?;
@@ -216,6 +253,41 @@ mod tests {
     }
 
     #[test]
+    fn a_gap_is_told_in_every_cell() {
+        let points = parse_trc(SMALL, "small.trc").unwrap();
+        for nan in ["nan", "NaN", "NAN", " -nan "] {
+            let told = SMALL.replace("\t1\t2\t3\t\t\t\n", &format!("\t1\t2\t3\t{nan}\t{nan}\t{nan}\n"));
+            assert_ne!(told, SMALL);
+            assert_eq!(parse_trc(&told, "small.trc").unwrap(), points, "{nan}");
+        }
+        let mut lost = points;
+        lost.frames[1].fill(None);
+        let mut bytes = Vec::new();
+        write_trc(&mut bytes, &lost, "lost.trc").unwrap();
+        let text = String::from_utf8(bytes).unwrap();
+        let rows: Vec<&str> = text.lines().skip(6).collect();
+        let gap = "\tNaN".repeat(3);
+        assert_eq!(
+            rows,
+            [format!("5\t0.066667\t1000.0000\t2000.0000\t3000.0000{gap}"), format!("6\t0.083333{gap}{gap}")]
+        );
+        assert_eq!(parse_trc(&text, "lost.trc").unwrap(), lost);
+    }
+
+    #[test]
+    fn metres_are_said_in_the_header() {
+        let points = parse_trc(SMALL, "small.trc").unwrap();
+        let mut bytes = Vec::new();
+        write_in(&mut bytes, &points, "m.trc", METRES).unwrap();
+        let text = String::from_utf8(bytes).unwrap();
+        assert!(
+            text.contains("\t2\t2\tm\t60\t5\t2\n") && text.contains("\t0.5000000\t0.0000000\t-0.0010000\t"),
+            "{text}"
+        );
+        assert_eq!(parse_trc(&text, "m.trc").unwrap(), points);
+    }
+
+    #[test]
     fn each_fault_is_one_sentence() {
         let cases = [
             (String::new(), "s.trc ends before its first line"),
@@ -232,7 +304,8 @@ mod tests {
             (SMALL.replace("\tB\t", "\tA\t"), "two points are named `A`"),
             (SMALL.replace("\tB\t", "\t\t"), "found 1 marker names, expected 2"),
             (SMALL.replace("A\t\t\tB", "A\tB\t\t"), "every third column"),
-            (SMALL.replace("\t4\t5\t6", "\t4\tnan\t6"), "line 7: marker 2: found `nan`, expected a finite number"),
+            (SMALL.replace("\t4\t5\t6", "\t4\tnan\t6"), "line 7: marker 2: found 2 of 3 coordinates"),
+            (SMALL.replace("\t4\t5\t6", "\t4\tinf\t6"), "line 7: marker 2: found `inf`, expected a finite number"),
             (SMALL.replace("\t4\t5\t6", "\t4\t\t6"), "line 7: marker 2: found 2 of 3 coordinates"),
             (SMALL.replace("\t4\t5\t6", "\t4\t1e300\t6"), "below 1e9 mm"),
             (SMALL.replace("\t4\t5\t6", "\t4\t5\t6\t7"), "found 9 cells, expected 8"),

@@ -8,7 +8,7 @@ use super::settings::SequenceSettings;
 use super::taken::{taken, taken_truth};
 use crate::body::{Body, Model};
 use crate::files::{OutputFolder, Overwrite};
-use crate::motion::{PointTrajectory, TrajectoryError, read_points};
+use crate::motion::{PointTrajectory, TrajectoryError, read_points, read_y_up_points};
 use crate::sequence::Sequence;
 use crate::synth::{Scene, SyntheticSequence};
 use crate::track::{ErrorSummary, tracked_points};
@@ -61,9 +61,10 @@ impl Prepared {
         let is_paired = settings.truth.is_some() || !settings.map.is_empty() || !settings.exclude.is_empty();
         let is_other = settings.reversed || settings.every.is_some_and(|every| every > 1);
         let path = settings.truth.as_ref().or(whole.0.as_ref());
-        let truth =
-            path.filter(|_| is_paired || is_other || settings.truth_y_up).map(|path| read_points(path)).transpose()?;
-        let truth = truth.map(|points| if settings.truth_y_up { points.y_up_to_z_up() } else { points });
+        let truth = path
+            .filter(|_| is_paired || is_other || settings.truth_y_up)
+            .map(|path| if settings.truth_y_up { read_y_up_points(path) } else { read_points(path) })
+            .transpose()?;
         let truth = truth.map(|points| if is_other { taken_truth(&points, settings, whole.1) } else { points });
         Ok(Self { settings: settings.clone(), sequence, body, truth })
     }

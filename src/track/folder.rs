@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 use super::journal::Journal;
-use super::{overlay, page, realtime, run_record};
+use super::{motion_files, overlay, page, realtime, run_record};
 use crate::files::OutputFolder;
 
 /// Everything a run writes but its overlays.
@@ -14,8 +14,8 @@ const FILES: [&str; 14] = [
     "poses.csv",
     "joints.csv",
     "joints.trc",
+    "joints_opensim.trc",
     "markers.c3d",
-    "motion.bvh",
     "confidence.csv",
     "stages.json",
     "trace.json",
@@ -30,7 +30,7 @@ const FILES: [&str; 14] = [
 /// Removes what an earlier run left in the folder, so that a new one never stands beside old results; files that no run writes stay.
 pub(super) fn clear(output: &OutputFolder) -> Result<()> {
     let remove = |path: &Path| fs::remove_file(path).with_context(|| format!("cannot replace {}", path.display()));
-    for name in FILES {
+    for name in FILES.into_iter().chain(motion_files::FILES) {
         let path = output.path().join(name);
         if path.is_file() {
             remove(&path)?;

@@ -7,8 +7,8 @@ use glam::{DVec2, DVec3};
 use image::RgbImage;
 
 use super::confidence::FrameConfidence;
+use super::held::Held;
 use super::overlay::{file_name, joint_lines};
-use super::results::Held;
 use super::truth::{Compared, Truth};
 use super::{FrameResult, TrackSummary};
 use crate::body::Body;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
-use super::results::Held;
+use super::held::Held;
 use crate::body::{Body, PoseTable};
 use crate::motion::{PointPairs, PointTrajectory, TrajectoryError, read_points};
 

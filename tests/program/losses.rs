@@ -150,13 +150,25 @@ fn a_person_who_leaves_is_a_gap_and_is_found_again() {
     let rows = |name: &str| fs::read_to_string(output.join(name)).unwrap().lines().count() - 1;
     assert_eq!((rows("poses.csv"), rows("confidence.csv")), (24, 24));
     let truth = read_points(&walk.join("truth.trc")).unwrap();
-    for name in ["joints.csv", "joints.trc", "markers.c3d"] {
+    for name in ["joints.csv", "joints.trc", "joints_opensim.trc", "markers.c3d"] {
         let points = read_points(&output.join(name)).unwrap();
         assert_eq!(points.frames.len(), 24, "{name}");
         for (frame, row) in points.frames.iter().enumerate() {
             let is_gap = row.iter().all(Option::is_none);
             assert_eq!(is_gap, states[frame] == "lost", "{name}, frame {frame}");
         }
+    }
+    // The motion for OpenSim has a row a frame that is no gap.
+    let sure = states.iter().filter(|state| *state == "sure").count();
+    for name in ["motion.mot", "motion_sd.mot"] {
+        let text = fs::read_to_string(output.join(name)).unwrap();
+        let (header, table) = text.split_once("endheader\n").unwrap();
+        assert!(header.contains(&format!("nRows={sure}\n")) && table.lines().count() == 1 + sure, "{name}: {header}");
+        let times: Vec<f64> =
+            table.lines().skip(1).map(|row| row.split('\t').next().unwrap().parse().unwrap()).collect();
+        let expected: Vec<f64> =
+            (0..24).filter(|&frame| states[frame] == "sure").map(|frame| frame as f64 / 25.0).collect();
+        assert_eq!(times, expected, "{name}");
     }
     let joints = read_points(&output.join("joints.csv")).unwrap();
     let off = off_by(&joints, 23, &truth, 23).unwrap();

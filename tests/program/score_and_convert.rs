@@ -1,9 +1,11 @@
 //! `pantin score` and `pantin convert` as a user runs them.
 
 use std::fs;
-use std::path::PathBuf;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 use glam::DVec3;
+use pantin::body::{Body, PoseTable};
 use pantin::files::Overwrite;
 use pantin::motion::{PointTrajectory, read_points, write_points};
 
@@ -105,11 +107,111 @@ fn a_recording_goes_round_all_formats() {
     assert_eq!((points.names.join(" "), points.rate), ("hip hip_end".into(), 100.0));
     assert_eq!(points.frames[0][1], Some(DVec3::new(30.0, 10.0, 120.0)), "z up, mm");
 
+    let (status, _, error) = pantin(at, &["convert", "e.csv", "os.trc", "--convention", "opensim"]);
+    assert_eq!(status, 0, "{error}");
+    let text = fs::read_to_string(at.join("os.trc")).unwrap();
+    assert!(text.contains("\tm\t") && text.contains("\n1\t0.000000\t0.0100000\t0.0200000\t0.0300000\t"), "{text}");
+    let (status, _, error) = pantin(at, &["convert", "os.trc", "back.csv", "--y-up"]);
+    assert_eq!(status, 0, "{error}");
+    assert_eq!(fs::read(at.join("back.csv")).unwrap(), fs::read(at.join("e.csv")).unwrap());
+
     let (status, _, error) = pantin(at, &["convert", "a.bvh", "f.bvh", "--scale", "10", "--rate", "50"]);
     assert_eq!(status, 0, "{error}");
     let text = fs::read_to_string(at.join("f.bvh")).unwrap();
     assert!(text.contains("OFFSET 0.000000 100.000000 0.000000") && text.contains("Frame Time: 0.020000000"), "{text}");
     assert!(text.ends_with("40.000000 50.000000 60.000000\n"), "{text}");
+}
+
+/// A body that walks on, 10 mm a frame: `body.toml`, and `name` with the poses of these frames.
+fn walk(at: &Path, name: &str, frames: Range<usize>) {
+    let body = Body::adult(1750.0).unwrap();
+    if !at.join("body.toml").exists() {
+        body.save(&at.join("body.toml"), Overwrite::Refuse).unwrap();
+    }
+    let pose = |frame: usize| {
+        let mut pose = body.standing_pose();
+        pose[0] += 10.0 * frame as f64;
+        pose[4] += 0.002 * frame as f64;
+        pose
+    };
+    let table = PoseTable { poses: frames.clone().map(pose).collect(), frames: frames.collect() };
+    table.write(&at.join(name), Overwrite::Refuse, &body).unwrap();
+}
+
+#[test]
+fn poses_become_every_file_of_motion() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    walk(at, "poses.csv", 100..110);
+    walk(at, "all.csv", 0..120);
+    let convert = |input: &str, output: &str, more: &[&str]| {
+        let arguments = [&["convert", input, output, "--body", "body.toml", "--rate", "50"], more].concat();
+        let (status, out, error) = pantin(at, &arguments);
+        assert!(status == 0 && out.contains("15 bones"), "{output}: {out}{error}");
+    };
+    for output in ["j.csv", "j.trc", "j.c3d", "m.bvh", "m.glb", "m.mot"] {
+        convert("poses.csv", output, &[]);
+    }
+    convert("all.csv", "truth.csv", &[]);
+    convert("poses.csv", "os.bvh", &["--convention", "opensim"]);
+    let joints = read_points(&at.join("j.csv")).unwrap();
+    for file in ["j.trc", "j.c3d", "m.bvh", "os.bvh"] {
+        let points = read_points(&at.join(file)).unwrap();
+        assert_eq!((points.first_frame, points.rate, points.frames.len()), (100, 50.0, 10), "{file}");
+        let (ours, theirs) = (joints.column("left_knee").unwrap(), points.column("left_knee").unwrap());
+        let far = |frame: usize| joints.frames[frame][ours].unwrap().distance(points.frames[frame][theirs].unwrap());
+        assert!((0..10).all(|frame| far(frame) < 0.01), "{file}");
+    }
+    // What a BVH does not say by itself: that it begins in frame 100.
+    let (status, out, error) = pantin(at, &["score", "m.bvh", "--truth", "truth.csv", "--json"]);
+    assert_eq!(status, 0, "{error}");
+    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert!(object["frames"] == 10 && object["mean"].as_f64().unwrap() < 0.01, "{object}");
+    // A BVH that says its axes and unit goes round unchanged, and between its units.
+    for (input, output, convention) in
+        [("m.bvh", "same.bvh", "pantin"), ("m.bvh", "metres.bvh", "opensim"), ("os.bvh", "back.bvh", "pantin")]
+    {
+        let (status, _, error) = pantin(at, &["convert", input, output, "--convention", convention]);
+        assert_eq!(status, 0, "{error}");
+    }
+    let bytes = |name: &str| fs::read(at.join(name)).unwrap();
+    assert!(bytes("same.bvh") == bytes("m.bvh"));
+    let [metres, back] = ["metres.bvh", "back.bvh"].map(|name| read_points(&at.join(name)).unwrap());
+    for points in [metres, back] {
+        let knee = points.column("left_knee").unwrap();
+        let far =
+            points.frames[9][knee].unwrap().distance(joints.frames[9][joints.column("left_knee").unwrap()].unwrap());
+        assert!(far < 0.01 && points.first_frame == 100, "{far}");
+    }
+    // Another name for a coordinate.
+    fs::write(at.join("names.toml"), "[coordinate]\n\"left_knee.ry\" = { name = \"bend\", factor = -1 }\n").unwrap();
+    convert("poses.csv", "own.mot", &["--coordinates", "names.toml"]);
+    let text = fs::read_to_string(at.join("own.mot")).unwrap();
+    assert!(text.contains("inDegrees=yes\nendheader\ntime\tpelvis_tz\tpelvis_tx\tpelvis_ty\t"), "{text}");
+    assert!(text.contains("\tbend\t") && text.contains("nRows=10\nnColumns=32\n"), "{text}");
+
+    // Who says so too turns nothing twice.
+    let (status, out, error) = pantin(at, &["score", "j.csv", "--truth", "m.bvh", "--truth-y-up", "--json"]);
+    assert_eq!(status, 0, "{error}");
+    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert!(object["mean"].as_f64().unwrap() < 0.01, "{object}");
+    refused(
+        at,
+        &["convert", "poses.csv", "x.glb", "--body", "body.toml"],
+        "poses.csv has no times, expected --rate HZ",
+    );
+    let turned = ["convert", "poses.csv", "x.glb", "--body", "body.toml", "--rate", "50", "--y-up"];
+    refused(at, &turned, "--scale and --y-up are for recordings");
+    refused(at, &["convert", "j.csv", "x.glb"], "a .glb needs poses.csv and --body body.toml");
+    let named = ["convert", "poses.csv", "x.glb", "--body", "body.toml", "--rate", "50", "--coordinates", "names.toml"];
+    refused(at, &named, "--coordinates is for .mot files, found x.glb");
+    fs::write(at.join("names.toml"), "[coordinate]\n\"left_kne.ry\" = { name = \"bend\" }\n").unwrap();
+    let named = ["convert", "poses.csv", "x.mot", "--body", "body.toml", "--rate", "50", "--coordinates", "names.toml"];
+    refused(
+        at,
+        &named,
+        "names.toml: it names `left_kne.ry`, which is no degree of freedom, the nearest known one is `left_knee.ry`",
+    );
 }
 
 #[test]
@@ -129,8 +231,14 @@ fn convert_refuses_in_one_sentence() {
         "b.fbx: unknown point format `fbx`, the nearest is `c3d` (known: c3d, trc, csv, bvh)",
     );
     refused(at, &["convert", "a.bvh", "b.bvh", "--y-up"], "--y-up turns points");
+    refused(
+        at,
+        &["convert", "a.bvh", "b.bvh", "--convention", "opensim"],
+        "a.bvh: it says neither its unit nor its axes",
+    );
     refused(at, &["convert", "a.bvh", "b.csv", "--scale", "nan"], "--scale is NaN");
     refused(at, &["convert", "a.bvh", "b.csv", "--scale", "1e300"], "expected coordinates below 1e9 mm");
+    refused(at, &["convert", "a.bvh", "b.csv", "--convention", "opensim"], "expected .trc for the convention opensim");
     refused(at, &["convert", "a.bvh", "b.csv", "--rate", "0"], "--rate is 0");
     let left: Vec<PathBuf> = fs::read_dir(at).unwrap().map(|entry| entry.unwrap().path()).collect();
     assert_eq!(left.len(), 3, "nothing was written: {left:?}");

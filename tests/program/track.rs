@@ -35,7 +35,20 @@ fn tracked(output: &Path, more: &[&str]) {
 
 /// Every file of a track that must not depend on time, machine or interruption.
 fn result_files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let names = ["poses.csv", "joints.csv", "joints.trc", "markers.c3d", "motion.bvh", "confidence.csv", "journal.txt"];
+    let names = [
+        "poses.csv",
+        "joints.csv",
+        "joints.trc",
+        "joints_opensim.trc",
+        "markers.c3d",
+        "motion.bvh",
+        "motion.glb",
+        "motion.mot",
+        "motion_sd.mot",
+        "coordinates.toml",
+        "confidence.csv",
+        "journal.txt",
+    ];
     let mut files: BTreeMap<String, Vec<u8>> =
         names.iter().map(|name| (name.to_string(), fs::read(folder.join(name)).unwrap())).collect();
     for entry in fs::read_dir(folder.join("overlay")).unwrap() {

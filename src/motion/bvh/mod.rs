@@ -1,16 +1,18 @@
-//! BVH: a tree of joints and one row of channel values a frame. The format has no unit and no fixed up axis; this crate
-//! writes millimetres with z up, and reads the numbers as they stand.
+//! BVH: a tree of joints and one row of channel values a frame. The format has no unit and no fixed up axis: numbers are read as they
+//! stand, but for files that say theirs, as those written here do ([`BvhStatement`]).
 
 mod read;
+mod statement;
 mod write;
 
 pub(super) use read::POINTS;
 pub use read::parse_bvh;
+pub use statement::BvhStatement;
 pub use write::write_bvh;
 
 use std::collections::HashSet;
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::points::PointTrajectory;
@@ -73,12 +75,30 @@ pub struct BvhMotion {
     pub frame_time: f64,
     /// A row a frame: the values of all joints' channels, in the order of `joints`.
     pub frames: Vec<Vec<f64>>,
+    /// What the file says of its unit, axes and frames; most say nothing.
+    pub statement: Option<BvhStatement>,
 }
 
 /// A short file can describe a product of joints and frames that fills any memory: this many points are two gigabytes.
 const MOST_POINTS: usize = 1 << 26;
 
 impl BvhMotion {
+    /// The same motion in another unit, of `millimetres`.
+    ///
+    /// # Errors
+    /// When the motion does not say what its unit is.
+    pub fn in_unit(self, millimetres: f64) -> Result<Self> {
+        let Some(statement) = self.statement else {
+            bail!("it says neither its unit nor its axes, expected a BVH that pantin wrote")
+        };
+        if statement.millimetres == millimetres {
+            return Ok(self);
+        }
+        let mut motion = self.scaled(statement.millimetres / millimetres);
+        motion.statement = Some(BvhStatement { millimetres, ..statement });
+        Ok(motion)
+    }
+
     /// The same motion with every length multiplied by `factor` (the format has no unit).
     pub fn scaled(mut self, factor: f64) -> Self {
         use BvhChannel::{XPosition, YPosition, ZPosition};
@@ -145,8 +165,8 @@ impl BvhMotion {
         Ok(())
     }
 
-    /// Where every joint's origin and every free end is in every frame, in the file's unit and axes: joints under their
-    /// names, free ends as `<joint>_end`. A joint's rotations multiply in the order of its channels; a position channel
+    /// Where every joint's origin and every free end is in every frame, in mm and z up where the motion says its unit and axes, else in
+    /// the file's: joints under their names, free ends as `<joint>_end`. A joint's rotations multiply in the order of its channels; a position channel
     /// takes the place of that coordinate of the offset (the usage of Blender and MotionBuilder; the two readings
     /// differ only in files whose moving joints have an offset that the positions do not repeat).
     ///
@@ -164,7 +184,10 @@ impl BvhMotion {
         let mut global = vec![DAffine3::IDENTITY; self.joints.len()];
         let frames = self.frames.iter().map(|row| self.pose(row, &mut global)).collect();
         let rate = super::points::meant_rate(1.0 / self.frame_time);
-        let points = PointTrajectory { names, rate, first_frame: 0, frames };
+        let mut points = PointTrajectory { names, rate, first_frame: 0, frames };
+        if let Some(BvhStatement { millimetres, first_frame }) = self.statement {
+            points = PointTrajectory { first_frame, ..points.scaled(millimetres).y_up_to_z_up() };
+        }
         points.check()?;
         Ok(points)
     }
@@ -258,6 +281,7 @@ pub(crate) mod tests {
                 vec![1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
                 vec![0.0, 0.0, 0.0, 90.0, 0.0, 0.0, 90.0, 90.0, 30.0],
             ],
+            statement: None,
         }
     }
 
@@ -283,6 +307,28 @@ pub(crate) mod tests {
         for (p, q) in scaled.frames.iter().flatten().flatten().zip(points.frames.iter().flatten().flatten()) {
             assert!((*p - *q).length() < 1e-9, "{p} {q}");
         }
+    }
+
+    #[test]
+    fn what_a_motion_says_makes_its_points_ours() {
+        let silent = arm();
+        let said = BvhMotion { statement: Some(BvhStatement { millimetres: 10.0, first_frame: 100 }), ..arm() };
+        let points = said.to_points().unwrap();
+        assert_eq!(points.first_frame, 100);
+        let expected = silent.to_points().unwrap().scaled(10.0).y_up_to_z_up();
+        assert_eq!(points.frames, expected.frames);
+        let metres = said.clone().in_unit(1000.0).unwrap();
+        assert_eq!(metres.joints[1].offset.y, 0.1);
+        for (p, q) in metres.to_points().unwrap().frames.iter().flatten().zip(points.frames.iter().flatten()) {
+            assert!(p.unwrap().distance(q.unwrap()) < 1e-9);
+        }
+        assert_eq!(said.clone().in_unit(10.0).unwrap(), said);
+        assert!(silent.in_unit(10.0).unwrap_err().to_string().contains("neither its unit nor its axes"));
+        let mut text = Vec::new();
+        write_bvh(&mut text, &said).unwrap();
+        assert_eq!(parse_bvh(std::str::from_utf8(&text).unwrap(), "a.bvh").unwrap(), said);
+        let skeletal = said.to_skeletal().unwrap();
+        assert_eq!((skeletal.unit, skeletal.up.map(|up| up.name())), (Some(10.0), Some("y")));
     }
 
     #[test]

@@ -6,13 +6,14 @@ use glam::DVec3;
 use super::super::number::{finite, whole};
 use super::super::points::{LARGEST_COORDINATE, PointFile};
 use super::super::whole_file::text;
-use super::{BvhChannel, BvhJoint, BvhMotion};
+use super::{BvhChannel, BvhJoint, BvhMotion, BvhStatement};
 use crate::files::shortened;
 
 /// Files of points.
 pub(crate) const POINTS: PointFile = PointFile {
     read: |bytes, name| parse_bvh(text(bytes, name)?, name)?.to_points().with_context(|| name.to_string()),
     write: Err("BVH holds joint angles of a skeleton, which points alone do not give"),
+    write_metres: None,
 };
 
 /// Reads the text of a BVH file; `name` stands for the file in messages. Lengths are in the file's unit. Words may
@@ -50,7 +51,7 @@ pub fn parse_bvh(text: &str, name: &str) -> Result<BvhMotion> {
         "{name} holds {} frames, expected {claimed} as its line `Frames:` says",
         frames.len()
     );
-    let motion = BvhMotion { joints, frame_time, frames };
+    let motion = BvhMotion { joints, frame_time, frames, statement: BvhStatement::find(text) };
     motion.check().with_context(|| name.to_string())?;
     Ok(motion)
 }

@@ -4,10 +4,10 @@ use std::io::Write;
 
 use anyhow::Result;
 
-use super::BvhMotion;
+use super::{BvhMotion, BvhStatement};
 
 /// Writes a motion as BVH: lengths and degrees with six digits. The joints go out depth first, as the format wants it,
-/// and each frame's values with them, whatever the order of `motion.joints`.
+/// and each frame's values with them, whatever the order of `motion.joints`. What the motion says of itself is the last line.
 ///
 /// # Errors
 /// When the motion breaks [`BvhMotion::check`] or writing fails.
@@ -49,6 +49,9 @@ pub fn write_bvh(out: &mut dyn Write, motion: &BvhMotion) -> Result<()> {
             write!(out, "{}{value:.6}", if column == 0 { "" } else { " " })?;
         }
         writeln!(out)?;
+    }
+    if let Some(line) = motion.statement.and_then(BvhStatement::line) {
+        writeln!(out, "{line}")?;
     }
     Ok(())
 }

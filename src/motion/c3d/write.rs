@@ -8,7 +8,8 @@ use super::super::points::{PointFile, PointTrajectory};
 use super::{BLOCK, parse_c3d};
 
 /// Files of points.
-pub(crate) const POINTS: PointFile = PointFile { read: parse_c3d, write: Ok(|out, points, _| write_c3d(out, points)) };
+pub(crate) const POINTS: PointFile =
+    PointFile { read: parse_c3d, write: Ok(|out, points, _| write_c3d(out, points)), write_metres: None };
 
 /// The parameter section starts in the second block.
 const PARAMETER_BLOCK: u8 = 2;

@@ -217,7 +217,9 @@ impl BvhMotion {
             })
             .collect();
         let times = (0..self.frames.len()).map(|frame| frame as f64 * self.frame_time).collect();
-        let motion = SkeletalMotion { joints, unit: None, up: None, times, frames, wraps: false };
+        let unit = self.statement.map(|said| said.millimetres);
+        let up = self.statement.map(|_| UpAxis::Y);
+        let motion = SkeletalMotion { joints, unit, up, times, frames, wraps: false };
         motion.check()?;
         Ok(motion)
     }

@@ -9,7 +9,7 @@ use crate::body::{Body, PoseTable, PoseWriter};
 use crate::files::OutputFolder;
 use crate::motion::write_points_csv;
 use crate::track::FrameResult;
-use crate::track::results::Held;
+use crate::track::held::Held;
 
 /// The two tables. Each row is one write, so that a reader sees whole rows.
 #[derive(Debug)]

@@ -5,9 +5,10 @@ use serde_json::json;
 
 use super::Run;
 use crate::track::confidence::{Confidence, LossRule};
+use crate::track::held::Held;
 use crate::track::journal::{Extent, Journal};
 use crate::track::pace::Finished;
-use crate::track::results::{self, Held};
+use crate::track::results;
 use crate::track::run_record::RunRecord;
 use crate::track::summary::{TrackSummary, lost_sentence, mean};
 
@@ -57,7 +58,9 @@ impl Run<'_> {
         }
         summary.warnings.extend(lost_sentence(&held.runs(), summary.frames.len()));
         if !summary.frames.is_empty() {
-            results::write(output, body, &sequence.cameras, &summary.frames, &confidences, &held, sequence.fps)?;
+            let warning =
+                results::write(output, body, &sequence.cameras, &summary.frames, &confidences, &held, sequence.fps)?;
+            summary.warnings.extend(warning);
         }
         // A finished run that is gone on with has no times to tell; those of the run that did the work stay.
         if summary.new_frames > 0 || !output.path().join("stages.json").exists() {

@@ -10,8 +10,20 @@ use super::{command, journalled, track};
 use crate::support::{has_ffmpeg, refused, sequence, stderr, succeeded};
 use crate::walk;
 
-const RESULTS: [&str; 7] =
-    ["poses.csv", "joints.csv", "joints.trc", "markers.c3d", "motion.bvh", "confidence.csv", "journal.txt"];
+const RESULTS: [&str; 12] = [
+    "poses.csv",
+    "joints.csv",
+    "joints.trc",
+    "joints_opensim.trc",
+    "markers.c3d",
+    "motion.bvh",
+    "motion.glb",
+    "motion.mot",
+    "motion_sd.mot",
+    "coordinates.toml",
+    "confidence.csv",
+    "journal.txt",
+];
 /// Slow enough that a kill meets it at work.
 const SLOW: [&str; 8] = ["--particles", "150", "--iterations", "12", "--overlay-every", "3", "--backend", "cpu"];
 
