@@ -4,11 +4,11 @@
 
 mod budget;
 mod feed;
+mod outlets;
 mod processing;
 mod rounds;
 mod rows;
 mod settings;
-mod slot;
 mod tally;
 mod timeline;
 
@@ -21,6 +21,8 @@ use anyhow::{Result, ensure};
 
 use budget::{Budget, Size};
 use feed::{Input, RealtimeFeed};
+pub(super) use outlets::OpenOutlets;
+use outlets::Outlets;
 use rounds::Rounds;
 use rows::Rows;
 pub use settings::{RealtimeSettings, Repeat};
@@ -59,6 +61,7 @@ pub(super) struct Realtime {
     counts: Arc<Counts>,
     timeline: Arc<Timeline>,
     rows: Rows,
+    outlets: Option<Outlets>,
     /// The search of the frame in work and the time after it.
     searched: Option<Searched>,
 }
@@ -84,6 +87,7 @@ impl Realtime {
         body: &Body,
         range: &mut Range<usize>,
         done: &[FrameResult],
+        outlets: OpenOutlets,
     ) -> Result<Self> {
         let rounds = Rounds::of(range.clone());
         if !sequence.is_live() {
@@ -102,14 +106,18 @@ impl Realtime {
             counts: Arc::default(),
             timeline: Arc::default(),
             rows: Rows::create(output, body, sequence.fps, done)?,
+            outlets: outlets.start(body, sequence.fps, done)?,
             searched: None,
         })
     }
 
     /// Writes realtime.json and the time-line, if this run did anything.
-    fn write(&self, run: &Finished<'_>, warnings: &mut Vec<String>) -> Result<RealtimeSummary> {
+    fn write(&mut self, run: &Finished<'_>, warnings: &mut Vec<String>) -> Result<RealtimeSummary> {
         let &Finished { sequence, output, truth, done, .. } = run;
-        let summary = self.tally.summary(&self.counts, &self.settings, truth.and_then(Truth::mean_error));
+        let mut summary = self.tally.summary(&self.counts, &self.settings, truth.and_then(Truth::mean_error));
+        if let Some(outlets) = self.outlets.take() {
+            summary.sent = outlets.finish(warnings);
+        }
         warnings.extend(summary.ended.clone());
         if done as u64 > LONGEST_RUN {
             warnings.push(format!(
@@ -167,8 +175,11 @@ impl Pace for Realtime {
         self.searched = Some(Searched { frame, begin: whole.start, end: Instant::now() });
     }
 
-    /// Adds the rows of the tables; the age of the pose is taken then.
+    /// Sends the pose on and adds the rows of the tables; the age of the pose is taken then.
     fn deliver(&mut self, body: &Body, result: &FrameResult, captured: Option<Instant>) -> Result<()> {
+        if let Some(outlets) = &self.outlets {
+            outlets.send(result, captured);
+        }
         self.rows.append(body, result)?;
         if let Some(captured) = captured {
             self.tally.deliver(captured, self.settings.deadline);
@@ -212,7 +223,11 @@ impl Pace for Realtime {
         Ok(Journal::resume(journal, Numbering::Rising, extent)?.1)
     }
 
-    fn close(&self, run: &Finished<'_>, summary: &mut TrackSummary) -> Result<()> {
+    fn outlets(&self) -> Vec<String> {
+        self.outlets.as_ref().map(|outlets| outlets.addresses().to_vec()).unwrap_or_default()
+    }
+
+    fn close(&mut self, run: &Finished<'_>, summary: &mut TrackSummary) -> Result<()> {
         let count = self.tally.poses().max(1) as f64;
         (summary.mean_fitness, summary.mean_confidence) = (self.tally.fitness / count, self.tally.confidence / count);
         summary.realtime = Some(self.write(run, &mut summary.warnings)?);

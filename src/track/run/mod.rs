@@ -132,6 +132,7 @@ impl<'a> Run<'a> {
             frames: (!self.sequence.is_live()).then_some(self.plan.range.len()),
             done,
             backend: self.plan.backend.reason.clone(),
+            outlets: self.pace.outlets(),
             warnings: warnings.to_vec(),
         }
     }

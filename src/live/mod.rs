@@ -1,0 +1,20 @@
+//! What goes out while a run is at work: each pose as it is found, to whoever receives it (docs/REALTIME.md). Nothing here holds the
+//! tracker up: what cannot keep up loses the oldest of what waits for it, and that is counted.
+
+mod destination;
+mod jsonl;
+mod lines;
+mod listener;
+mod opening;
+mod outlet;
+mod pose;
+mod receiver;
+mod slot;
+
+pub use destination::{Destination, Scheme};
+pub(crate) use lines::Lines;
+pub(crate) use opening::open;
+pub use outlet::SentSummary;
+pub(crate) use outlet::{Outgoing, Outlet};
+pub(crate) use pose::LivePose;
+pub(crate) use slot::Slot;

@@ -1,0 +1,168 @@
+//! Poses that `pantin track --realtime --send` gives out while it runs, against the files of the same run.
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Child, Stdio};
+use std::thread;
+
+use serde_json::Value;
+
+use super::{command, track};
+use crate::support::{refused, sequence};
+
+const FEW: [&str; 7] = ["--realtime", "--backend", "cpu", "--particles", "60", "--iterations", "4"];
+
+/// A run at work, and what it says on standard error from its first word after `before` on.
+fn started(output: &Path, more: &[&str], before: &str) -> (Child, String, thread::JoinHandle<String>) {
+    let mut child = command(sequence(), output, &[&FEW[..], more].concat())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut messages = BufReader::new(child.stderr.take().unwrap());
+    let mut all = String::new();
+    let word = loop {
+        let mut line = String::new();
+        assert!(messages.read_line(&mut line).unwrap() > 0, "it ended without a word on {before:?}: {all}");
+        all += &line;
+        if let Some((_, rest)) = line.split_once(before) {
+            break rest.split_whitespace().next().unwrap().to_string();
+        }
+    };
+    // What else it says must not fill the pipe.
+    let rest = thread::spawn(move || messages.lines().map_while(Result::ok).collect());
+    (child, word, rest)
+}
+
+fn ended(child: Child, messages: thread::JoinHandle<String>) -> String {
+    let output = child.wait_with_output().unwrap();
+    let messages = messages.join().unwrap();
+    assert!(output.status.success(), "{messages}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// The rows of a table, by frame and column.
+struct Table {
+    header: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn read(path: &Path) -> Self {
+        let text = fs::read_to_string(path).unwrap();
+        let mut lines = text.lines().map(|line| line.split(',').map(str::to_string).collect::<Vec<_>>());
+        Self { header: lines.next().unwrap(), rows: lines.collect() }
+    }
+
+    fn cell(&self, frame: u64, column: &str) -> &str {
+        let at = self.header.iter().position(|name| name == column).unwrap_or_else(|| panic!("no column {column}"));
+        let frame = frame.to_string();
+        &self.rows.iter().find(|row| row[0] == frame).unwrap_or_else(|| panic!("no frame {frame}"))[at]
+    }
+
+    fn value(&self, frame: u64, column: &str) -> f64 {
+        self.cell(frame, column).parse().unwrap()
+    }
+}
+
+/// Holds a line to the files of its run.
+fn check(line: &Value, output: &Path) {
+    let frame = line["frame"].as_u64().unwrap();
+    let [poses, joints, confidence] =
+        ["poses.csv", "joints.csv", "confidence.csv"].map(|name| Table::read(&output.join(name)));
+    let near = |found: &Value, expected: f64, within: f64, what: &str| {
+        let found = found.as_f64().unwrap_or_else(|| panic!("{what}: {found}"));
+        assert!((found - expected).abs() <= within, "frame {frame}, {what}: {found} sent, {expected} in the file");
+    };
+    let dofs = line["pose"].as_object().unwrap();
+    assert_eq!(dofs.len() + 1, poses.header.len());
+    for (name, value) in dofs {
+        near(value, poses.value(frame, name), 1e-6, name);
+    }
+    let points = line["joints"].as_object().unwrap();
+    assert_eq!(points.len() * 4 + 2, joints.header.len(), "every joint, its coordinates and its expected error");
+    for (name, point) in points {
+        for (axis, value) in ["x", "y", "z"].iter().zip(point.as_array().unwrap()) {
+            near(value, joints.value(frame, &format!("{name}.{axis}")), 2e-3, name);
+        }
+        near(&line["sigma"][name], joints.value(frame, &format!("{name}.sigma")), 0.01, name);
+    }
+    near(&line["time"], joints.value(frame, "time"), 1e-9, "time");
+    for name in ["fitness", "confidence", "wrong"] {
+        near(&line[name], confidence.value(frame, name), 1e-5, name);
+    }
+    let state = if line["lost"].as_bool().unwrap() { "lost" } else { "sure" };
+    assert_eq!(confidence.cell(frame, "state"), state);
+    let latency = line["latency"].as_f64().unwrap();
+    assert!(latency > 0.0 && latency < 60_000.0, "{latency} ms");
+}
+
+fn account(output: &Path) -> Value {
+    serde_json::from_slice(&fs::read(output.join("realtime.json")).unwrap()).unwrap()
+}
+
+#[test]
+fn lines_are_what_the_files_hold() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    let more = ["--rate", "0.4", "--loop", "6", "--send", "jsonl://127.0.0.1:0"];
+    let (child, address, messages) = started(&output, &more, "connect to ");
+    // One leaves after two lines and comes again, one stays and is silent.
+    let silent = TcpStream::connect(&address).unwrap();
+    let mut early = BufReader::new(TcpStream::connect(&address).unwrap()).lines();
+    let mut lines: Vec<String> = (0..2).map(|_| early.next().unwrap().unwrap()).collect();
+    drop(early);
+    lines.extend(BufReader::new(TcpStream::connect(&address).unwrap()).lines().map(Result::unwrap));
+    let text = ended(child, messages);
+    drop(silent);
+    assert!(lines.len() > 10, "only {} lines", lines.len());
+    let lines: Vec<Value> = lines.iter().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let frames: Vec<u64> = lines.iter().map(|line| line["frame"].as_u64().unwrap()).collect();
+    assert!(frames.is_sorted_by(|a, b| a < b) && *frames.last().unwrap() == 35, "{frames:?}");
+    lines.iter().for_each(|line| check(line, &output));
+    let sent = &account(&output)["sent"][0];
+    assert_eq!((&sent["to"], &sent["receivers"]), (&"jsonl://127.0.0.1:0".into(), &3.into()), "{sent}");
+    assert!(sent["sent"].as_u64().unwrap() >= lines.len() as u64 && sent["dropped"] == 0, "{sent}");
+    assert!(
+        text.contains("jsonl://127.0.0.1:0: ") && text.contains(" poses were sent to 3 receivers, 0 were dropped"),
+        "{text}"
+    );
+}
+
+/// With a delay what goes out is the pose that was searched again, and what is said of it is of that pose.
+#[test]
+fn with_a_delay_the_later_pose_is_sent() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    let more = ["--rate", "0.4", "--loop", "4", "--delay", "2", "--send", "jsonl://localhost:0"];
+    let (child, address, messages) = started(&output, &more, "connect to ");
+    let lines: Vec<String> =
+        BufReader::new(TcpStream::connect(&address).unwrap()).lines().map(Result::unwrap).collect();
+    ended(child, messages);
+    assert!(lines.len() > 5, "only {} lines", lines.len());
+    lines.iter().for_each(|line| check(&serde_json::from_str(line).unwrap(), &output));
+}
+
+#[test]
+fn wrong_destinations_are_sentences_and_leave_the_folder_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    let run = |more: &[&str]| track(sequence(), &output, more);
+    let usage = |more: &[&str], part: &str| {
+        let done = run(more);
+        let text = String::from_utf8(done.stderr).unwrap();
+        assert!(done.status.code() == Some(2) && text.contains(part), "{text}");
+    };
+    usage(&["--realtime", "--send", "osc://127.0.0.1:9"], "unknown scheme `osc`, the nearest is ");
+    usage(&["--realtime", "--send", "127.0.0.1:9"], "is no destination, expected SCHEME://HOST:PORT");
+    usage(&["--realtime", "--send", "jsonl://127.0.0.1:x"], "has a port that is no number from 0 to 65535");
+    usage(&["--send", "jsonl://127.0.0.1:0"], "--realtime");
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let to = format!("jsonl://{}", taken.local_addr().unwrap());
+    refused(&run(&["--realtime", "--send", &to]), &[&to, "is taken by another program, expected a free one"]);
+    let parts = ["jsonl://no-such-host.invalid:5005", "is not known"];
+    refused(&run(&["--realtime", "--send", parts[0]]), &parts);
+    assert!(!output.join("run.toml").exists() && !output.join("journal.txt").exists(), "nothing was begun");
+}
