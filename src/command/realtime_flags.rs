@@ -26,7 +26,8 @@ pub(super) struct RealtimeFlags {
     /// Let every pose wait for so many frames after it, and search it again with them known: later, and steadier.
     #[arg(long, value_name = "FRAMES", default_value_t = 0, requires = "realtime")]
     delay: usize,
-    /// Send each pose as it is found; may be given several times. jsonl://HOST:PORT: HOST and PORT are where pantin listens, and whoever connects (TCP) gets a line
+    /// Send each pose as it is found; may be given several times. vmc://HOST:PORT: to an application that receives the Virtual Motion
+    /// Capture protocol there (UDP). jsonl://HOST:PORT: HOST and PORT are where pantin listens, and whoever connects (TCP) gets a line
     /// of JSON a pose.
     #[arg(long, value_name = "URL", requires = "realtime")]
     send: Vec<Destination>,

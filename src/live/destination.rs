@@ -10,6 +10,8 @@ use crate::files::{choices, shortened};
 choices! {
     /// How poses are told.
     "scheme" pub enum Scheme {
+        /// Virtual Motion Capture protocol (OSC over UDP), to the application that receives at the address.
+        "vmc" Vmc,
         /// A line of JSON a pose, over TCP, to whoever connects to the address.
         "jsonl" Jsonl,
     }
@@ -32,7 +34,7 @@ impl FromStr for Destination {
     fn from_str(text: &str) -> Result<Self> {
         let shown = shortened(text);
         let (scheme, rest) = text.split_once("://").ok_or_else(|| {
-            anyhow!("`{shown}` is no destination, expected SCHEME://HOST:PORT, as jsonl://127.0.0.1:5005")
+            anyhow!("`{shown}` is no destination, expected SCHEME://HOST:PORT, as vmc://127.0.0.1:39539")
         })?;
         let scheme = Scheme::from_name(scheme)?;
         let wrong = |found: &str| anyhow!("`{shown}` {found}, expected {scheme}://HOST:PORT");
@@ -72,7 +74,7 @@ mod tests {
 
     #[test]
     fn destinations_read_back_as_they_are_written() {
-        for text in ["jsonl://127.0.0.1:5005", "jsonl://localhost:0", "jsonl://[::1]:65535"] {
+        for text in ["jsonl://127.0.0.1:5005", "jsonl://localhost:0", "vmc://[::1]:65535"] {
             let read: Destination = text.parse().unwrap();
             assert_eq!(read.to_string(), text);
         }
@@ -84,7 +86,7 @@ mod tests {
     fn what_is_no_destination_is_said() {
         for (text, part) in [
             ("localhost:5005", "`localhost:5005` is no destination, expected SCHEME://HOST:PORT"),
-            ("json://localhost:5", "unknown scheme `json`, the nearest is `jsonl` (known: jsonl)"),
+            ("json://localhost:5", "unknown scheme `json`, the nearest is `jsonl` (known: vmc, jsonl)"),
             ("jsonl://localhost", "names no port, expected jsonl://HOST:PORT"),
             ("jsonl://:5005", "names no host"),
             ("jsonl://localhost:port", "has a port that is no number from 0 to 65535"),

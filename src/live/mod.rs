@@ -10,6 +10,7 @@ mod outlet;
 mod pose;
 mod receiver;
 mod slot;
+mod vmc;
 
 pub use destination::{Destination, Scheme};
 pub(crate) use lines::Lines;

@@ -59,7 +59,7 @@ impl<'a> Planned<'a> {
             None => None,
         };
         let record = RunRecord::new(sequence, settings, &plan)?;
-        let outlets = OpenOutlets::of(settings)?;
+        let outlets = OpenOutlets::of(settings, &plan.body)?;
         Ok(Self { sequence, settings, output, plan, truth, record, outlets, warnings })
     }
 

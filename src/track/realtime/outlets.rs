@@ -23,9 +23,9 @@ impl OpenOutlets {
     ///
     /// # Errors
     /// One sentence with the destination that cannot be opened.
-    pub(crate) fn of(settings: &TrackSettings) -> Result<Self> {
+    pub(crate) fn of(settings: &TrackSettings, body: &Body) -> Result<Self> {
         let Some(realtime) = &settings.realtime else { return Ok(Self(Vec::new())) };
-        Ok(Self(crate::live::open(&realtime.send)?))
+        Ok(Self(crate::live::open(&realtime.send, body)?))
     }
 
     /// Starts the thread, where there is anything to do; `done` are the frames of an earlier run, by which later ones are judged.

@@ -2,11 +2,13 @@
 
 use std::fs;
 use std::io::{BufRead, BufReader};
-use std::net::TcpStream;
+use std::net::{TcpStream, UdpSocket};
 use std::path::Path;
 use std::process::{Child, Stdio};
 use std::thread;
 
+use glam::{DQuat, DVec3};
+use rosc::{OscPacket, OscType};
 use serde_json::Value;
 
 use super::{command, track};
@@ -131,6 +133,80 @@ fn lines_are_what_the_files_hold() {
     );
 }
 
+/// What a receiver of VMC makes of a run: every bone's place in the world, by a chain of local places and turns, is the joint's in
+/// joints.csv, in Unity's axes.
+#[test]
+fn vmc_bones_chain_to_the_joints_of_the_files() {
+    const CHAIN: [(&str, &str, &str); 6] = [
+        ("Hips", "", "pelvis"),
+        ("Spine", "Hips", "thorax"),
+        ("LeftShoulder", "Spine", "left_clavicle"),
+        ("LeftUpperArm", "LeftShoulder", "left_shoulder"),
+        ("LeftLowerArm", "LeftUpperArm", "left_elbow"),
+        ("LeftHand", "LeftLowerArm", "left_wrist"),
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    socket.set_read_timeout(Some(std::time::Duration::from_secs(2))).unwrap();
+    let to = format!("vmc://{}", socket.local_addr().unwrap());
+    let more = ["--rate", "0.4", "--loop", "2", "--send", &to];
+    let (child, _, messages) = started(&output, &more, "poses go to ");
+    let mut child = Some((child, messages));
+    // The messages of each time, in the order they came.
+    let mut times: Vec<(f32, Vec<rosc::OscMessage>)> = Vec::new();
+    let mut buffer = [0; 65_536];
+    loop {
+        match socket.recv(&mut buffer) {
+            Ok(size) => {
+                assert!(size <= 1400, "{size} bytes");
+                let (_, OscPacket::Bundle(bundle)) = rosc::decoder::decode_udp(&buffer[..size]).unwrap() else {
+                    panic!("no bundle")
+                };
+                for packet in bundle.content {
+                    let OscPacket::Message(message) = packet else { panic!("a bundle in a bundle") };
+                    match (message.addr.as_str(), message.args.as_slice()) {
+                        ("/VMC/Ext/T", [OscType::Float(time)]) => times.push((*time, Vec::new())),
+                        ("/VMC/Ext/OK", args) => assert_eq!(args.len(), 4, "{args:?}"),
+                        _ => times.last_mut().unwrap().1.push(message),
+                    }
+                }
+            }
+            // Nothing for two seconds: the run is over, or begins slowly.
+            Err(_) if !times.is_empty() => break,
+            Err(error) => {
+                let (child, _) = child.as_mut().unwrap();
+                assert!(child.try_wait().unwrap().is_none(), "it ended before a pose came: {error}");
+            }
+        }
+    }
+    let (child, messages) = child.take().unwrap();
+    ended(child, messages);
+    let joints = Table::read(&output.join("joints.csv"));
+    assert!(times.len() > 4, "only {} poses", times.len());
+    for (time, messages) in &times {
+        let frame = (f64::from(*time) * 25.0).round() as u64;
+        assert_eq!(messages.len(), 18, "the root and 17 bones");
+        let bone = |name: &str| {
+            let message = messages.iter().find(|message| message.args[0] == OscType::String(name.to_string())).unwrap();
+            let values: Vec<f64> = message.args[1..].iter().map(|it| f64::from(it.clone().float().unwrap())).collect();
+            (DVec3::from_slice(&values[..3]), DQuat::from_slice(&values[3..]))
+        };
+        assert_eq!(bone("root"), (DVec3::ZERO, DQuat::IDENTITY));
+        let mut world = std::collections::HashMap::from([("", (DVec3::ZERO, DQuat::IDENTITY))]);
+        for (name, parent, joint) in CHAIN {
+            let ((from, turn), (at, own)) = (world[parent], bone(name));
+            let place = from + turn * at;
+            world.insert(name, (place, turn * own));
+            let [x, y, z] = ["x", "y", "z"].map(|axis| joints.value(frame, &format!("{joint}.{axis}")) / 1e3);
+            let expected = DVec3::new(-y, z, x);
+            assert!((place - expected).length() < 1e-4, "frame {frame}, {name}: {place} is not {expected}");
+        }
+    }
+    let sent = &account(&output)["sent"][0];
+    assert_eq!((&sent["to"], &sent["receivers"]), (&to.as_str().into(), &Value::Null), "{sent}");
+}
+
 /// With a delay what goes out is the pose that was searched again, and what is said of it is of that pose.
 #[test]
 fn with_a_delay_the_later_pose_is_sent() {
@@ -164,5 +240,6 @@ fn wrong_destinations_are_sentences_and_leave_the_folder_alone() {
     refused(&run(&["--realtime", "--send", &to]), &[&to, "is taken by another program, expected a free one"]);
     let parts = ["jsonl://no-such-host.invalid:5005", "is not known"];
     refused(&run(&["--realtime", "--send", parts[0]]), &parts);
+    refused(&run(&["--realtime", "--send", "vmc://127.0.0.1:0"]), &["nobody receives at port 0"]);
     assert!(!output.join("run.toml").exists() && !output.join("journal.txt").exists(), "nothing was begun");
 }
