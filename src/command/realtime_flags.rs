@@ -31,6 +31,9 @@ pub(super) struct RealtimeFlags {
     /// of JSON a pose.
     #[arg(long, value_name = "URL", requires = "realtime")]
     send: Vec<Destination>,
+    /// Show the run on a page that browsers on this machine can open: at this port, or at any that is free.
+    #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "0", requires = "realtime")]
+    live: Option<u16>,
 }
 
 impl RealtimeFlags {
@@ -43,8 +46,8 @@ impl RealtimeFlags {
             return Ok(None);
         }
         let deadline = self.deadline.map(|ms| duration("the deadline, ms,", ms / 1e3)).transpose()?;
-        let Self { rate, repeat, delay, .. } = *self;
-        Ok(Some(RealtimeSettings { rate, repeat, deadline, delay, send: self.send.clone() }))
+        let Self { rate, repeat, delay, live, .. } = *self;
+        Ok(Some(RealtimeSettings { rate, repeat, deadline, delay, send: self.send.clone(), live }))
     }
 }
 

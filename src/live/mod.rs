@@ -1,5 +1,5 @@
-//! What goes out while a run is at work: each pose as it is found, to whoever receives it (docs/REALTIME.md). Nothing here holds the
-//! tracker up: what cannot keep up loses the oldest of what waits for it, and that is counted.
+//! What goes out while a run is at work: each pose as it is found, to whoever receives it, and a page for a browser on this machine
+//! (docs/REALTIME.md). Nothing here holds the tracker up: what cannot keep up loses the oldest of what waits for it, and that is counted.
 
 mod destination;
 mod jsonl;
@@ -7,6 +7,7 @@ mod lines;
 mod listener;
 mod opening;
 mod outlet;
+mod page;
 mod pose;
 mod receiver;
 mod slot;
@@ -17,5 +18,6 @@ pub(crate) use lines::Lines;
 pub(crate) use opening::open;
 pub use outlet::SentSummary;
 pub(crate) use outlet::{Outgoing, Outlet};
+pub(crate) use page::{Board, PageServer};
 pub(crate) use pose::LivePose;
 pub(crate) use slot::Slot;

@@ -59,7 +59,7 @@ impl<'a> Planned<'a> {
             None => None,
         };
         let record = RunRecord::new(sequence, settings, &plan)?;
-        let outlets = OpenOutlets::of(settings, &plan.body)?;
+        let outlets = OpenOutlets::of(sequence, settings, &plan.body)?;
         Ok(Self { sequence, settings, output, plan, truth, record, outlets, warnings })
     }
 
@@ -92,8 +92,18 @@ impl<'a> Planned<'a> {
         let timings = Timings::new(&output.file("trace.json")?)?;
         let pace: Box<dyn Pace> = match &settings.realtime {
             Some(realtime) => {
-                let range = &mut plan.range;
-                Box::new(Realtime::new(sequence, settings, realtime, output, &plan.body, range, &done, outlets)?)
+                let Plan { body, mesh, range, .. } = &mut plan;
+                Box::new(Realtime::new(
+                    sequence,
+                    settings,
+                    realtime,
+                    output,
+                    body,
+                    mesh.as_ref(),
+                    range,
+                    &done,
+                    outlets,
+                )?)
             }
             None => Box::new(Offline::new(settings)),
         };

@@ -71,7 +71,7 @@ pub(super) trait Pace {
     ///
     /// # Errors
     /// When it cannot be written.
-    fn deliver(&mut self, _body: &Body, _result: &FrameResult, _captured: Option<Instant>) -> Result<()> {
+    fn deliver(&mut self, _body: &Body, _result: &FrameResult, _prepared: &Prepared) -> Result<()> {
         Ok(())
     }
 

@@ -5,6 +5,7 @@
 mod budget;
 mod feed;
 mod outlets;
+mod painter;
 mod processing;
 mod rounds;
 mod rows;
@@ -38,7 +39,7 @@ use super::plan::Plan;
 use super::summary::TrackSummary;
 use super::timings::Span;
 use super::truth::Truth;
-use crate::body::Body;
+use crate::body::{Body, Mesh};
 use crate::files::OutputFolder;
 use crate::sequence::Sequence;
 
@@ -85,6 +86,7 @@ impl Realtime {
         realtime: &RealtimeSettings,
         output: &OutputFolder,
         body: &Body,
+        mesh: Option<&Mesh>,
         range: &mut Range<usize>,
         done: &[FrameResult],
         outlets: OpenOutlets,
@@ -106,7 +108,7 @@ impl Realtime {
             counts: Arc::default(),
             timeline: Arc::default(),
             rows: Rows::create(output, body, sequence.fps, done)?,
-            outlets: outlets.start(body, sequence.fps, done)?,
+            outlets: outlets.start(sequence, body, mesh, done)?,
             searched: None,
         })
     }
@@ -176,13 +178,17 @@ impl Pace for Realtime {
     }
 
     /// Sends the pose on and adds the rows of the tables; the age of the pose is taken then.
-    fn deliver(&mut self, body: &Body, result: &FrameResult, captured: Option<Instant>) -> Result<()> {
+    fn deliver(&mut self, body: &Body, result: &FrameResult, prepared: &Prepared) -> Result<()> {
+        let captured = prepared.captured;
         if let Some(outlets) = &self.outlets {
             outlets.send(result, captured);
         }
         self.rows.append(body, result)?;
         if let Some(captured) = captured {
             self.tally.deliver(captured, self.settings.deadline);
+        }
+        if let Some(outlets) = &self.outlets {
+            outlets.show(prepared, result);
         }
         let Some(Searched { frame, begin, end }) = self.searched.take() else { return Ok(()) };
         self.budget.delivered(end.elapsed());

@@ -23,6 +23,8 @@ pub struct RealtimeSettings {
     pub delay: usize,
     /// Where each pose goes as it is found. What a run yields does not depend on it, so run.toml does not tell of it.
     pub send: Vec<Destination>,
+    /// The port of a page that shows the run to browsers on this machine, 0 for any that is free; none without. Nor does run.toml tell of it.
+    pub live: Option<u16>,
 }
 
 /// Frames that a pose may wait for: beyond them nothing tells of it.
@@ -30,7 +32,7 @@ const LONGEST_DELAY: usize = 60;
 
 impl Default for RealtimeSettings {
     fn default() -> Self {
-        Self { rate: 1.0, repeat: Repeat::default(), deadline: None, delay: 0, send: Vec::new() }
+        Self { rate: 1.0, repeat: Repeat::default(), deadline: None, delay: 0, send: Vec::new(), live: None }
     }
 }
 

@@ -321,7 +321,7 @@ impl<'a> Run<'a> {
             overlay.write(self.output, frame, &prepared.pictures, &result.pose)?;
         }
         self.journal.append(result)?;
-        self.pace.deliver(&self.plan.body, result, prepared.captured)
+        self.pace.deliver(&self.plan.body, result, prepared)
     }
 
     /// Keeps a frame's result for the frames after it.

@@ -1,7 +1,7 @@
 //! Poses that `pantin track --realtime --send` gives out while it runs, against the files of the same run.
 
 use std::fs;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpStream, UdpSocket};
 use std::path::Path;
 use std::process::{Child, Stdio};
@@ -207,6 +207,62 @@ fn vmc_bones_chain_to_the_joints_of_the_files() {
     assert_eq!((&sent["to"], &sent["receivers"]), (&to.as_str().into(), &Value::Null), "{sent}");
 }
 
+/// The live page of a real run: the page, poses as events, overlays as pictures, and nothing for others.
+#[test]
+fn the_live_page_shows_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("track");
+    let (child, url, messages) = started(&output, &["--rate", "0.4", "--loop", "12", "--live"], "live page: ");
+    let address = url.strip_prefix("http://").unwrap().strip_suffix('/').unwrap().to_string();
+    let ask = |request: &str| {
+        let mut stream = TcpStream::connect(&address).unwrap();
+        stream.write_all(request.as_bytes()).unwrap();
+        stream
+    };
+    let answer = |request: &str| {
+        let mut bytes = Vec::new();
+        ask(request).read_to_end(&mut bytes).unwrap();
+        let end = bytes.windows(4).position(|end| end == b"\r\n\r\n").unwrap() + 4;
+        (String::from_utf8(bytes[..end].to_vec()).unwrap(), bytes[end..].to_vec())
+    };
+    let get = |path: &str| format!("GET {path} HTTP/1.1\r\nHost: {address}\r\n\r\n");
+    let (head, page) = answer(&get("/"));
+    assert!(head.starts_with("HTTP/1.1 200 OK\r\n"), "{head}");
+    let page = String::from_utf8(page).unwrap();
+    assert!(page.contains("function makePlayer") && page.contains("<figcaption>cam3</figcaption>"), "{page}");
+    assert!(answer(&format!("PUT / HTTP/1.1\r\nHost: {address}\r\n\r\n")).0.starts_with("HTTP/1.1 405 "));
+    assert!(answer("GET / HTTP/1.1\r\nHost: pantin.example\r\n\r\n").0.starts_with("HTTP/1.1 403 "));
+    let mut events = BufReader::new(ask(&get("/events"))).lines().map(Result::unwrap);
+    let mut poses: Vec<Value> = Vec::new();
+    let (mut event, mut shown, mut is_over) = (String::new(), 0, false);
+    for line in &mut events {
+        if let Some(name) = line.strip_prefix("event: ") {
+            event = name.to_string();
+        } else if let Some(data) = line.strip_prefix("data: ") {
+            match event.as_str() {
+                "pose" => poses.push(serde_json::from_str(data).unwrap()),
+                "views" => {
+                    shown += 1;
+                    let (head, picture) = answer(&get(&format!("/view/3?{data}")));
+                    assert!(head.contains("Content-Type: image/jpeg"), "{head}");
+                    let picture = image::load_from_memory(&picture).unwrap();
+                    assert_eq!((picture.width(), picture.height()), (160, 120));
+                }
+                "end" => is_over = true,
+                other => panic!("the event {other}"),
+            }
+        }
+    }
+    let text = ended(child, messages);
+    assert!(is_over && poses.len() > 10 && shown >= 2, "{} poses, {shown} times overlays", poses.len());
+    poses.iter().for_each(|pose| check(pose, &output));
+    assert!(text.contains(&format!("{url}: ")), "{text}");
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = taken.local_addr().unwrap().port().to_string();
+    let again = track(sequence(), &folder.path().join("other"), &[&FEW[..], &["--live", &port]].concat());
+    refused(&again, &[&format!("--live {port}: port {port} is taken by another program")]);
+}
+
 /// With a delay what goes out is the pose that was searched again, and what is said of it is of that pose.
 #[test]
 fn with_a_delay_the_later_pose_is_sent() {
@@ -235,6 +291,8 @@ fn wrong_destinations_are_sentences_and_leave_the_folder_alone() {
     usage(&["--realtime", "--send", "127.0.0.1:9"], "is no destination, expected SCHEME://HOST:PORT");
     usage(&["--realtime", "--send", "jsonl://127.0.0.1:x"], "has a port that is no number from 0 to 65535");
     usage(&["--send", "jsonl://127.0.0.1:0"], "--realtime");
+    usage(&["--live"], "--realtime");
+    usage(&["--realtime", "--live", "65536"], "65536 is not in 0..=65535");
     let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let to = format!("jsonl://{}", taken.local_addr().unwrap());
     refused(&run(&["--realtime", "--send", &to]), &[&to, "is taken by another program, expected a free one"]);
