@@ -3,7 +3,7 @@
 //! climbs to the best one.
 //!
 //! The crate is a house of rooms (see `docs/ARCHITECTURE.md`); an import runs down the floors, never up:
-//! [`command`] → [`study`] → [`track`] → [`search`], [`bench`], [`check`] → [`evaluate`], [`synth`], [`report`],
+//! [`command`] → [`study`] → [`track`] → [`search`], [`bench`], [`check`], [`live`] → [`evaluate`], [`synth`], [`report`],
 //! [`observe`] → [`features`], [`body`], [`sequence`], [`texture`], [`matrix`], [`calibrate`] → [`gpu`], [`motion`], [`geometry`] → [`files`],
 //! `arithmetic`.
 //!
@@ -21,6 +21,7 @@ pub mod features;
 pub mod files;
 pub mod geometry;
 pub mod gpu;
+pub mod live;
 pub mod matrix;
 pub mod motion;
 pub mod observe;

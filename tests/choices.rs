@@ -14,6 +14,7 @@ use pantin::evaluate::device::{Coverage, Gathering, HostComparison, Packing, Pro
 use pantin::features::{Adaptation, Cue, ForegroundKind, Magnitude, Metric, Normalisation, Operator, Shape};
 use pantin::files::Choice;
 use pantin::geometry::LengthUnit;
+use pantin::live::Scheme;
 use pantin::matrix::{Arrangement, Multiplier, UnitKind};
 use pantin::motion::{Convention, MotionFormat, PointFormat, UpAxis};
 use pantin::search::SearchKind;
@@ -82,6 +83,7 @@ fn lists() -> Vec<List> {
         list::<Tiling>(),
         list::<Projection>(),
         list::<YardstickKind>(),
+        list::<Scheme>(),
     ]
 }
 

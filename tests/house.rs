@@ -21,6 +21,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("search", 4),
     ("bench", 4),
     ("check", 4),
+    ("live", 4),
     ("evaluate", 3),
     ("synth", 3),
     ("report", 3),

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use anyhow::{Context, Result};
 
+use crate::live::Destination;
 use crate::track::{RealtimeSettings, Repeat};
 
 /// Keeping time with the pictures.
@@ -25,6 +26,14 @@ pub(super) struct RealtimeFlags {
     /// Let every pose wait for so many frames after it, and search it again with them known: later, and steadier.
     #[arg(long, value_name = "FRAMES", default_value_t = 0, requires = "realtime")]
     delay: usize,
+    /// Send each pose as it is found; may be given several times. vmc://HOST:PORT: to an application that receives the Virtual Motion
+    /// Capture protocol there (UDP). jsonl://HOST:PORT: HOST and PORT are where pantin listens, and whoever connects (TCP) gets a line
+    /// of JSON a pose.
+    #[arg(long, value_name = "URL", requires = "realtime")]
+    send: Vec<Destination>,
+    /// Show the run on a page that browsers on this machine can open: at this port, or at any that is free.
+    #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "0", requires = "realtime")]
+    live: Option<u16>,
 }
 
 impl RealtimeFlags {
@@ -37,7 +46,8 @@ impl RealtimeFlags {
             return Ok(None);
         }
         let deadline = self.deadline.map(|ms| duration("the deadline, ms,", ms / 1e3)).transpose()?;
-        Ok(Some(RealtimeSettings { rate: self.rate, repeat: self.repeat, deadline, delay: self.delay }))
+        let Self { rate, repeat, delay, live, .. } = *self;
+        Ok(Some(RealtimeSettings { rate, repeat, deadline, delay, send: self.send.clone(), live }))
     }
 }
 

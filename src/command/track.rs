@@ -14,6 +14,7 @@ use super::realtime_flags::{RealtimeFlags, duration};
 use super::threads_flag::ThreadsFlag;
 use crate::body::Model;
 use crate::files::{OutputFolder, Overwrite};
+use crate::live::SentSummary;
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::{STALL_TIMEOUT, Sequence};
 use crate::track::{
@@ -263,6 +264,10 @@ fn print_realtime(realtime: &RealtimeSummary, evaluator: &str) {
     if realtime.complaints > 0 {
         say!("the decoders complained {} times: pictures were damaged", realtime.complaints);
     }
+    for SentSummary { to, receivers, sent, dropped } in &realtime.sent {
+        let receivers = receivers.map(|count| format!(" to {count} receivers")).unwrap_or_default();
+        say!("{to}: {sent} poses were sent{receivers}, {dropped} were dropped");
+    }
     if let Some(error) = realtime.error_mm {
         say!("error {error:.2} mm on average");
     }
@@ -297,6 +302,9 @@ impl TrackProgress {
 impl Progress for TrackProgress {
     fn start(&mut self, run: &RunStart) {
         tell!("{}", run.backend);
+        for outlet in &run.outlets {
+            tell!("{outlet}");
+        }
         if run.done > 0 {
             let total = run.frames.map(|frames| format!(" of {frames}")).unwrap_or_default();
             tell!("going on from frame {}, {}{total} are done", run.first_frame + run.done, run.done);

@@ -122,7 +122,8 @@ pub struct Player {
     pub cameras: Vec<CameraFrame>,
 }
 
-const STYLE: &str = include_str!("page.css");
+pub(super) const STYLE: &str = include_str!("page.css");
+pub(super) const PLAYER_SCRIPT: &str = include_str!("player.js");
 const SCRIPT: &str = include_str!("page.js");
 const TRACKED: [u8; 3] = [31, 111, 178];
 
@@ -169,20 +170,24 @@ pub fn page(data: &ReportData) -> Result<String> {
     }
     plots(out, data)?;
     tables(out, data)?;
-    let player = serde_json::to_string(&(data.first_frame, &data.player)).context("cannot write the player's data")?;
+    let player = embedded_json(&(data.first_frame, &data.player))?;
     Ok(format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>{}</title>\
          <style>{STYLE}</style></head>\n<body><main>{body}\n<footer>pantin {}</footer></main>\
-         <script type=\"application/json\" id=\"player-data\">{}</script><script>{SCRIPT}</script></body></html>\n",
+         <script type=\"application/json\" id=\"player-data\">{}</script><script>{PLAYER_SCRIPT}{SCRIPT}</script></body></html>\n",
         escape(&data.title),
         env!("CARGO_PKG_VERSION"),
-        // Inside a script element only `<` could end it.
-        player.replace('<', "\\u003c"),
+        player,
     ))
 }
 
-const PLAYER: &str = "<section id=\"player\"><h2>Motion in space</h2><div class=\"stage\"><canvas></canvas>\
+/// Data for a script element, which only `<` could end.
+pub(super) fn embedded_json(data: &impl Serialize) -> Result<String> {
+    Ok(serde_json::to_string(data).context("cannot write the player's data")?.replace('<', "\\u003c"))
+}
+
+pub(super) const PLAYER: &str = "<section id=\"player\"><h2>Motion in space</h2><div class=\"stage\"><canvas></canvas>\
     <div class=\"legend\"></div></div>\
     <div class=\"controls\"><button type=\"button\" class=\"play\" aria-label=\"play or pause\">&#10074;&#10074;</button>\
     <input type=\"range\" min=\"0\" value=\"0\" aria-label=\"frame\"><output></output>\
@@ -273,14 +278,22 @@ fn tables(out: &mut String, data: &ReportData) -> Result<()> {
     Ok(())
 }
 
-fn embedded(picture: &RgbImage) -> Result<String> {
+/// A picture as JPEG, for a page.
+///
+/// # Errors
+/// When it cannot be encoded: it is larger than a JPEG can be.
+pub fn jpeg(picture: &RgbImage) -> Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::new());
     JpegEncoder::new_with_quality(&mut bytes, 86).encode_image(picture).context("cannot encode an overlay")?;
-    Ok(base64::engine::general_purpose::STANDARD.encode(bytes.into_inner()))
+    Ok(bytes.into_inner())
+}
+
+fn embedded(picture: &RgbImage) -> Result<String> {
+    Ok(base64::engine::general_purpose::STANDARD.encode(jpeg(picture)?))
 }
 
 /// Text for an element or a quoted attribute.
-fn escape(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -5,7 +5,7 @@ use anyhow::Result;
 use super::journal::{Extent, FrameResult, Journal};
 use super::pace::{Offline, Pace};
 use super::plan::Plan;
-use super::realtime::Realtime;
+use super::realtime::{OpenOutlets, Realtime};
 use super::run::Run;
 use super::run_record::RunRecord;
 use super::timings::Timings;
@@ -22,6 +22,7 @@ pub(super) struct Planned<'a> {
     pub(super) plan: Plan,
     truth: Option<Truth>,
     record: RunRecord,
+    outlets: OpenOutlets,
     warnings: Vec<String>,
 }
 
@@ -58,7 +59,8 @@ impl<'a> Planned<'a> {
             None => None,
         };
         let record = RunRecord::new(sequence, settings, &plan)?;
-        Ok(Self { sequence, settings, output, plan, truth, record, warnings })
+        let outlets = OpenOutlets::of(sequence, settings, &plan.body)?;
+        Ok(Self { sequence, settings, output, plan, truth, record, outlets, warnings })
     }
 
     /// Begins the run in its folder.
@@ -66,7 +68,7 @@ impl<'a> Planned<'a> {
     /// # Errors
     /// When a run cannot be gone on with, or the folder cannot be written.
     pub(super) fn begin(self) -> Result<Begun<'a>> {
-        let Self { sequence, settings, output, mut plan, truth, record, mut warnings } = self;
+        let Self { sequence, settings, output, mut plan, truth, record, outlets, mut warnings } = self;
         let occupied = output.occupy()?;
         let journal_path = output.path().join(Journal::NAME);
         let (journal, done) = if settings.resume {
@@ -90,7 +92,18 @@ impl<'a> Planned<'a> {
         let timings = Timings::new(&output.file("trace.json")?)?;
         let pace: Box<dyn Pace> = match &settings.realtime {
             Some(realtime) => {
-                Box::new(Realtime::new(sequence, settings, realtime, output, &plan.body, &mut plan.range, &done)?)
+                let Plan { body, mesh, range, .. } = &mut plan;
+                Box::new(Realtime::new(
+                    sequence,
+                    settings,
+                    realtime,
+                    output,
+                    body,
+                    mesh.as_ref(),
+                    range,
+                    &done,
+                    outlets,
+                )?)
             }
             None => Box::new(Offline::new(settings)),
         };

@@ -71,8 +71,13 @@ pub(super) trait Pace {
     ///
     /// # Errors
     /// When it cannot be written.
-    fn deliver(&mut self, _body: &Body, _result: &FrameResult, _captured: Option<Instant>) -> Result<()> {
+    fn deliver(&mut self, _body: &Body, _result: &FrameResult, _prepared: &Prepared) -> Result<()> {
         Ok(())
+    }
+
+    /// Where poses can be had as they are found, sentences for the user.
+    fn outlets(&self) -> Vec<String> {
+        Vec::new()
     }
 
     /// Takes note of how good a pose is.
@@ -105,7 +110,7 @@ pub(super) trait Pace {
     ///
     /// # Errors
     /// When they cannot be written.
-    fn close(&self, run: &Finished<'_>, summary: &mut TrackSummary) -> Result<()>;
+    fn close(&mut self, run: &Finished<'_>, summary: &mut TrackSummary) -> Result<()>;
 }
 
 /// Every frame, however long it takes; a report in the end.
@@ -142,7 +147,7 @@ impl Pace for Offline {
         Ok(kept)
     }
 
-    fn close(&self, run: &Finished<'_>, summary: &mut TrackSummary) -> Result<()> {
+    fn close(&mut self, run: &Finished<'_>, summary: &mut TrackSummary) -> Result<()> {
         let &Finished { sequence, settings, output, body, confidences, held, truth, record, .. } = run;
         if let Some(truth) = truth {
             match truth.error(body, held, sequence.fps) {

@@ -176,6 +176,12 @@ fn player(sequence: &Sequence, body: &Body, joints: &PointTrajectory, truth: Opt
     Player { fps: sequence.fps, skeletons, cameras: sequence.cameras.iter().filter_map(camera_frame).collect() }
 }
 
+/// The player of a run at work: the cameras, and a skeleton without frames yet.
+pub(super) fn live_player(sequence: &Sequence, body: &Body) -> Player {
+    let cameras = sequence.cameras.iter().filter_map(camera_frame).collect();
+    Player { fps: sequence.fps, skeletons: vec![skeleton("tracked", body, joint_lines(body), Vec::new())], cameras }
+}
+
 /// A skeleton of the body's joints.
 fn skeleton(name: &str, body: &Body, bones: Vec<[usize; 2]>, frames: Vec<Vec<Option<DVec3>>>) -> Skeleton {
     Skeleton { name: name.to_string(), names: body.joint_names(), bones, frames }

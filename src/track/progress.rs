@@ -34,6 +34,8 @@ pub struct RunStart {
     pub done: usize,
     /// Which evaluator, and why.
     pub backend: String,
+    /// Where poses can be had as they are found.
+    pub outlets: Vec<String>,
     /// Sentences the user should read.
     pub warnings: Vec<String>,
 }

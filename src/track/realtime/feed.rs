@@ -9,10 +9,10 @@ use std::time::Duration;
 use anyhow::{Context, Result, anyhow};
 
 use super::processing::Processing;
-use super::slot::Slot;
 use super::tally::Counts;
 use super::timeline::{Row, Timeline};
 use crate::features::FeatureSettings;
+use crate::live::Slot;
 use crate::observe::view_extractors;
 use crate::sequence::{Captured, LiveReader, Playback, Player, Sequence};
 use crate::track::feed::{Frames, Prepared};

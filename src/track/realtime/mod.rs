@@ -4,11 +4,12 @@
 
 mod budget;
 mod feed;
+mod outlets;
+mod painter;
 mod processing;
 mod rounds;
 mod rows;
 mod settings;
-mod slot;
 mod tally;
 mod timeline;
 
@@ -21,6 +22,8 @@ use anyhow::{Result, ensure};
 
 use budget::{Budget, Size};
 use feed::{Input, RealtimeFeed};
+pub(super) use outlets::OpenOutlets;
+use outlets::Outlets;
 use rounds::Rounds;
 use rows::Rows;
 pub use settings::{RealtimeSettings, Repeat};
@@ -36,7 +39,7 @@ use super::plan::Plan;
 use super::summary::TrackSummary;
 use super::timings::Span;
 use super::truth::Truth;
-use crate::body::Body;
+use crate::body::{Body, Mesh};
 use crate::files::OutputFolder;
 use crate::sequence::Sequence;
 
@@ -59,6 +62,7 @@ pub(super) struct Realtime {
     counts: Arc<Counts>,
     timeline: Arc<Timeline>,
     rows: Rows,
+    outlets: Option<Outlets>,
     /// The search of the frame in work and the time after it.
     searched: Option<Searched>,
 }
@@ -82,8 +86,10 @@ impl Realtime {
         realtime: &RealtimeSettings,
         output: &OutputFolder,
         body: &Body,
+        mesh: Option<&Mesh>,
         range: &mut Range<usize>,
         done: &[FrameResult],
+        outlets: OpenOutlets,
     ) -> Result<Self> {
         let rounds = Rounds::of(range.clone());
         if !sequence.is_live() {
@@ -102,14 +108,18 @@ impl Realtime {
             counts: Arc::default(),
             timeline: Arc::default(),
             rows: Rows::create(output, body, sequence.fps, done)?,
+            outlets: outlets.start(sequence, body, mesh, done)?,
             searched: None,
         })
     }
 
     /// Writes realtime.json and the time-line, if this run did anything.
-    fn write(&self, run: &Finished<'_>, warnings: &mut Vec<String>) -> Result<RealtimeSummary> {
+    fn write(&mut self, run: &Finished<'_>, warnings: &mut Vec<String>) -> Result<RealtimeSummary> {
         let &Finished { sequence, output, truth, done, .. } = run;
-        let summary = self.tally.summary(&self.counts, &self.settings, truth.and_then(Truth::mean_error));
+        let mut summary = self.tally.summary(&self.counts, &self.settings, truth.and_then(Truth::mean_error));
+        if let Some(outlets) = self.outlets.take() {
+            summary.sent = outlets.finish(warnings);
+        }
         warnings.extend(summary.ended.clone());
         if done as u64 > LONGEST_RUN {
             warnings.push(format!(
@@ -167,11 +177,18 @@ impl Pace for Realtime {
         self.searched = Some(Searched { frame, begin: whole.start, end: Instant::now() });
     }
 
-    /// Adds the rows of the tables; the age of the pose is taken then.
-    fn deliver(&mut self, body: &Body, result: &FrameResult, captured: Option<Instant>) -> Result<()> {
+    /// Sends the pose on and adds the rows of the tables; the age of the pose is taken then.
+    fn deliver(&mut self, body: &Body, result: &FrameResult, prepared: &Prepared) -> Result<()> {
+        let captured = prepared.captured;
+        if let Some(outlets) = &self.outlets {
+            outlets.send(result, captured);
+        }
         self.rows.append(body, result)?;
         if let Some(captured) = captured {
             self.tally.deliver(captured, self.settings.deadline);
+        }
+        if let Some(outlets) = &self.outlets {
+            outlets.show(prepared, result);
         }
         let Some(Searched { frame, begin, end }) = self.searched.take() else { return Ok(()) };
         self.budget.delivered(end.elapsed());
@@ -212,7 +229,11 @@ impl Pace for Realtime {
         Ok(Journal::resume(journal, Numbering::Rising, extent)?.1)
     }
 
-    fn close(&self, run: &Finished<'_>, summary: &mut TrackSummary) -> Result<()> {
+    fn outlets(&self) -> Vec<String> {
+        self.outlets.as_ref().map(|outlets| outlets.addresses().to_vec()).unwrap_or_default()
+    }
+
+    fn close(&mut self, run: &Finished<'_>, summary: &mut TrackSummary) -> Result<()> {
         let count = self.tally.poses().max(1) as f64;
         (summary.mean_fitness, summary.mean_confidence) = (self.tally.fitness / count, self.tally.confidence / count);
         summary.realtime = Some(self.write(run, &mut summary.warnings)?);

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use anyhow::{Result, anyhow, ensure};
 
+use crate::live::Destination;
 use crate::sequence::Sequence;
 
 /// How a run keeps time.
@@ -20,6 +21,10 @@ pub struct RealtimeSettings {
     pub deadline: Option<Duration>,
     /// Frames that a pose waits for: it is searched again with them known (METHOD A14), and out that much later.
     pub delay: usize,
+    /// Where each pose goes as it is found. What a run yields does not depend on it, so run.toml does not tell of it.
+    pub send: Vec<Destination>,
+    /// The port of a page that shows the run to browsers on this machine, 0 for any that is free; none without. Nor does run.toml tell of it.
+    pub live: Option<u16>,
 }
 
 /// Frames that a pose may wait for: beyond them nothing tells of it.
@@ -27,7 +32,7 @@ const LONGEST_DELAY: usize = 60;
 
 impl Default for RealtimeSettings {
     fn default() -> Self {
-        Self { rate: 1.0, repeat: Repeat::default(), deadline: None, delay: 0 }
+        Self { rate: 1.0, repeat: Repeat::default(), deadline: None, delay: 0, send: Vec::new(), live: None }
     }
 }
 

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use super::RealtimeSettings;
+use crate::live::SentSummary;
 use crate::track::histogram::Histogram;
 
 /// What the modules in front of the tracker count.
@@ -117,6 +118,7 @@ impl Tally {
             complaints: get(&counts.complaints),
             ended: counts.ended(),
             error_mm: error,
+            sent: Vec::new(),
         }
     }
 }
@@ -152,6 +154,8 @@ pub struct RealtimeSummary {
     pub ended: Option<String>,
     /// Mean error over frames against the truth, mm.
     pub error_mm: Option<f64>,
+    /// What became of the poses that were sent as they were found, a destination each.
+    pub sent: Vec<SentSummary>,
 }
 
 /// Percentiles, ms.

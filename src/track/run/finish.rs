@@ -14,7 +14,7 @@ use crate::track::summary::{TrackSummary, lost_sentence, mean};
 
 impl Run<'_> {
     /// Writes the results, unless the run was stopped.
-    pub(crate) fn finish(self, record: &RunRecord, warnings: Vec<String>) -> Result<TrackSummary> {
+    pub(crate) fn finish(mut self, record: &RunRecord, warnings: Vec<String>) -> Result<TrackSummary> {
         let (sequence, output, body) = (self.sequence, self.output, &self.plan.body);
         let next = self.next_frame();
         let is_stopped = self.is_stopped || next < self.plan.range.end;

@@ -123,6 +123,7 @@ impl<'a> Run<'a> {
             frames: (!self.sequence.is_live()).then_some(self.plan.range.len()),
             done,
             backend: self.plan.backend.reason.clone(),
+            outlets: self.pace.outlets(),
             warnings: warnings.to_vec(),
         }
     }
@@ -310,7 +311,7 @@ impl<'a> Run<'a> {
             overlay.write(self.output, frame, &prepared.pictures, &result.pose)?;
         }
         self.journal.append(result)?;
-        self.pace.deliver(&self.plan.body, result, prepared.captured)
+        self.pace.deliver(&self.plan.body, result, prepared)
     }
 
     /// Keeps a frame's result for the frames after it.

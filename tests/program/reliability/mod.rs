@@ -1,9 +1,10 @@
 //! `pantin track` when things go wrong: killed at any moment, no room left, sources that stall, end early or deliver garbage,
-//! a device lost; and tracking in real time, from recordings and from live sources.
+//! a device lost; and tracking in real time, from recordings and from live sources, with its poses sent on.
 
 mod interrupted;
 mod live;
 mod realtime;
+mod sent;
 
 use std::fs;
 use std::path::Path;

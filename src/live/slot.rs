@@ -1,19 +1,22 @@
-//! What stands between two modules: room for one thing, and the newest wins.
+//! What stands between two threads: room for so many things, and the newest win.
 
+use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 use anyhow::Result;
 
-/// Room for one thing on its way from a writer to a reader.
+/// Room for things on their way from a writer to a reader, by default for one.
 #[derive(Debug)]
-pub(super) struct Slot<T> {
+pub(crate) struct Slot<T> {
+    room: usize,
     state: Mutex<State<T>>,
     changed: Condvar,
 }
 
 #[derive(Debug)]
 struct State<T> {
-    newest: Option<T>,
+    /// Oldest first.
+    newest: VecDeque<T>,
     /// How the writer ended.
     end: Option<Result<()>>,
     is_read: bool,
@@ -21,28 +24,35 @@ struct State<T> {
 
 /// The reader is gone.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Closed;
+pub(crate) struct Closed;
 
 impl<T> Default for Slot<T> {
     fn default() -> Self {
-        Self { state: Mutex::new(State { newest: None, end: None, is_read: true }), changed: Condvar::new() }
+        Self::with_room(1)
     }
 }
 
 impl<T> Slot<T> {
-    /// Puts a thing in place of the one that was not taken yet, which comes back.
-    pub(super) fn put(&self, thing: T) -> Result<Option<T>, Closed> {
+    /// With room for so many things, at least one.
+    pub(crate) fn with_room(room: usize) -> Self {
+        let state = State { newest: VecDeque::new(), end: None, is_read: true };
+        Self { room: room.max(1), state: Mutex::new(state), changed: Condvar::new() }
+    }
+
+    /// Puts a thing behind those that were not taken yet. Where there is no room, the oldest of them makes it and comes back.
+    pub(crate) fn put(&self, thing: T) -> Result<Option<T>, Closed> {
         let mut state = self.lock();
         if !state.is_read {
             return Err(Closed);
         }
-        let passed_over = state.newest.replace(thing);
+        let passed_over = if state.newest.len() < self.room { None } else { state.newest.pop_front() };
+        state.newest.push_back(thing);
         self.changed.notify_all();
         Ok(passed_over)
     }
 
     /// Nothing more comes, or what went wrong. The first word counts.
-    pub(super) fn finish(&self, end: Result<()>) {
+    pub(crate) fn finish(&self, end: Result<()>) {
         self.lock().end.get_or_insert(end);
         self.changed.notify_all();
     }
@@ -51,10 +61,10 @@ impl<T> Slot<T> {
     ///
     /// # Errors
     /// What went wrong at the writer's, after the last thing was taken.
-    pub(super) fn take(&self) -> Result<Option<T>> {
+    pub(crate) fn take(&self) -> Result<Option<T>> {
         let mut state = self.lock();
         loop {
-            if let Some(thing) = state.newest.take() {
+            if let Some(thing) = state.newest.pop_front() {
                 return Ok(Some(thing));
             }
             if let Some(end) = &mut state.end {
@@ -64,13 +74,19 @@ impl<T> Slot<T> {
         }
     }
 
-    /// Nobody reads any more.
-    pub(super) fn close(&self) {
+    /// Nobody reads any more: how many things were not taken.
+    pub(crate) fn close(&self) -> usize {
         let mut state = self.lock();
         state.is_read = false;
-        state.newest = None;
+        let left = std::mem::take(&mut state.newest).len();
         drop(state);
         self.changed.notify_all();
+        left
+    }
+
+    /// Whether nothing more comes.
+    pub(crate) fn has_ended(&self) -> bool {
+        self.lock().end.is_some()
     }
 
     /// The state is never left half changed, so a lock that a dying thread held is as good as any.
@@ -101,6 +117,17 @@ mod tests {
         assert_eq!(slot.take().unwrap(), None);
         slot.close();
         assert_eq!(slot.put(4), Err(Closed));
+    }
+
+    #[test]
+    fn where_there_is_room_for_more_the_oldest_goes_first() {
+        let slot = Slot::with_room(2);
+        assert_eq!([1, 2, 3, 4].map(|thing| slot.put(thing)), [Ok(None), Ok(None), Ok(Some(1)), Ok(Some(2))]);
+        assert_eq!(slot.take().unwrap(), Some(3));
+        assert!(!slot.has_ended());
+        slot.finish(Ok(()));
+        assert!(slot.has_ended());
+        assert_eq!(slot.close(), 1, "the 4 was not taken");
     }
 
     #[test]
