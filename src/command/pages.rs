@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use clap::CommandFactory;
+use clap::Command;
 use clap_mangen::Man;
 
-use super::Arguments;
 use super::output::{Output, say};
 use crate::files::{OutputFolder, Overwrite};
 
@@ -30,22 +29,22 @@ pub(super) struct ManArgs {
     force: bool,
 }
 
-/// Runs `pantin completions`.
+/// Runs `pantin completions` on the program's command line.
 ///
 /// # Errors
 /// None: what standard output does not take is told of at the end.
-pub(super) fn completions(args: &CompletionsArgs) -> Result<()> {
-    clap_complete::generate(args.shell, &mut Arguments::command(), "pantin", &mut Output);
+pub(super) fn completions(args: &CompletionsArgs, mut program: Command) -> Result<()> {
+    clap_complete::generate(args.shell, &mut program, "pantin", &mut Output);
     Ok(())
 }
 
-/// Runs `pantin man`.
+/// Runs `pantin man` on the program's command line.
 ///
 /// # Errors
 /// When a page cannot be written.
-pub(super) fn man(args: &ManArgs) -> Result<()> {
+pub(super) fn man(args: &ManArgs, program: Command) -> Result<()> {
     let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;
-    let mut program = Arguments::command().disable_help_subcommand(true);
+    let mut program = program.disable_help_subcommand(true);
     program.build();
     let pages: Vec<Man> = std::iter::once(&program).chain(program.get_subcommands()).cloned().map(Man::new).collect();
     for page in &pages {

@@ -189,12 +189,15 @@ pub fn track_trial(
 /// # Errors
 /// When a trial's file cannot be read, or the summary not be written.
 pub fn collect(trials: &[Trial], output: &OutputFolder) -> Result<Vec<TrialRow>> {
-    let mut rows = Vec::new();
-    for trial in trials {
-        rows.extend(done(trial, output)?.into_iter().flat_map(|done| done.rows));
-    }
-    output.write(SUMMARY, |out| write_summary(out, &rows))?;
-    Ok(rows)
+    // One process at a time writes it, and with all that is done by then.
+    output.alone("summary", || {
+        let mut rows = Vec::new();
+        for trial in trials {
+            rows.extend(done(trial, output)?.into_iter().flat_map(|done| done.rows));
+        }
+        output.write(SUMMARY, |out| write_summary(out, &rows))?;
+        Ok(rows)
+    })
 }
 
 enum Outcome {

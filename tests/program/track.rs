@@ -263,7 +263,7 @@ fn one_run_at_a_time_is_in_a_folder() {
     }
     signal("-CONT");
     succeeded(&child.wait_with_output().unwrap());
-    assert_eq!(result_files(&output).len(), 19);
+    assert_eq!(result_files(&output).len(), 24);
 }
 
 #[test]
