@@ -12,6 +12,22 @@ use super::walk;
 pub(crate) const NO_DRIVER: [(&str, &str); 2] =
     [("VK_ICD_FILENAMES", "/nonexistent"), ("VK_DRIVER_FILES", "/nonexistent")];
 
+/// What a track writes that must not depend on time, machine or interruption, but for the overlays.
+pub(crate) const TRACK_FILES: [&str; 12] = [
+    "poses.csv",
+    "joints.csv",
+    "joints.trc",
+    "joints_opensim.trc",
+    "markers.c3d",
+    "motion.bvh",
+    "motion.glb",
+    "motion.mot",
+    "motion_sd.mot",
+    "coordinates.toml",
+    "confidence.csv",
+    "journal.txt",
+];
+
 /// The program.
 pub(crate) fn program() -> Command {
     Command::new(env!("CARGO_BIN_EXE_pantin"))

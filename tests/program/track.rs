@@ -12,7 +12,7 @@ use pantin::body::{Body, PoseTable};
 use pantin::motion::{read_bvh, read_points};
 use tempfile::TempDir;
 
-use super::support::{has_vulkan, pantin, program, refused, sequence, stderr, succeeded};
+use super::support::{TRACK_FILES, has_vulkan, pantin, program, refused, sequence, stderr, succeeded};
 use super::walk;
 
 /// Enough to follow the walk, little enough for the reference.
@@ -35,22 +35,8 @@ fn tracked(output: &Path, more: &[&str]) {
 
 /// Every file of a track that must not depend on time, machine or interruption.
 fn result_files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let names = [
-        "poses.csv",
-        "joints.csv",
-        "joints.trc",
-        "joints_opensim.trc",
-        "markers.c3d",
-        "motion.bvh",
-        "motion.glb",
-        "motion.mot",
-        "motion_sd.mot",
-        "coordinates.toml",
-        "confidence.csv",
-        "journal.txt",
-    ];
     let mut files: BTreeMap<String, Vec<u8>> =
-        names.iter().map(|name| (name.to_string(), fs::read(folder.join(name)).unwrap())).collect();
+        TRACK_FILES.iter().map(|name| (name.to_string(), fs::read(folder.join(name)).unwrap())).collect();
     for entry in fs::read_dir(folder.join("overlay")).unwrap() {
         let path = entry.unwrap().path();
         files.insert(path.file_name().unwrap().to_string_lossy().into_owned(), fs::read(&path).unwrap());

@@ -7,28 +7,14 @@ use std::process::Stdio;
 use std::time::Duration;
 
 use super::{command, journalled, track};
-use crate::support::{has_ffmpeg, refused, sequence, stderr, succeeded};
+use crate::support::{TRACK_FILES, has_ffmpeg, refused, sequence, stderr, succeeded};
 use crate::walk;
 
-const RESULTS: [&str; 12] = [
-    "poses.csv",
-    "joints.csv",
-    "joints.trc",
-    "joints_opensim.trc",
-    "markers.c3d",
-    "motion.bvh",
-    "motion.glb",
-    "motion.mot",
-    "motion_sd.mot",
-    "coordinates.toml",
-    "confidence.csv",
-    "journal.txt",
-];
 /// Slow enough that a kill meets it at work.
 const SLOW: [&str; 8] = ["--particles", "150", "--iterations", "12", "--overlay-every", "3", "--backend", "cpu"];
 
 fn results(folder: &Path) -> BTreeMap<&'static str, Vec<u8>> {
-    RESULTS.into_iter().map(|name| (name, fs::read(folder.join(name)).unwrap())).collect()
+    TRACK_FILES.into_iter().map(|name| (name, fs::read(folder.join(name)).unwrap())).collect()
 }
 
 /// Kills a run at `kills` moments, drawn by a small generator from all of its time, going on with it each time; returns
