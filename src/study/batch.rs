@@ -307,8 +307,8 @@ fn write_summary(out: &mut dyn Write, rows: &[TrialRow]) -> Result<()> {
         "frames_per_second",
         "fitness",
         "confidence",
-        "error",
-        "error_std",
+        "error_mm",
+        "error_std_mm",
         "warnings",
     ])?;
     let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.3}"));

@@ -41,7 +41,11 @@ fn result_files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
         let path = entry.unwrap().path();
         files.insert(path.file_name().unwrap().to_string_lossy().into_owned(), fs::read(&path).unwrap());
     }
-    assert_eq!(files.len(), names.len() + 4 * walk::FRAMES.div_ceil(2), "overlays of every second frame and camera");
+    assert_eq!(
+        files.len(),
+        TRACK_FILES.len() + 4 * walk::FRAMES.div_ceil(2),
+        "overlays of every second frame and camera"
+    );
     files
 }
 

@@ -2,7 +2,7 @@
 //! operations and bit counts. It gives the reference's integers.
 //!
 //! Sixteen candidates are posed at a time, their sixteen parts projected at a time, each image drawn and counted in a
-//! few hundred bytes of bit columns. The work is shared by pinned threads; nothing is allocated in an iteration.
+//! few hundred bytes of bit columns. The work is shared by threads that stay; nothing is allocated in an iteration.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
