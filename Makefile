@@ -21,7 +21,7 @@ SHADERC_PACKAGES := libshaderc-dev glslang-dev spirv-tools
 SHADERC_PARTS := shaderc_combined glslang SPIRV MachineIndependent GenericCodeGen OSDependent OGLCompiler HLSL SPIRV-Tools-opt \
 	SPIRV-Tools glslang-default-resource-limits
 
-.PHONY: demo test bench portability gpu-report wheel python dist shaders fuzz build ffmpeg vulkan shaderc toolchain help
+.PHONY: demo test bench portability gpu-report wheel python dist shaders fuzz build ffmpeg vulkan shaderc c++ toolchain help
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -129,7 +129,7 @@ vulkan:
 	fi
 
 # The packages are unpacked here and merged, not installed: nothing outside target/ changes.
-shaderc: toolchain
+shaderc: toolchain c++
 	@if [ -n "$$SHADERC_LIB_DIR" ] || [ -f $(SHADERC) ]; then :; \
 	elif command -v apt-get >/dev/null && command -v dpkg-deb >/dev/null; then \
 		echo "fetching the shader compiler ($(SHADERC_PACKAGES), Debian packages) into target/shaderc"; \
@@ -147,8 +147,16 @@ shaderc: toolchain
 
 toolchain:
 	@command -v $(CARGO) >/dev/null || { echo "cargo is not installed: get Rust from https://rustup.rs"; exit 1; }
-	@command -v cc >/dev/null && command -v c++ >/dev/null || { \
+	@command -v cc >/dev/null || { \
 		if command -v apt-get >/dev/null; then \
-			echo "installing g++ (Debian package) to link programs and the shader compiler"; \
+			echo "installing gcc (Debian package) to link programs"; \
+			$(SUDO) apt-get update -qq && $(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq gcc libc6-dev >/dev/null; \
+		else echo "no C compiler (cc) is installed: install gcc"; exit 1; fi; }
+
+# The shader compiler is C++.
+c++: toolchain
+	@command -v c++ >/dev/null || { \
+		if command -v apt-get >/dev/null; then \
+			echo "installing g++ (Debian package) to link the shader compiler"; \
 			$(SUDO) apt-get update -qq && $(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq g++ libc6-dev >/dev/null; \
 		else echo "no C++ compiler (c++) is installed: install g++"; exit 1; fi; }
