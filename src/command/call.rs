@@ -44,7 +44,7 @@ pub fn track(options: &Options, progress: &mut dyn Progress) -> Result<Vec<(Path
 /// # Errors
 /// As [`crate::track::fit`], and for an option that is unknown or cannot be read.
 pub fn fit(options: &Options) -> Result<Fit> {
-    fitted(&parsed::<FitArgs>("fit", options)?)
+    fitted(&parsed::<FitArgs>("fit", options)?, |_| {})
 }
 
 /// `pantin check`. A check that failed is no error here.

@@ -61,15 +61,14 @@ pub(super) struct FitArgs {
 /// # Errors
 /// As [`fit`]; and when a file exists and may not be replaced, or cannot be written.
 pub(super) fn run(args: &FitArgs) -> Result<()> {
-    put!("{}", summary(&fitted(args)?));
-    Ok(())
+    fitted(args, |summary| put!("{summary}")).map(drop)
 }
 
-/// The person measured, and written where the arguments say.
+/// The person measured, which `told` hears of, and written where the arguments say.
 ///
 /// # Errors
 /// As [`run`].
-pub(super) fn fitted(args: &FitArgs) -> Result<Fit> {
+pub(super) fn fitted(args: &FitArgs, told: impl FnOnce(&str)) -> Result<Fit> {
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     // Said before the work, not after it.
     for file in [&args.output, &args.start_out].into_iter().flatten() {
@@ -96,9 +95,11 @@ pub(super) fn fitted(args: &FitArgs) -> Result<Fit> {
         seed: args.seed,
     };
     let fit = fit(&sequence, &settings)?;
+    let summary = summary(&fit);
+    // Before anything is written: where that fails the numbers are not lost.
+    told(&summary);
     if let Some(file) = &args.output {
-        let comment: String =
-            summary(&fit).lines().map(|line| format!("# {line}").trim_end().to_string() + "\n").collect();
+        let comment: String = summary.lines().map(|line| format!("# {line}").trim_end().to_string() + "\n").collect();
         let text = format!("# Measured by `pantin fit` on {}.\n#\n{comment}\n{}", sequence.name, fit.body.to_toml());
         write_atomically(file, overwrite, |writer| Ok(writer.write_all(text.as_bytes())?))?;
     }

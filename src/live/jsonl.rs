@@ -1,7 +1,7 @@
 //! Poses as lines of JSON over TCP, to whoever is connected.
 
 use std::net::TcpStream;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 
@@ -85,14 +85,7 @@ impl Outlet for LineServer {
 
     fn finish(mut self: Box<Self>) -> SentSummary {
         self.end();
-        let count = |count: &AtomicU64| count.load(Ordering::Relaxed);
-        let Counts { receivers, sent, dropped } = &*self.counts;
-        SentSummary {
-            to: std::mem::take(&mut self.to),
-            receivers: Some(count(receivers)),
-            sent: count(sent),
-            dropped: count(dropped),
-        }
+        self.counts.summary(&self.to)
     }
 }
 

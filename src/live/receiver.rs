@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
+use super::outlet::SentSummary;
 use super::slot::Slot;
 
 /// How long a write may take before it is looked whether the run is over.
@@ -13,12 +14,21 @@ const PATIENCE: Duration = Duration::from_millis(100);
 /// How long a receiver may take for what waits for it when the run is over.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// What became of the lines for all receivers of a kind.
+/// What became of the poses for all receivers of a kind.
 #[derive(Default)]
 pub(super) struct Counts {
     pub(super) receivers: AtomicU64,
     pub(super) sent: AtomicU64,
     pub(super) dropped: AtomicU64,
+}
+
+impl Counts {
+    /// What they come to, for those who connected to `to`.
+    pub(super) fn summary(&self, to: &str) -> SentSummary {
+        let [receivers, sent, dropped] =
+            [&self.receivers, &self.sent, &self.dropped].map(|count| count.load(Ordering::Relaxed));
+        SentSummary { to: to.to_string(), receivers: Some(receivers), sent, dropped }
+    }
 }
 
 /// Lines on their way to a receiver.

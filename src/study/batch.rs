@@ -7,16 +7,15 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 
+use super::runner::{BEGUN, Watch};
 use crate::files::OutputFolder;
 use crate::sequence::Sequence;
-use crate::track::{self, TrackSettings, TrackSummary, track_all};
+use crate::track::{TrackSettings, TrackSummary, track_all};
 
 /// What makes a folder a sequence.
 const MANIFEST: &str = "sequence.toml";
 /// A finished trial's file in its folder of results.
 const DONE: &str = "trial.json";
-/// The journal of a trial in work.
-const BEGUN: &str = "run.toml";
 /// The summary of all.
 const SUMMARY: &str = "summary.csv";
 
@@ -257,7 +256,7 @@ fn make(
     let is_begun =
         begun(folder.path()) || sequence.people.iter().any(|person| begun(&folder.path().join(&person.name)));
     let settings = TrackSettings { resume: is_begun, ..settings.clone() };
-    let summaries = track_all(&sequence, &settings, &folder, &mut Watch(progress))?;
+    let summaries = track_all(&sequence, &settings, &folder, &mut Watch(&|| progress.should_stop()))?;
     if summaries.iter().any(|(_, summary)| summary.stopped_before.is_some()) {
         return Ok(Outcome::Stopped);
     }
@@ -285,15 +284,6 @@ fn row(trial: &Trial, person: Option<String>, summary: &TrackSummary) -> TrialRo
         error: summary.error.as_ref().map(|error| error.error.mean),
         error_std: summary.error.as_ref().map(|error| error.error.std),
         warnings: summary.warnings.clone(),
-    }
-}
-
-/// Tells the tracker when to stop.
-struct Watch<'a>(&'a dyn BatchProgress);
-
-impl track::Progress for Watch<'_> {
-    fn should_stop(&self) -> bool {
-        self.0.should_stop()
     }
 }
 

@@ -21,7 +21,7 @@ use crate::track::{self, ObjectiveChoice, Passes, TrackSettings, TrackSummary, t
 /// A finished run's file in its folder.
 const ROW: &str = "row.json";
 /// The journal of a run in work; a folder with one and without a row is gone on with.
-const BEGUN: &str = "run.toml";
+pub(super) const BEGUN: &str = "run.toml";
 
 /// What a study tells whoever waits for it.
 pub trait Progress: Sync {
@@ -163,11 +163,11 @@ fn finished(run: &Run, output: &OutputFolder) -> Result<Option<Row>> {
 }
 
 /// Tells the tracker when to stop.
-struct Watch<'a>(&'a dyn Progress);
+pub(super) struct Watch<'a>(pub(super) &'a dyn Fn() -> bool);
 
 impl track::Progress for Watch<'_> {
     fn should_stop(&self) -> bool {
-        self.0.should_stop()
+        self.0()
     }
 }
 
@@ -183,7 +183,8 @@ fn make(run: &Run, prepared: &Prepared, output: &OutputFolder, progress: &dyn Pr
     let folder = OutputFolder::open(&output.path().join(run.place()))?;
     let sequence = prepared.with_model(run.model, output)?;
     let mut settings = settings(run, folder.path())?;
-    let mut watch = Watch(progress);
+    let should_stop = || progress.should_stop();
+    let mut watch = Watch(&should_stop);
     let summary = match track(&sequence, &settings, &folder, &mut watch) {
         // What was begun with other inputs cannot be gone on with, and what has no frame left to track tells no times: the
         // run begins again.

@@ -35,6 +35,11 @@ impl Held {
         points
     }
 
+    /// How many rows are gaps.
+    pub(super) fn gap_count(&self) -> usize {
+        self.gaps.len()
+    }
+
     /// Rows that are no gaps.
     pub(super) fn sure(&self) -> Vec<usize> {
         (0..self.table.frames.len()).filter(|row| self.gaps.binary_search(row).is_err()).collect()

@@ -154,9 +154,7 @@ impl Outlet for PageServer {
 
     fn finish(mut self: Box<Self>) -> SentSummary {
         self.end();
-        let [receivers, sent, dropped] = [&self.counts.receivers, &self.counts.sent, &self.counts.dropped]
-            .map(|count| count.load(Ordering::Relaxed));
-        SentSummary { to: std::mem::take(&mut self.url), receivers: Some(receivers), sent, dropped }
+        self.counts.summary(&self.url)
     }
 }
 

@@ -4,7 +4,7 @@ mod bones;
 
 use std::net::{SocketAddr, ToSocketAddrs, UdpSocket};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::Ordering;
 use std::thread::{self, JoinHandle};
 
 use anyhow::{Context, Result, anyhow, ensure};
@@ -14,6 +14,7 @@ use super::destination::Destination;
 use super::listener::unknown_host;
 use super::outlet::{Outgoing, Outlet, SentSummary};
 use super::pose::LivePose;
+use super::receiver::Counts;
 use super::slot::Slot;
 use crate::body::Body;
 use bones::{UnityBone, UnityBones};
@@ -29,12 +30,6 @@ const AT_ONCE: OscTime = OscTime { seconds: 0, fractional: 1 };
 
 /// The datagrams of a pose.
 type Datagrams = Vec<Vec<u8>>;
-
-#[derive(Default)]
-struct Counts {
-    sent: AtomicU64,
-    dropped: AtomicU64,
-}
 
 /// Sends the poses of a run.
 pub(super) struct VmcSender {
@@ -97,9 +92,8 @@ impl Outlet for VmcSender {
 
     fn finish(mut self: Box<Self>) -> SentSummary {
         self.end();
-        let [sent, dropped] =
-            [&self.counts.sent, &self.counts.dropped].map(|count: &AtomicU64| count.load(Ordering::Relaxed));
-        SentSummary { to: std::mem::take(&mut self.to), receivers: None, sent, dropped }
+        // Nobody connects to be sent a datagram.
+        SentSummary { receivers: None, ..self.counts.summary(&self.to) }
     }
 }
 

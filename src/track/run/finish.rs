@@ -25,7 +25,7 @@ impl Run<'_> {
         let held = Held::new(&frames, &confidences, self.recovery.is_some());
         let mut summary = TrackSummary {
             first_frame: self.plan.range.start,
-            lost: held.runs().iter().map(|[first, last]| last + 1 - first).sum(),
+            lost: held.gap_count(),
             new_frames: 0,
             frames_per_second: 0.0,
             mean_fitness: mean(frames.iter().map(|result| f64::from(result.fitness))),
