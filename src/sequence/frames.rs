@@ -10,8 +10,8 @@ use anyhow::{Context, Result, anyhow, bail};
 use image::{GrayImage, RgbImage};
 
 use super::ignored::IgnoredFrames;
-use super::manifest::{Sequence, View};
-use super::pictures::{PicturePattern, read_picture};
+use super::manifest::{Sequence, View, is_plate_size};
+use super::pictures::{PicturePattern, picture_size, read_picture};
 use super::program::Stopper;
 use super::resample::{area_average, nearest_mask};
 use super::source::Source;
@@ -104,11 +104,13 @@ impl Sequence {
     /// The plate of each view's empty scene at the working size, where the view has one.
     ///
     /// # Errors
-    /// When a plate cannot be read, or is neither of the calibration's size nor of the working size.
+    /// When a plate cannot be read, or is neither of the calibration's size, nor an exact fraction of it, nor of the working size.
     pub fn backgrounds(&self) -> Result<Vec<Option<RgbImage>>> {
         let plates = self.views.iter().zip(&self.sizes).map(|(view, &size)| {
             let Some(path) = &view.background else { return Ok(None) };
-            Ok(Some(area_average(read_picture(path, &[view.size, size])?.into_rgb8(), size)))
+            let found = picture_size(path)?;
+            let expected = if is_plate_size(found, view.size, size) { vec![found] } else { vec![view.size, size] };
+            Ok(Some(area_average(read_picture(path, &expected)?.into_rgb8(), size)))
         });
         plates.collect()
     }

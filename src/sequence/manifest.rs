@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use serde::Deserialize;
 
-use super::calibration::read_cameras;
+use super::calibration::read_cameras_sized;
 use super::coverage::check_coverage;
 use super::ignored::Ignored;
 use super::live_options;
@@ -234,7 +234,11 @@ impl Sequence {
             }
             Ok(file)
         };
-        let cameras_path = existing("cameras", &file.cameras)?;
+        // A folder may hold a calibration file a camera.
+        let cameras_path = match dir.join(&file.cameras) {
+            folder if folder.is_dir() => folder,
+            _ => existing("cameras", &file.cameras)?,
+        };
         let fitted = |key: &str, relative: &Path| -> Result<PathBuf> {
             if is_fitted { existing(key, relative) } else { Ok(dir.join(relative)) }
         };
@@ -247,7 +251,16 @@ impl Sequence {
         let body = first.map_or(body, |person| person.body.clone());
         let start = first.map(|person| person.start.clone()).or(start);
         let truth = first.and_then(|person| person.truth.clone()).or(truth);
-        let calibrated = read_cameras(&cameras_path)?;
+        // Some calibrations leave the size of the pictures to the pictures.
+        let size_of = |camera: &str| -> Result<Option<[u32; 2]>> {
+            let Some(view) = file.view.iter().find(|view| view.camera == camera) else { return Ok(None) };
+            if LiveSource::of(&view.source, view.input.as_deref(), &dir).is_some() {
+                return Ok(None);
+            }
+            let source = open_source(&format!("the source of camera {camera:?}"), &view.source, &existing, &dir)?;
+            Ok(Some(source.size))
+        };
+        let calibrated = read_cameras_sized(&cameras_path, &size_of)?;
 
         let mut opened = Vec::new();
         let mut cameras = Vec::new();
@@ -303,6 +316,12 @@ fn unknown_camera(path: &Path, cameras_path: &Path, cameras: &[Camera], name: &s
     anyhow!("{}: {} has no camera {name:?}, {nearest}", path.display(), cameras_path.display())
 }
 
+/// Whether a plate of size `found` shows what pictures of size `full` show: it is an exact fraction of them, or of the working size.
+pub(super) fn is_plate_size(found: [u32; 2], full: [u32; 2], working: [u32; 2]) -> bool {
+    let ([width, height], [full_width, full_height]) = (found.map(u64::from), full.map(u64::from));
+    (width * full_height == height * full_width && width <= full_width) || found == working
+}
+
 /// Looks at everything a view names; with the view, its number of frames.
 fn open_view(
     table: &ViewTable,
@@ -341,9 +360,10 @@ fn open_view(
     let background = table.background.as_deref().map(|plate| existing(&key("background"), plate)).transpose()?;
     if let Some(plate) = &background {
         let (found, working) = (picture_size(plate)?, working_size(camera.size, scale));
-        if found != camera.size && found != working {
+        if !is_plate_size(found, camera.size, working) {
             bail!(
-                "{} is {} pixels, expected {} (as camera {name:?} is calibrated) or {} (the working size)",
+                "{} is {} pixels, expected {} (as camera {name:?} is calibrated), an exact fraction of that, or {} (the working \
+                 size)",
                 plate.display(),
                 shown(found),
                 shown(camera.size),

@@ -136,6 +136,18 @@ fn plates_and_masks_come_at_the_working_size() {
     assert_eq!(plates[0].as_ref().unwrap(), &image::RgbImage::from_pixel(20, 15, image::Rgb([90, 1, 2])));
     assert_eq!(plates[1].as_ref().unwrap(), &image::RgbImage::from_pixel(20, 15, image::Rgb([91, 1, 2])));
     assert!(plates[2].is_none());
+    // A fraction that is neither of the two sizes; then what is no fraction.
+    image::RgbImage::from_pixel(8, 6, image::Rgb([92, 1, 2])).save(scene.path("half.png")).unwrap();
+    let plates = sequence.backgrounds().unwrap();
+    assert_eq!(plates[1].as_ref().unwrap(), &image::RgbImage::from_pixel(20, 15, image::Rgb([92, 1, 2])));
+    for [width, height] in [[8, 7], [80, 60]] {
+        image::RgbImage::new(width, height).save(scene.path("half.png")).unwrap();
+        let sizes = format!("half.png is {width}x{height} pixels, expected 40x30");
+        let error = format!("{:#}", Sequence::open(scene.folder.path()).unwrap_err());
+        assert!(error.contains(&sizes) && error.contains("an exact fraction"), "{error}");
+        let error = format!("{:#}", sequence.backgrounds().unwrap_err());
+        assert!(error.contains(&sizes), "{error}");
+    }
     let mut reader = sequence.read_frames(0..2).unwrap();
     for value in [0, 255] {
         let set = reader.next_frame().unwrap().unwrap();
@@ -190,6 +202,26 @@ fn bad_manifests_are_sentences() {
     assert!(scene.error("", &[&view]).contains("cameras is \"cameras.toml\", and there is no file"));
     let error = format!("{:#}", Sequence::open(&scene.path("nowhere")).unwrap_err());
     assert!(error.contains("nowhere"), "{error}");
+}
+
+/// A folder with a calibration a camera, which leaves the pictures' size to the pictures.
+#[test]
+fn calibrations_without_sizes_take_those_of_the_pictures() {
+    let scene = Scene::new();
+    fs::create_dir(scene.path("calibration")).unwrap();
+    for camera in ["cam01", "cam02"] {
+        let text = "K: [[40, 0, 19.5], [0, 40, 14.5], [0, 0, 1]]\nD: [0, 0, 0, 0]\nrvec: [0, 0, 0]\ntvec: [0, 0, 3]\n";
+        scene.write(&format!("calibration/{camera}.yml"), text);
+    }
+    scene.manifest("", &[&Scene::view("cam01"), &Scene::view("cam02")]);
+    let manifest = fs::read_to_string(scene.path("sequence.toml")).unwrap();
+    scene.write("sequence.toml", &manifest.replace("\"cameras.toml\"", "\"calibration\""));
+    let sequence = Sequence::open(scene.folder.path()).unwrap();
+    assert_eq!(sequence.cameras.iter().map(|camera| camera.size).collect::<Vec<_>>(), [CAMERA_SIZE; 2]);
+    // A camera without a view has no pictures to ask.
+    scene.write("calibration/cam04.yml", &fs::read_to_string(scene.path("calibration/cam01.yml")).unwrap());
+    let error = format!("{:#}", Sequence::open(scene.folder.path()).unwrap_err());
+    assert!(error.contains("cam04.yml: camera `cam04`: image_width and image_height are missing"), "{error}");
 }
 
 #[test]

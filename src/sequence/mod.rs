@@ -18,7 +18,7 @@ mod video_encoder;
 
 pub use calibration::{
     CalibrationFormat, cameras_toml, parse_cameras_toml, parse_opencv_xml, parse_opencv_yaml, parse_qualisys,
-    read_cameras, write_cameras_toml,
+    parse_vicon, read_cameras, write_cameras_toml,
 };
 pub use frames::{FrameReader, FrameSet, STALL_TIMEOUT};
 pub use ignored::Ignored;

@@ -85,6 +85,13 @@ impl Storage {
         Self { entries: entries.collect::<Result<_>>()? }.without_doubles(name)
     }
 
+    /// Adds the keys of another file that are not here already.
+    pub(super) fn add(&mut self, other: Self) {
+        let new = other.entries.into_iter().filter(|entry| self.entries.iter().all(|here| here.key != entry.key));
+        let new: Vec<Entry> = new.collect();
+        self.entries.extend(new);
+    }
+
     fn without_doubles(self, name: &str) -> Result<Self> {
         let mut seen = std::collections::HashMap::new();
         for Entry { key, line, .. } in &self.entries {
@@ -93,6 +100,15 @@ impl Storage {
             }
         }
         Ok(self)
+    }
+}
+
+/// A matrix of however many dimensions; those of more than two mean nothing here.
+fn nd_matrix(sizes: Option<Vec<f64>>, data: Option<Vec<f64>>) -> Result<Value> {
+    match sizes.as_deref() {
+        Some(&[length]) => matrix(Some(1.0), Some(length), data),
+        Some(&[rows, columns]) => matrix(Some(rows), Some(columns), data),
+        _ => Ok(Value::Other),
     }
 }
 
@@ -130,6 +146,9 @@ fn xml_value(node: Node) -> Result<Value> {
         let text = node.children().find(|child| child.has_tag_name(tag))?.text()?;
         text.split_whitespace().map(number).collect::<Option<Vec<f64>>>()
     };
+    if node.attribute("type_id") == Some("opencv-nd-matrix") {
+        return nd_matrix(part("sizes"), part("data"));
+    }
     let is_matrix = node.attribute("type_id") == Some("opencv-matrix");
     if is_matrix {
         let one = |tag: &str| part(tag).and_then(|numbers| numbers.first().copied());
@@ -203,14 +222,14 @@ fn yaml_value(node: YamlNode) -> Result<Value> {
         YamlNode::List(list) => Ok(yaml_list(&list)),
         YamlNode::Map(map) => {
             let part = |wanted: &str| map.iter().find(|(key, ..)| key == wanted).map(|(.., node)| node);
-            if part("rows").is_none() || part("cols").is_none() {
-                return Ok(Value::Other);
-            }
             let numbers = |node: &YamlNode| match node {
                 YamlNode::Scalar(text) => number(text).map(|value| vec![value]),
                 YamlNode::List(list) => yaml_row(list),
                 YamlNode::Map(_) => None,
             };
+            if part("rows").is_none() || part("cols").is_none() {
+                return nd_matrix(part("sizes").and_then(numbers), part("data").and_then(numbers));
+            }
             let one = |key: &str| part(key).and_then(numbers).and_then(|numbers| numbers.first().copied());
             matrix(one("rows"), one("cols"), part("data").and_then(numbers))
         }

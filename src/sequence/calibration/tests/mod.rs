@@ -1,6 +1,7 @@
 mod opencv;
 mod pose2sim;
 mod qualisys;
+mod vicon;
 
 use std::path::{Path, PathBuf};
 
@@ -46,7 +47,7 @@ fn files_that_are_none_say_so() {
         message.contains("cameras.csv: unknown calibration format `csv`") && message.contains("qca.txt"),
         "{message}"
     );
-    for name in ["c.toml", "c.qca.txt", "c.yml", "c.yaml", "c.xml"] {
+    for name in ["c.toml", "c.qca.txt", "c.yml", "c.yaml", "c.xml", "c.xcp"] {
         fs::write(path(name), [0x41, 0xff, 0xfe]).unwrap();
         let message = sentence(read_cameras(&path(name)));
         assert!(message.contains(name) && message.contains("byte 1 is not UTF-8"), "{message}");

@@ -118,13 +118,17 @@ fn several_cameras_a_file_read() {
 #[test]
 fn every_bad_value_is_named() {
     let yaml = |from: &str, to: &str, expected: &[&str]| refused(parse_opencv_yaml, YAML, from, to, expected);
-    yaml("camera_matrix", "kamera_matrix", &["holds no camera", "camera_matrix, cameraMatrix, K, M"]);
+    yaml(
+        "camera_matrix",
+        "kamera_matrix",
+        &["holds no camera", "camera_matrix, cameraMatrix, CameraMatrix, Camera_Matrix, K, M"],
+    );
     yaml("distortion_coefficients", "distort", &["camera `calib`", "distortion_coefficients is missing"]);
     yaml("image_width", "image_wide", &["image_width and image_height are missing"]);
     yaml("1280", "0", &["size is [0, 720]"]);
     yaml("1280", "wide", &["image_width on line 4 is no row of numbers"]);
-    yaml("R: !!", "S: !!", &["R is missing, expected one of the keys R, Rot, rvec"]);
-    yaml("T: !!", "S: !!", &["T is missing, expected one of the keys T, tvec"]);
+    yaml("R: !!", "S: !!", &["R is missing, expected one of the keys R, Rot, Rotation, rvec"]);
+    yaml("T: !!", "S: !!", &["T is missing, expected one of the keys T, Translation, tvec"]);
     yaml("units: mm", "", &["camera `calib` would stand 3000 m", "add `units: \"mm\"`"]);
     yaml("units: mm", "units: inch", &["units is \"inch\", expected \"m\" or \"mm\""]);
     yaml("units: mm", "units: 3", &["expected \"m\" or \"mm\""]);
@@ -158,4 +162,86 @@ fn every_bad_value_is_named() {
     xml("1.5707963267948966", "90", &["radians"]);
     let other = sentence(parse_opencv_xml("<calibration/>", "c.xml"));
     assert!(other.contains("root element `calibration`, expected `opencv_storage`"), "{other}");
+}
+
+#[test]
+fn keys_of_other_programs_and_matrices_of_one_dimension_read() {
+    let text = "image_Width: 1280\nimage_Height: 720\nCameraMatrix: [[1000, 0, 640], [0, 1010, 360.5], [0, 0, 1]]\n\
+                DistCoeffs: [-0.2, 0.05, 0.001, 0]\nRotation: [[1, 0, 0], [0, 0, -1], [0, 1, 0]]\n\
+                Translation: [0.01, 0.02, 3]\n";
+    is_the_camera(&parse_opencv_yaml(text, "left.yml").unwrap()[0]);
+    let vectors = text
+        .replace("Rotation: [[1, 0, 0], [0, 0, -1], [0, 1, 0]]", "rotation_vectors: [[1.5707963267948966, 0, 0]]")
+        .replace("Translation: ", "translation_vectors: !!opencv-nd-matrix\n   sizes: [3]\n   dt: d\n   data: ");
+    is_the_camera(&parse_opencv_yaml(&vectors, "left.yml").unwrap()[0]);
+    let xml =
+        XML.replace("opencv-matrix\">\n  <rows>3</rows>\n  <cols>1</cols>", "opencv-nd-matrix\">\n  <sizes>3</sizes>");
+    assert!(xml.contains("<sizes>"));
+    is_the_camera(&parse_opencv_xml(&xml, "left.xml").unwrap()[0]);
+
+    // The poses of a board in several pictures are no place of the camera.
+    let several = vectors.replace("[[1.5707963267948966, 0, 0]]", "[[1, 0, 0], [0, 1, 0]]");
+    let message = sentence(parse_opencv_yaml(&several, "left.yml"));
+    assert!(message.contains("rotation_vectors on line 5 holds 2 vectors, expected one"), "{message}");
+    let volume = vectors.replace("sizes: [3]", "sizes: [1, 1, 3]");
+    assert!(sentence(parse_opencv_yaml(&volume, "left.yml")).contains("translation_vectors on line 6"));
+}
+
+/// EasyMocap's pair, whichever of the two is named; sizes come from the pictures.
+#[test]
+fn easymocaps_pair_reads() {
+    let folder = tempfile::tempdir().unwrap();
+    let matrix = |rows: usize, columns: usize, data: &str| {
+        format!("!!opencv-matrix\n  rows: {rows}\n  cols: {columns}\n  dt: d\n  data: [{data}]\n")
+    };
+    let lenses = format!(
+        "%YAML:1.0\n---\nnames:\n  - \"01\"\n  - \"02\"\nK_01: {k}dist_01: {d}K_02: {k}dist_02: {d}",
+        k = matrix(3, 3, "1000., 0., 640., 0., 1010., 360.5, 0., 0., 1."),
+        d = matrix(1, 5, "-0.2, 0.05, 0.001, 0., 0.")
+    );
+    let turn = matrix(3, 1, "1.5707963267948966, 0., 0.");
+    let places = format!(
+        "%YAML:1.0\n---\nnames:\n  - \"01\"\n  - \"02\"\nR_01: {turn}Rot_01: {rot}T_01: {at}Rot_02: {rot}T_02: {at}",
+        rot = matrix(3, 3, "1., 0., 0., 0., 0., -1., 0., 1., 0."),
+        at = matrix(3, 1, "0.01, 0.02, 3.")
+    );
+    fs::write(folder.path().join("intri.yml"), &lenses).unwrap();
+    let alone = sentence(read_cameras(&folder.path().join("intri.yml")));
+    assert!(alone.contains("intri.yml: camera `01`: R_01 is missing"), "{alone}");
+    fs::write(folder.path().join("extri.yml"), places).unwrap();
+    let unsized_ones = sentence(read_cameras(folder.path()));
+    assert!(
+        unsized_ones.contains("intri.yml with") && unsized_ones.contains("image_width and image_height are missing"),
+        "{unsized_ones}"
+    );
+    let size = |_: &str| Ok(Some([1280, 720]));
+    for path in [folder.path().join("intri.yml"), folder.path().join("extri.yml"), folder.path().to_path_buf()] {
+        let cameras = read_cameras_sized(&path, &size).unwrap();
+        assert_eq!(cameras.iter().map(|c| c.name.as_str()).collect::<Vec<_>>(), ["01", "02"]);
+        cameras.iter().for_each(is_the_camera);
+    }
+    // Stated sizes win.
+    let stated = lenses.replace("K_02", "H_01: 480\nW_01: 640\nK_02");
+    fs::write(folder.path().join("intri.yml"), stated).unwrap();
+    assert_eq!(read_cameras_sized(folder.path(), &size).unwrap()[0].size, [640, 480]);
+}
+
+#[test]
+fn a_folder_reads_file_by_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let none = sentence(read_cameras(folder.path()));
+    assert!(none.contains("holds no calibration, expected files whose names end in one of .toml"), "{none}");
+    fs::write(path("right.yml"), YAML).unwrap();
+    fs::write(path("left.xml"), XML).unwrap();
+    fs::write(path(".left.yml"), "hidden").unwrap();
+    fs::write(path("notes.txt"), "not a calibration").unwrap();
+    let cameras = read_cameras(folder.path()).unwrap();
+    assert_eq!(cameras.iter().map(|c| c.name.as_str()).collect::<Vec<_>>(), ["left", "right"]);
+    cameras.iter().for_each(is_the_camera);
+    fs::write(path("left.yml"), YAML).unwrap();
+    let twice = sentence(read_cameras(folder.path()));
+    assert!(twice.contains("two cameras are named `left`"), "{twice}");
+    fs::write(path("left.yml"), "bad: [").unwrap();
+    assert!(sentence(read_cameras(folder.path())).contains("left.yml"), "the file is named");
 }
