@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import os
-from typing import List, Sequence, Tuple, Union
+from typing import List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _pantin
+from . import _pantin, opencap
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -105,8 +106,65 @@ class Cameras:
 
     @classmethod
     def load(cls, path: Path) -> "Cameras":
-        """Reads a calibration in any of the formats that the program reads: cameras.toml, .qca.txt, OpenCV's YAML and XML."""
+        """Reads a calibration in any of the formats that the program reads: cameras.toml, .qca.txt, .xcp, OpenCV's YAML and XML,
+        EasyMocap's pair, a folder with a file a camera."""
         return cls(_pantin.Cameras.load(os.fspath(path)))
+
+    @classmethod
+    def of_arrays(
+        cls,
+        names: Sequence[str],
+        sizes: ArrayLike,
+        matrices: ArrayLike,
+        distortions: ArrayLike,
+        rotations: ArrayLike,
+        translations: ArrayLike,
+    ) -> "Cameras":
+        """Cameras as OpenCV has them: picture sizes [n, 2] (width, height), camera matrices [n, 3, 3], distortions [n, 4 or 5]
+        (k1, k2, p1, p2, k3), rotations camera from world [n, 3, 3] or Rodrigues vectors [n, 3], translations [n, 3], mm.
+
+        >>> cameras = pantin.Cameras.of_arrays(
+        ...     ["front"], [[640, 480]], [[[800, 0, 320], [0, 800, 240], [0, 0, 1]]], [[0, 0, 0, 0]], [[0, 0, 0]], [[0, 0, 3000]])
+        >>> cameras.project([[0, 0, 0]]).tolist()
+        [[[320.0, 240.0]]]
+        """
+        parts = {"K": matrices, "D": distortions, "image_size": sizes, "R": rotations, "T": translations}
+        rows = {key: np.asarray(value, np.float64) for key, value in parts.items()}
+        for key, value in rows.items():
+            if value.ndim < 2 or len(value) != len(names):
+                found = " x ".join(map(str, value.shape))
+                raise _pantin.PantinError(f"{key} of {len(names)} cameras has the shape {found}, expected an array a camera")
+        texts = [
+            json.dumps({"camera_name": name, "units": "mm", **{key: value[at].tolist() for key, value in rows.items()}})
+            for at, name in enumerate(names)
+        ]
+        return cls(_pantin.Cameras.of_texts(texts))
+
+    @classmethod
+    def of_opencap(
+        cls,
+        session: Union[Path, Mapping[str, Path]],
+        up: Optional[str] = None,
+        origin_height: float = 0.0,
+    ) -> "Cameras":
+        """OpenCap's cameras: a session's folder (`Videos/Cam0/cameraIntrinsicsExtrinsics.pickle` …) or pickles by camera.
+
+        OpenCap's world is its checkerboard. Here z is the axis of the board that points up: `up`, "-y" say, or without it the one
+        nearest to the mean upward direction of the pictures. The board's origin is `origin_height` mm above the floor. Pickles
+        that hold anything but arrays and plain values are refused: they could run programs."""
+        cameras = {name: opencap.read(path) for name, path in opencap.files(session).items()}
+        columns = {key: np.array([camera[key] for camera in cameras.values()]) for key in ("rotation", "translation")}
+        rotations, translations = opencap.upright(
+            columns["rotation"].reshape(-1, 3, 3), columns["translation"], up, origin_height
+        )
+        matrices = [camera["intrinsicMat"].reshape(3, 3) for camera in cameras.values()]
+        sizes = [camera["imageSize"] for camera in cameras.values()]
+        distortions = [camera["distortion"] for camera in cameras.values()]
+        return cls.of_arrays(list(cameras), sizes, matrices, distortions, rotations, translations)
+
+    def save(self, path: Path, force: bool = False) -> None:
+        """Writes them as cameras.toml, mm; replaces a file with `force` alone."""
+        self._native.save(os.fspath(path), force)
 
     @classmethod
     def of_sequence(cls, sequence: Path) -> "Cameras":

@@ -13,7 +13,7 @@ use crate::raised;
 #[pyclass(frozen, module = "pantin._pantin")]
 pub(crate) struct Body(pub(crate) body::Body);
 
-fn overwrite(force: bool) -> Overwrite {
+pub(crate) fn overwrite(force: bool) -> Overwrite {
     if force { Overwrite::Replace } else { Overwrite::Refuse }
 }
 

@@ -6,10 +6,13 @@ use anyhow::ensure;
 use glam::DVec3;
 use numpy::PyReadonlyArray2;
 use pantin::geometry::Camera;
-use pantin::sequence::{Sequence, read_cameras};
+use pantin::sequence::{
+    Sequence, cameras_toml, parse_cameras_toml, parse_opencv_yaml, read_cameras, write_cameras_toml,
+};
 use pyo3::prelude::*;
 
 use crate::arrays::shaped;
+use crate::body::overwrite;
 use crate::raised;
 
 #[pyclass(frozen, module = "pantin._pantin")]
@@ -25,6 +28,20 @@ impl Cameras {
     #[staticmethod]
     fn of_sequence(path: PathBuf) -> PyResult<Self> {
         Ok(Self(Sequence::open_unfitted(&path).map_err(raised)?.cameras))
+    }
+
+    /// Cameras as texts in OpenCV's keys, one each.
+    #[staticmethod]
+    fn of_texts(texts: Vec<String>) -> PyResult<Self> {
+        let cameras = texts.iter().map(|text| parse_opencv_yaml(text, "the arrays"));
+        let cameras = cameras.collect::<anyhow::Result<Vec<_>>>().map_err(raised)?.concat();
+        let text = cameras_toml(&cameras);
+        // What no file could hold is no set of cameras: two of one name, none at all.
+        Ok(Self(parse_cameras_toml(&text, "the arrays").map_err(raised)?))
+    }
+
+    fn save(&self, path: PathBuf, force: bool) -> PyResult<()> {
+        write_cameras_toml(&path, &self.0, overwrite(force)).map_err(raised)
     }
 
     #[getter]

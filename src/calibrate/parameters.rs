@@ -99,6 +99,18 @@ impl Parameters {
         Camera { name: name.to_string(), size: self.size, camera_from_world, lens }
     }
 
+    /// Size of the pictures, pixels.
+    pub(super) fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Puts the camera somewhere else.
+    pub(super) fn place(&mut self, camera_from_world: DAffine3) {
+        self.rotation = camera_from_world.matrix3;
+        self.values[..3].fill(0.0);
+        self.values[3..6].copy_from_slice(&camera_from_world.translation.to_array());
+    }
+
     /// Takes the turn into the rotation, so that the next starts at none.
     pub(super) fn settle(&mut self) {
         let turn = rodrigues_matrix(DVec3::from_slice(&self.values[..3]));

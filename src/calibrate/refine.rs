@@ -7,7 +7,7 @@ use super::pairs::Pair;
 use super::parameters::Parameters;
 
 /// A point without an image is this far off, pixels: no step into such a camera is taken.
-const NOWHERE: f64 = 1e5;
+pub(super) const NOWHERE: f64 = 1e5;
 
 /// Pairs to fit, and what is moved for it.
 pub(super) struct Reprojection<'a> {
@@ -56,7 +56,7 @@ impl Reprojection<'_> {
 }
 
 /// A length on which a parameter's effect is near linear.
-fn step_scale(parameters: &Parameters, at: usize) -> f64 {
+pub(super) fn step_scale(parameters: &Parameters, at: usize) -> f64 {
     let f = parameters.values[6].abs();
     match Parameters::names(parameters.model)[at] {
         "rx" | "ry" | "rz" | "s_x" | "fx/fy" => 1.0,

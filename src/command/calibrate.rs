@@ -7,10 +7,11 @@ use std::str::FromStr;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 
+use super::calibrate_board::{BoardFlags, tell_of};
 use super::output::put;
 use crate::calibrate::{
-    Calibration, CalibrationSettings, CameraPairs, Held, Layout, LensModel, ResidualSummary, calibrate, join_tracks,
-    parse_pairs, parse_tracks,
+    BoardSettings, Calibration, CalibrationSettings, CameraPairs, Held, Layout, LensModel, ResidualSummary, calibrate,
+    join_tracks, parse_pairs, parse_tracks,
 };
 use crate::files::{OutputFolder, Overwrite};
 use crate::geometry::{Camera, LARGEST_SIDE, LengthUnit};
@@ -24,12 +25,13 @@ const MOST_NAMED: usize = 20;
 /// Calibrates cameras from points whose place is known in the world and in the pictures: a table with the columns camera,
 /// x, y, z, u, v (and perhaps point, a name), or the markers of a wand in a C3D file with their tracks in the pictures.
 /// Pixels count from the centre of the top-left one, u to the right, v down; the world is right-handed with z up.
-/// At least 5 points in a plane or 7 in space a camera; a hundred all over the volume are good.
+/// At least 5 points in a plane or 7 in space a camera; a hundred all over the volume are good. Or, with --board, from videos
+/// of a printed board.
 #[derive(clap::Args, Debug)]
 pub(super) struct CalibrateArgs {
-    /// The table of points.
-    #[arg(value_name = "POINTS.csv", required_unless_present = "c3d", conflicts_with = "c3d")]
-    points: Option<PathBuf>,
+    /// The table of points; with --board the videos, one a camera, which is called as its video is.
+    #[arg(value_name = "POINTS.csv | VIDEOS", required_unless_present = "c3d", conflicts_with = "c3d")]
+    points: Vec<PathBuf>,
     /// A C3D (or TRC) file with the markers' trajectories.
     #[arg(long, value_name = "FILE", requires = "tracks")]
     c3d: Option<PathBuf>,
@@ -40,11 +42,11 @@ pub(super) struct CalibrateArgs {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Size of the pictures: 1920x1080 for all cameras, or cam01=1920x1080, once a camera.
-    #[arg(long, value_name = "[NAME=]WxH", required = true)]
+    #[arg(long, value_name = "[NAME=]WxH", required_unless_present = "board", conflicts_with = "board")]
     size: Vec<PictureSize>,
-    /// The lens.
-    #[arg(long, default_value_t = CalibrationSettings::default().model)]
-    model: LensModel,
+    /// The lens [default: tsai; with --board brown-conrady].
+    #[arg(long)]
+    model: Option<LensModel>,
     /// Unit of x, y, z in the table.
     #[arg(long, default_value_t)]
     units: LengthUnit,
@@ -62,6 +64,8 @@ pub(super) struct CalibrateArgs {
     /// are left out and named.
     #[arg(long)]
     keep_outliers: bool,
+    #[command(flatten)]
+    board: BoardFlags,
     /// A folder for a picture a camera of its residuals as arrows, and residuals.csv.
     #[arg(long, value_name = "DIR")]
     residuals: Option<PathBuf>,
@@ -103,19 +107,40 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<()> {
         bail!("{} exists: choose another name, or replace it with --force", args.output.display());
     }
     let settings = settings(args)?;
-    let (source, cameras) = pairs(args)?;
-    let mut calibrations = Vec::new();
-    for pairs in &cameras {
-        let found = calibrate(pairs, size_of(&args.size, &pairs.camera)?, &settings).with_context(|| source.clone())?;
-        put!("{}", summary(&found));
-        calibrations.push(found);
-    }
+    let calibrations = if args.board.is_given() { from_board(args, settings)? } else { from_points(args, &settings)? };
     let calibrated: Vec<Camera> = calibrations.iter().map(|found| found.camera.clone()).collect();
     write_cameras_toml(&args.output, &calibrated, overwrite)?;
     if let Some(folder) = &args.residuals {
         write_residuals(&OutputFolder::create(folder, overwrite)?, &calibrations)?;
     }
     Ok(())
+}
+
+fn from_board(args: &CalibrateArgs, settings: CalibrationSettings) -> Result<Vec<Calibration>> {
+    ensure!(args.layout.is_none(), "--layout was given with --board, which is a plane at many places");
+    ensure!(
+        !args.keep_outliers,
+        "--keep-outliers was given with --board, from whose views wrong ones are always left out"
+    );
+    let lens = BoardSettings::default();
+    let model = args.model.unwrap_or(lens.model);
+    let found = args
+        .board
+        .calibrate(&args.points, BoardSettings { model, held: settings.held, pitch: settings.pitch, ..lens })?;
+    found.cameras.iter().for_each(|camera| put!("{}", summary(camera)));
+    tell_of(&found);
+    Ok(found.cameras)
+}
+
+fn from_points(args: &CalibrateArgs, settings: &CalibrationSettings) -> Result<Vec<Calibration>> {
+    let (source, cameras) = pairs(args)?;
+    let mut calibrations = Vec::new();
+    for pairs in &cameras {
+        let found = calibrate(pairs, size_of(&args.size, &pairs.camera)?, settings).with_context(|| source.clone())?;
+        put!("{}", summary(&found));
+        calibrations.push(found);
+    }
+    Ok(calibrations)
 }
 
 fn settings(args: &CalibrateArgs) -> Result<CalibrationSettings> {
@@ -129,7 +154,7 @@ fn settings(args: &CalibrateArgs) -> Result<CalibrationSettings> {
         names.map(|name| Held::from_name(name).context("--hold")).collect::<Result<Vec<_>>>()
     });
     Ok(CalibrationSettings {
-        model: args.model,
+        model: args.model.unwrap_or(CalibrationSettings::default().model),
         layout: args.layout,
         held: held.transpose()?,
         pitch: args.pitch,
@@ -145,7 +170,12 @@ fn pairs(args: &CalibrateArgs) -> Result<(String, Vec<CameraPairs>)> {
         let joined = join_tracks(&tracks, &read_points(markers)?).with_context(|| source.clone())?;
         return Ok((source, joined));
     }
-    let Some(table) = &args.points else { bail!("there are no points, expected a table or --c3d with --tracks") };
+    let [table] = &args.points[..] else {
+        bail!(
+            "{} tables of points were given, expected one; videos of a printed board need --board",
+            args.points.len()
+        );
+    };
     let source = table.display().to_string();
     let pairs = parse_pairs(&text(table)?, &source, args.units.mm())?;
     Ok((source, pairs))

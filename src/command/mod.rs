@@ -3,6 +3,7 @@
 mod batch;
 mod bench;
 mod calibrate;
+mod calibrate_board;
 pub mod call;
 mod check;
 mod convert;
