@@ -23,6 +23,7 @@ mod plate;
 mod progress;
 mod realtime_flags;
 mod score;
+mod start;
 mod study;
 mod synth;
 mod texture;
@@ -71,6 +72,7 @@ enum Command {
     Features(features::FeaturesArgs),
     Man(pages::ManArgs),
     Matrix(matrix::MatrixArgs),
+    Start(start::StartArgs),
     /// Run many settings over many sequences and seeds, and compare them in tables and plots.
     Study(study::StudyArgs),
     Synth(synth::SynthArgs),
@@ -116,6 +118,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Features(args) => features::run(&args),
         Command::Man(args) => pages::man(&args, Arguments::command()),
         Command::Matrix(args) => matrix::run(&args),
+        Command::Start(args) => start::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Synth(args) => synth::run(&args),
         Command::Texture(args) => texture::run(&args),

@@ -18,7 +18,7 @@ use self::absence::Absence;
 use self::colours::Colours;
 use self::fill::fill_in;
 use super::blobs::Components;
-use super::light::gains;
+use super::light::{gains, lit};
 use super::morphology::{Element, Morphology, Shape};
 use super::{BitImage, Region};
 
@@ -249,11 +249,6 @@ impl<'a> Lesson<'a> {
             doubts: doubts.into_iter().flatten().collect(),
         }
     }
-}
-
-/// A colour in another light.
-fn lit(colour: [u8; 3], dim: [f32; 3]) -> [i16; 3] {
-    [0, 1, 2].map(|channel: usize| (f32::from(colour[channel]) * dim[channel] + 0.5) as i16)
 }
 
 /// Without specks.
