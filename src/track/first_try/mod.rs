@@ -25,7 +25,7 @@ use crate::sequence::{Footage, Sequence, read_cameras};
 /// Rates of frames that differ by less than this share are one rate.
 const SAME_RATE: f64 = 1e-3;
 /// A body that covers less of the silhouettes than this, or lies on them with less, does not fit.
-const FITS: f64 = 0.75;
+const FITS: f64 = 0.65;
 
 /// What a first try is made from.
 #[derive(Clone, Debug)]
