@@ -20,9 +20,11 @@ mod name_pair;
 mod objective_flags;
 mod output;
 mod pages;
+mod plate;
 mod progress;
 mod realtime_flags;
 mod score;
+mod start;
 mod study;
 mod synth;
 mod texture;
@@ -65,11 +67,13 @@ enum Command {
     Evaluate(evaluate::EvaluateArgs),
     /// Measure the person: adapt body proportions to silhouettes, find first poses.
     Fit(fit::FitArgs),
+    Plate(plate::PlateArgs),
     /// Measure the error of tracked points against a truth: per point, per frame, mean and standard deviation, mm.
     Score(score::ScoreArgs),
     Features(features::FeaturesArgs),
     Man(pages::ManArgs),
     Matrix(matrix::MatrixArgs),
+    Start(start::StartArgs),
     /// Run many settings over many sequences and seeds, and compare them in tables and plots.
     Study(study::StudyArgs),
     Synth(synth::SynthArgs),
@@ -110,10 +114,12 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Devices(args) => devices::run(&args),
         Command::Evaluate(args) => evaluate::run(&args),
         Command::Fit(args) => fit::run(&args),
+        Command::Plate(args) => plate::run(&args),
         Command::Score(args) => score::run(&args),
         Command::Features(args) => features::run(&args),
         Command::Man(args) => pages::man(&args, Arguments::command()),
         Command::Matrix(args) => matrix::run(&args),
+        Command::Start(args) => start::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Synth(args) => synth::run(&args),
         Command::Texture(args) => texture::run(&args),

@@ -22,12 +22,14 @@ mod evaluate;
 mod evidence;
 mod example_bodies;
 mod features;
+mod first_try;
 mod losses;
 mod matrix;
 mod observe;
 mod obstacles;
 mod pages;
 mod people;
+mod plate;
 mod reliability;
 mod report_in_browser;
 #[cfg(feature = "rerun")]
