@@ -19,6 +19,7 @@ mod name_pair;
 mod objective_flags;
 mod output;
 mod pages;
+mod pose2sim;
 mod progress;
 mod realtime_flags;
 mod score;
@@ -69,6 +70,9 @@ enum Command {
     Features(features::FeaturesArgs),
     Man(pages::ManArgs),
     Matrix(matrix::MatrixArgs),
+    /// Track a project of Pose2Sim: its Config.toml, calibration and videos in, pose-3d/*.trc out.
+    #[command(name = "pose2sim")]
+    Pose2Sim(pose2sim::Pose2SimArgs),
     /// Run many settings over many sequences and seeds, and compare them in tables and plots.
     Study(study::StudyArgs),
     Synth(synth::SynthArgs),
@@ -113,6 +117,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Features(args) => features::run(&args),
         Command::Man(args) => pages::man(&args, Arguments::command()),
         Command::Matrix(args) => matrix::run(&args),
+        Command::Pose2Sim(args) => pose2sim::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Synth(args) => synth::run(&args),
         Command::Texture(args) => texture::run(&args),
