@@ -98,25 +98,27 @@ fn run_trial(trial: &Pose2SimTrial, manifest: &Table, settings: &TrackSettings, 
     }
     let own = trial.dir.join(POSE2SIM_OWN);
     let overwrite = if args.force || args.resume { Overwrite::Replace } else { Overwrite::Refuse };
-    let folder = OutputFolder::create(&own, overwrite)?;
-    folder.write("sequence.toml", |out| Ok(out.write_all(toml::to_string(manifest)?.as_bytes())?))?;
+    let is_begun = own.join("track/journal.txt").is_file();
+    // The manifest is made anew as long as nothing was made of it: a first try may have failed at it.
+    let results = OutputFolder::create(&own.join("track"), overwrite)?;
+    OutputFolder::open(&own)?
+        .write("sequence.toml", |out| Ok(out.write_all(toml::to_string(manifest)?.as_bytes())?))?;
     let sequence = Sequence::open(&own)?;
-    let results = own.join("track");
     let settings = TrackSettings {
         frames: if settings.frames == FrameRange::default() { frames(trial) } else { settings.frames },
-        resume: settings.resume && results.is_dir(),
+        resume: settings.resume && is_begun,
         ..settings.clone()
     };
     let mut bar = TrackProgress::new()?;
-    let summary = track(&sequence, &settings, &OutputFolder::open(&results)?, &mut bar);
+    let summary = track(&sequence, &settings, &results, &mut bar);
     bar.clear();
     let summary = summary?;
     if let Some(next) = summary.stopped_before {
         bail!("stopped before frame {next}: run the same command with --resume to go on");
     }
-    print_summary(&summary, &results, false);
+    print_summary(&summary, results.path(), false);
 
-    let Pose2SimPoints { points, filled, file_name } = pose2sim_points(trial, &sequence, &results)?;
+    let Pose2SimPoints { points, filled, file_name } = pose2sim_points(trial, &sequence, results.path())?;
     if filled > 0 {
         tell!("note: {filled} frames without a find were filled as [triangulation] in the configuration says");
     }

@@ -160,6 +160,28 @@ fn only_what_is_missing_is_asked_for() {
     assert!(!session.path("session/Trial_1/pose-3d").exists());
 }
 
+/// What fails after the manifest was written is no reason to ask for --force; a run that was stopped is gone on with.
+#[test]
+fn a_second_try_needs_no_force_and_a_stopped_run_is_gone_on_with() {
+    let session = Session::new();
+    let plate = session.path("plates/cam0.png");
+    RgbImage::new(20, 20).save(&plate).unwrap();
+    refused(&session.run("session", &[]), &["Trial_1: ", "cam0.png is 20x20 pixels"]);
+    RgbImage::from_pixel(160, 120, Rgb([40, 60, 50])).save(&plate).unwrap();
+    succeeded(&session.run("session", &[]));
+    let trial = session.path("session/Trial_1");
+    let points = trial.join("pose-3d/Trial_1_1-4.trc");
+    let text = fs::read(&points).unwrap();
+    fs::remove_file(&points).unwrap();
+    refused(&session.run("session", &[]), &["track is not empty", "--force"]);
+    let journal = trial.join("pantin/track/journal.txt");
+    let lines = fs::read_to_string(&journal).unwrap();
+    let half: String = lines.lines().take(2).map(|line| format!("{line}\n")).collect();
+    fs::write(&journal, half).unwrap();
+    succeeded(&session.run("session", &["--resume"]));
+    assert_eq!(fs::read(&points).unwrap(), text, "the same bytes as in one go");
+}
+
 /// The height comes from the configuration, body and first pose from the pictures.
 #[test]
 fn a_project_that_says_all_needs_plates_alone() {
