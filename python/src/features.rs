@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use anyhow::Result;
 use image::DynamicImage;
-use pantin::observe::{Observer, check_background, feature_settings};
+use pantin::observe::{Observer, check_background, feature_settings, with_plates};
 use pantin::sequence::Sequence;
 use pantin::track::FrameRange;
 use pyo3::prelude::*;
@@ -28,8 +28,10 @@ impl Features {
         let sequence = Sequence::open_unfitted(path)?;
         let range: FrameRange = frames.parse()?;
         let range = range.within(sequence.frame_count, &sequence.path.display().to_string())?;
-        check_background(&sequence, &range)?;
-        let observer = Observer::new(&sequence, feature_settings(&sequence)?, range.clone(), range.start)?;
+        let plated = with_plates(&sequence, &mut |_, _, _| {})?;
+        let sequence = plated.sequence.as_ref();
+        check_background(sequence, &range)?;
+        let observer = Observer::new(sequence, feature_settings(sequence)?, range.clone(), range.start)?;
         let cameras = sequence.views.iter().map(|view| view.camera.clone()).collect();
         Ok(Self { observer: Mutex::new(observer), cameras })
     }

@@ -26,12 +26,17 @@ use agreement::{EXPLAINED, Ray, rays};
 use silhouettes::Silhouettes;
 
 use crate::geometry::Camera;
+use crate::observe::{Advance, Plated, ViewPlate, with_plates};
 use crate::sequence::Sequence;
 
 /// Frames looked at unless the user says which: a short stretch says as much as a long one.
 const FRAMES: usize = 100;
 /// Rays a silhouette for a number.
 const RAYS: usize = 150;
+/// What takes long once the silhouettes are there.
+const COMPARISONS: usize = 4;
+/// A learnt plate may be doubtful in this share of the picture, %.
+const DOUBTFUL: f64 = 1.0;
 /// Fewer rays say nothing.
 const FEWEST_RAYS: usize = 200;
 
@@ -79,6 +84,14 @@ impl CheckReport {
 /// When the frames asked for are not the sequence's, a picture cannot be read, or there is nothing to tell the person from
 /// the background by.
 pub fn check(path: &Path, settings: &CheckSettings) -> Result<CheckReport> {
+    check_with(path, settings, &mut |_, _, _| {})
+}
+
+/// As [`check`], and tells how far it is.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<'_>) -> Result<CheckReport> {
     let sequence = match Sequence::open_unfitted(path) {
         Ok(sequence) => sequence,
         Err(error) => {
@@ -95,7 +108,14 @@ pub fn check(path: &Path, settings: &CheckSettings) -> Result<CheckReport> {
         sequence.path.display(),
         sequence.frame_count
     );
-    let silhouettes = Silhouettes::read(&sequence, first..end, settings.samples)?;
+    let plated = with_plates(&sequence, progress)?;
+    let sequence = plated.sequence.as_ref();
+    let silhouettes = Silhouettes::read(sequence, first..end, settings.samples, progress)?;
+    let mut compared = 0;
+    let mut compare = || {
+        progress("comparing the silhouettes", compared, COMPARISONS);
+        compared += 1;
+    };
     let opened = format!("{} views, {} frames", sequence.views.len(), sequence.frame_count);
     let mut checks = vec![
         Finding::number("files", "views", sequence.views.len() as f64, [2.0, f64::INFINITY])
@@ -104,7 +124,9 @@ pub fn check(path: &Path, settings: &CheckSettings) -> Result<CheckReport> {
     ];
     checks.extend(view::lenses(&sequence.cameras));
     checks.push(view::up_axis(&sequence.cameras));
-    checks.extend(seen(&sequence, &silhouettes));
+    checks.extend(plates(&plated));
+    checks.extend(seen(sequence, &silhouettes));
+    compare();
     let found = rays(&sequence.cameras, &silhouettes.moments(), RAYS);
     if found.len() < FEWEST_RAYS {
         let why = format!("the silhouettes have {} border rays, expected {FEWEST_RAYS} or more", found.len());
@@ -114,12 +136,33 @@ pub fn check(path: &Path, settings: &CheckSettings) -> Result<CheckReport> {
         let middle = found.iter().map(|ray| ray.point).sum::<DVec3>() / found.len() as f64;
         checks.extend(view::volume(&sequence.cameras, middle));
         checks.extend(explained(&sequence.cameras, &found));
+        compare();
         checks.extend(exchanges::exchanges(&sequence.cameras, &silhouettes, &found));
+        compare();
         checks.extend(turns::turns(&sequence.cameras, &silhouettes.moments()));
+        compare();
         checks.extend(timing::timing(&sequence.cameras, &silhouettes));
         checks.extend(person::person(&found, sequence.body.is_file().then_some(sequence.body.as_path()))?);
     }
     Ok(CheckReport::new(sequence.name.clone(), silhouettes.samples.clone(), checks))
+}
+
+/// How far the plates that were learnt can be believed.
+fn plates(plated: &Plated<'_>) -> Vec<Finding> {
+    let finding = |view: &ViewPlate| {
+        let doubtful = 100.0 * view.plate.doubts.iter().map(|doubt| doubt.share).sum::<f64>();
+        let remarks = view.plate.remarks();
+        let found = if remarks.is_empty() {
+            format!("learnt from {} pictures", view.plate.pictures)
+        } else {
+            remarks.join("; ")
+        };
+        Finding::number("learnt background", "% of the picture doubtful", doubtful, [0.0, DOUBTFUL])
+            .of(&view.camera)
+            .found(found)
+            .or("film the empty scene and give it as `background`, or film on until the person has left that place")
+    };
+    plated.learnt.iter().map(finding).collect()
 }
 
 /// In how many of the frames looked at each camera sees somebody.

@@ -7,7 +7,7 @@ use anyhow::Result;
 use super::agreement::Moment;
 use super::signed_distance::SignedDistance;
 use crate::features::ViewFeatures;
-use crate::observe::{Observer, check_background, silhouette_settings};
+use crate::observe::{Advance, Observer, check_background, silhouette_settings};
 use crate::sequence::Sequence;
 
 /// Frames by which a camera may be early or late.
@@ -31,7 +31,12 @@ impl Silhouettes {
     /// # Errors
     /// When the range is not the sequence's, the features' settings make no sense, a picture cannot be read, or a
     /// background would have to be learnt and no frame comes before the range.
-    pub(super) fn read(sequence: &Sequence, frames: Range<usize>, count: usize) -> Result<Self> {
+    pub(super) fn read(
+        sequence: &Sequence,
+        frames: Range<usize>,
+        count: usize,
+        progress: &mut Advance<'_>,
+    ) -> Result<Self> {
         check_background(sequence, &frames)?;
         let samples = spread(&frames, count);
         let is_wanted =
@@ -39,6 +44,7 @@ impl Silhouettes {
         let mut observer = Observer::new(sequence, silhouette_settings(sequence)?, frames.clone(), frames.start)?;
         let mut fields = vec![Vec::new(); frames.len()];
         while let Some(frame) = observer.read()? {
+            progress("reading", frame.index.saturating_sub(frames.start), frames.len());
             if let Some(features) = observer.features(&frame, is_wanted(frame.index))? {
                 let field = |view: &ViewFeatures| {
                     let step = view.silhouette.height().div_ceil(ROWS);

@@ -44,7 +44,7 @@ pub fn track(options: &Options, progress: &mut dyn Progress) -> Result<Vec<(Path
 /// # Errors
 /// As [`crate::track::fit`], and for an option that is unknown or cannot be read.
 pub fn fit(options: &Options) -> Result<Fit> {
-    fitted(&parsed::<FitArgs>("fit", options)?, |_| {})
+    fitted(&parsed::<FitArgs>("fit", options)?, &mut |_, _, _| {}, |_| {})
 }
 
 /// `pantin check`. A check that failed is no error here.
@@ -52,7 +52,7 @@ pub fn fit(options: &Options) -> Result<Fit> {
 /// # Errors
 /// As [`crate::check::check`], and for an option that is unknown or cannot be read.
 pub fn check(options: &Options) -> Result<CheckReport> {
-    checked(&parsed::<CheckArgs>("check", options)?)
+    checked(&parsed::<CheckArgs>("check", options)?, &mut |_, _, _| {})
 }
 
 /// `pantin synth`: the folder of the sequence. `progress` is told how many of how many frames are done, from any thread; its error ends

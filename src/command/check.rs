@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use anyhow::{Result, bail};
 
 use super::output::say;
-use crate::check::{CheckReport, CheckSettings, Finding, Status, check};
+use super::progress::WorkBar;
+use crate::check::{CheckReport, CheckSettings, Finding, Status, check_with};
+use crate::observe::Advance;
 use crate::track::FrameRange;
 
 /// Is this sequence sane? Looks at units, axes, lenses, the space that the cameras share, and at whether the silhouettes of
@@ -30,9 +32,11 @@ pub(super) struct CheckArgs {
 /// Runs the command.
 ///
 /// # Errors
-/// As [`check`]; and when a check failed.
+/// As [`crate::check::check`]; and when a check failed.
 pub(super) fn run(args: &CheckArgs) -> Result<()> {
-    let report = checked(args)?;
+    let mut bar = WorkBar::default();
+    let report = checked(args, &mut |what, done, total| bar.show(what, done, total))?;
+    drop(bar);
     if args.json {
         say!("{}", serde_json::to_string_pretty(&report)?);
     } else {
@@ -48,10 +52,10 @@ pub(super) fn run(args: &CheckArgs) -> Result<()> {
 /// What was found out.
 ///
 /// # Errors
-/// As [`check`].
-pub(super) fn checked(args: &CheckArgs) -> Result<CheckReport> {
+/// As [`crate::check::check`].
+pub(super) fn checked(args: &CheckArgs, progress: &mut Advance<'_>) -> Result<CheckReport> {
     let settings = CheckSettings { start: args.frames.start, end: args.frames.end, samples: args.samples };
-    check(&args.sequence, &settings)
+    check_with(&args.sequence, &settings, progress)
 }
 
 fn print(report: &CheckReport) {

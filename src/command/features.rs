@@ -7,10 +7,10 @@ use image::codecs::png::PngEncoder;
 use rayon::prelude::*;
 
 use super::output::{say, tell};
-use super::progress::ProgressBar;
+use super::progress::{ProgressBar, WorkBar};
 use crate::evaluate::device::open_device;
 use crate::files::{OutputFolder, Overwrite, choices};
-use crate::observe::{Observer, feature_settings};
+use crate::observe::{Observer, feature_settings, with_plates};
 use crate::sequence::Sequence;
 use crate::track::FrameRange;
 
@@ -21,7 +21,7 @@ use crate::track::FrameRange;
 /// as `evaluate --observations` reads them.
 #[derive(clap::Args, Debug)]
 pub(super) struct FeaturesArgs {
-    /// The sequence: a sequence.toml
+    /// The sequence: its sequence.toml, or the folder that holds it. Its body and start need not exist yet, but for segments of its parts.
     sequence: PathBuf,
     /// Frames A to B - 1, counted from 0; all without it
     #[arg(long, value_name = "A..B", default_value = "..")]
@@ -53,9 +53,16 @@ choices! {
 /// # Errors
 /// When the sequence cannot be read, its `[features]` make no sense, or a picture cannot be written.
 pub(super) fn run(args: &FeaturesArgs) -> Result<()> {
-    let sequence = Sequence::open(&args.sequence)?;
+    let sequence = Sequence::open_unfitted(&args.sequence)?;
     let frames = args.frames.within(sequence.frame_count, &sequence.path.display().to_string())?;
-    let mut observer = Observer::new(&sequence, feature_settings(&sequence)?, frames.clone(), frames.start)?;
+    let mut bar = WorkBar::default();
+    let plated = with_plates(&sequence, &mut |what, done, total| bar.show(what, done, total))?;
+    drop(bar);
+    for remark in plated.remarks() {
+        tell!("note: {remark}");
+    }
+    let sequence = plated.sequence.as_ref();
+    let mut observer = Observer::new(sequence, feature_settings(sequence)?, frames.clone(), frames.start)?;
     if args.backend == FeatureBackend::Device
         && let Err(error) = observer.move_to(&open_device()?)
     {

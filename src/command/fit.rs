@@ -6,13 +6,15 @@ use std::path::PathBuf;
 use anyhow::{Result, bail};
 
 use super::objective_flags::ObjectiveFlags;
-use super::output::put;
+use super::output::{put, tell};
+use super::progress::WorkBar;
 use crate::files::{Overwrite, write_atomically};
+use crate::observe::Advance;
 use crate::sequence::Sequence;
-use crate::track::{Fit, FitSettings, FrameRange, fit};
+use crate::track::{Fit, FitSettings, FrameRange, fit_with};
 
 /// Measures the person in a sequence: adapts the proportions of the default body to the silhouettes of one or more frames
-/// and finds the poses in them. Every view needs a background or masks. Silhouettes hardly tell front from back, nor
+/// and finds the poses in them. Views without background and masks learn it from the whole recording. Silhouettes hardly tell front from back, nor
 /// where a straight limb has its joint: give --heading if he came out backwards, and frames with bent limbs.
 #[derive(clap::Args, Debug)]
 pub(super) struct FitArgs {
@@ -59,28 +61,35 @@ pub(super) struct FitArgs {
 /// Runs the command.
 ///
 /// # Errors
-/// As [`fit`]; and when a file exists and may not be replaced, or cannot be written.
+/// As [`crate::track::fit`]; and when a file exists and may not be replaced, or cannot be written.
 pub(super) fn run(args: &FitArgs) -> Result<()> {
-    fitted(args, |summary| put!("{summary}")).map(drop)
+    let mut bar = WorkBar::default();
+    fitted(args, &mut |what, done, total| bar.show(what, done, total), |summary| put!("{summary}")).map(drop)
 }
 
 /// The person measured, which `told` hears of, and written where the arguments say.
 ///
 /// # Errors
 /// As [`run`].
-pub(super) fn fitted(args: &FitArgs, told: impl FnOnce(&str)) -> Result<Fit> {
+pub(super) fn fitted(args: &FitArgs, progress: &mut Advance<'_>, told: impl FnOnce(&str)) -> Result<Fit> {
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     // Said before the work, not after it.
     for file in [&args.output, &args.start_out].into_iter().flatten() {
-        if !args.force && file.exists() {
-            bail!("{} exists: choose another name, or replace it with --force", file.display());
-        }
+        overwrite.check(file)?;
     }
     if let Some(heading) = args.heading.filter(|heading| !(-360.0..=360.0).contains(heading)) {
         bail!("--heading is {heading}, expected -360 to 360 degrees");
     }
     let sequence =
         if args.output.is_some() { Sequence::open_unfitted(&args.sequence)? } else { Sequence::open(&args.sequence)? };
+    if let Some(file) = args.output.as_ref().filter(|file| sequence.names_another_body(file)) {
+        tell!(
+            "note: {} names {} as its body, and {} is written",
+            sequence.path.display(),
+            sequence.body.display(),
+            file.display()
+        );
+    }
     let settings = FitSettings {
         height: args.height.or(sequence.height),
         frames: args.frames,
@@ -94,10 +103,13 @@ pub(super) fn fitted(args: &FitArgs, told: impl FnOnce(&str)) -> Result<Fit> {
         iterations: args.iterations,
         seed: args.seed,
     };
-    let fit = fit(&sequence, &settings)?;
+    let fit = fit_with(&sequence, &settings, progress)?;
     let summary = summary(&fit);
     // Before anything is written: where that fails the numbers are not lost.
     told(&summary);
+    for remark in &fit.remarks {
+        tell!("note: {remark}");
+    }
     if let Some(file) = &args.output {
         let comment: String = summary.lines().map(|line| format!("# {line}").trim_end().to_string() + "\n").collect();
         let text = format!("# Measured by `pantin fit` on {}.\n#\n{comment}\n{}", sequence.name, fit.body.to_toml());
@@ -110,7 +122,7 @@ pub(super) fn fitted(args: &FitArgs, told: impl FnOnce(&str)) -> Result<Fit> {
 }
 
 /// What the user sees.
-fn summary(fit: &Fit) -> String {
+pub(super) fn summary(fit: &Fit) -> String {
     let mut text = String::new();
     // Writing into a String cannot fail.
     let frames: Vec<String> = fit.poses.frames.iter().map(usize::to_string).collect();

@@ -19,6 +19,7 @@ mod name_pair;
 mod objective_flags;
 mod output;
 mod pages;
+mod plate;
 mod pose2sim;
 mod progress;
 mod realtime_flags;
@@ -65,6 +66,7 @@ enum Command {
     Evaluate(evaluate::EvaluateArgs),
     /// Measure the person: adapt body proportions to silhouettes, find first poses.
     Fit(fit::FitArgs),
+    Plate(plate::PlateArgs),
     /// Measure the error of tracked points against a truth: per point, per frame, mean and standard deviation, mm.
     Score(score::ScoreArgs),
     Features(features::FeaturesArgs),
@@ -113,6 +115,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Devices(args) => devices::run(&args),
         Command::Evaluate(args) => evaluate::run(&args),
         Command::Fit(args) => fit::run(&args),
+        Command::Plate(args) => plate::run(&args),
         Command::Score(args) => score::run(&args),
         Command::Features(args) => features::run(&args),
         Command::Man(args) => pages::man(&args, Arguments::command()),

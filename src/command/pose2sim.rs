@@ -30,6 +30,7 @@ pub(super) struct Pose2SimArgs {
     #[arg(long, value_name = "FILE")]
     body: Option<PathBuf>,
     /// Pictures of the empty scene, DIR/CAMERA.png each (or by the video's name, or .jpg); of a trial of a session first in DIR/TRIAL.
+    /// Without them it is learnt from the whole videos, in which the person must move.
     #[arg(long, value_name = "DIR")]
     plates: Option<PathBuf>,
     /// Frames a second, instead of frame_rate: needed where that is 'auto' and there are pictures instead of videos.

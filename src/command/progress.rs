@@ -1,6 +1,7 @@
 //! Progress of long work: a bar on a terminal, a plain line now and then elsewhere.
 
 use std::io::{IsTerminal, stderr};
+use std::time::{Duration, Instant};
 
 use indicatif::ProgressStyle;
 
@@ -44,6 +45,32 @@ impl Drop for TerminalBar {
     fn drop(&mut self) {
         if let Some(bar) = &self.0 {
             bar.finish_and_clear();
+        }
+    }
+}
+
+/// How often a plain line is written of work of unknown length.
+const LINE_INTERVAL: Duration = Duration::from_secs(5);
+
+/// Progress through work of several kinds, one after the other: a bar each on a terminal, a plain line every few seconds elsewhere.
+#[derive(Default)]
+pub(super) struct WorkBar {
+    what: &'static str,
+    bar: TerminalBar,
+    last_line: Option<Instant>,
+}
+
+impl WorkBar {
+    /// `done` of `total` steps of `what` are done.
+    pub(super) fn show(&mut self, what: &'static str, done: usize, total: usize) {
+        if self.what != what {
+            self.what = what;
+            self.bar = TerminalBar::new("{msg} {wide_bar} {percent} %, {eta} left", done, Some(total));
+        }
+        let last_line = *self.last_line.get_or_insert_with(Instant::now);
+        if !self.bar.show(done, what) && last_line.elapsed() >= LINE_INTERVAL {
+            self.last_line = Some(Instant::now());
+            tell!("{what}: {} %", 100 * done / total.max(1));
         }
     }
 }

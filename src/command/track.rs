@@ -9,7 +9,7 @@ use clap::ArgAction;
 use super::interrupt::Interrupt;
 use super::objective_flags::ObjectiveFlags;
 use super::output::{say, tell};
-use super::progress::TerminalBar;
+use super::progress::{TerminalBar, WorkBar};
 use super::realtime_flags::{RealtimeFlags, duration};
 use super::threads_flag::ThreadsFlag;
 use crate::body::Model;
@@ -276,6 +276,7 @@ fn print_realtime(realtime: &RealtimeSummary, evaluator: &str) {
 /// A bar on a terminal, a line now and then elsewhere; and Ctrl-C.
 pub(super) struct TrackProgress {
     stop: Interrupt,
+    preparing: WorkBar,
     bar: TerminalBar,
     begin: Instant,
     last_line: Instant,
@@ -291,16 +292,26 @@ impl TrackProgress {
     pub(super) fn new() -> Result<Self> {
         let stop = Interrupt::listen()?;
         let now = Instant::now();
-        Ok(Self { stop, bar: TerminalBar::default(), begin: now, last_line: now, first: 0, total: None })
+        Ok(Self {
+            stop,
+            preparing: WorkBar::default(),
+            bar: TerminalBar::default(),
+            begin: now,
+            last_line: now,
+            first: 0,
+            total: None,
+        })
     }
 
     pub(super) fn clear(&mut self) {
+        self.preparing = WorkBar::default();
         self.bar = TerminalBar::default();
     }
 }
 
 impl Progress for TrackProgress {
     fn start(&mut self, run: &RunStart) {
+        self.preparing = WorkBar::default();
         tell!("{}", run.backend);
         for outlet in &run.outlets {
             tell!("{outlet}");
@@ -316,6 +327,10 @@ impl Progress for TrackProgress {
             None => "{spinner} {pos} frames, {per_sec}  {msg} (Ctrl-C ends it)",
         };
         self.bar = TerminalBar::new(template, run.done, run.frames);
+    }
+
+    fn preparing(&mut self, what: &'static str, done: usize, total: usize) {
+        self.preparing.show(what, done, total);
     }
 
     fn looked_back(&mut self, done: usize) {

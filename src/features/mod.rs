@@ -2,10 +2,11 @@
 //!
 //! One file a stage, in the order of the data: [`plate`] or [`mixture`] (with [`shadow`]) → [`morphology`] and [`blobs`]
 //! → [`edges`] → [`distance`] → [`proximity`] → [`Observation`]. [`Extractor`] runs them all, one view a task, or a Vulkan device
-//! does, all views at once.
+//! does, all views at once. [`clean_plate`] makes a plate where none was filmed.
 
 mod bit_image;
 pub mod blobs;
+pub mod clean_plate;
 mod device;
 pub mod distance;
 pub mod edges;
@@ -30,6 +31,7 @@ pub mod shadow;
 mod view_features;
 
 pub use bit_image::BitImage;
+pub use clean_plate::{Doubt, DoubtKind, LearntPlate};
 pub use distance::{DistanceMap, Metric};
 pub use edges::{EdgeSettings, Magnitude, Operator};
 pub use evidence::{Evidence, PartClasses};

@@ -16,6 +16,19 @@ pub enum Overwrite {
     Replace,
 }
 
+impl Overwrite {
+    /// Whether a file may be written, to be asked before the work and not after it.
+    ///
+    /// # Errors
+    /// When it is there and may not be replaced.
+    pub fn check(self, path: &Path) -> Result<()> {
+        if self == Self::Refuse && path.exists() {
+            bail!("{} exists: choose another name, or replace it with --force", path.display());
+        }
+        Ok(())
+    }
+}
+
 /// Writes a file through `body` under a temporary name beside `path`, then renames it to `path`.
 ///
 /// # Errors

@@ -33,15 +33,18 @@ struct Layout {
     unit: Unit,
     /// `Frame#` of frame 0.
     first_number: usize,
+    /// What ends the lines of names and axes.
+    header_end: &'static str,
     /// What stands between the header and the data.
     after_header: &'static str,
 }
 
 /// OpenSim expects an empty line between the header and the data.
-const PANTIN: Layout = Layout { unit: MILLIMETRES, first_number: 1, after_header: "\n" };
+const PANTIN: Layout = Layout { unit: MILLIMETRES, first_number: 1, header_end: "", after_header: "\n" };
 const OPENSIM: Layout = Layout { unit: METRES, ..PANTIN };
-/// Pose2Sim counts frames from 0, and its files go without that line, which OpenSim (4.6) reads as well.
-const POSE2SIM: Layout = Layout { unit: METRES, first_number: 0, after_header: "" };
+/// Pose2Sim counts frames from 0, and its files go without that line, which OpenSim (4.6) reads as well. Its marker augmentation finds the
+/// end of the names by one tab more than others write.
+const POSE2SIM: Layout = Layout { unit: METRES, first_number: 0, header_end: "\t", after_header: "" };
 
 /// How a coordinate of a missing point is written. OpenSim (4.6) reads it, and empty cells, as missing; but it refuses a row that ends
 /// in empty cells, of which it counts too few.
@@ -207,7 +210,7 @@ pub fn write_pose2sim_trc(out: &mut dyn Write, points: &PointTrajectory, file_na
 }
 
 fn write_in(out: &mut dyn Write, points: &PointTrajectory, file_name: &str, layout: Layout) -> Result<()> {
-    let Layout { unit, first_number, after_header } = layout;
+    let Layout { unit, first_number, header_end, after_header } = layout;
     points.check()?;
     ensure!(points.rate > 0.0, "the frame rate is unknown, but TRC needs one: give it");
     let frames = points.frames.len();
@@ -229,11 +232,11 @@ fn write_in(out: &mut dyn Write, points: &PointTrajectory, file_name: &str, layo
     for name in &points.names {
         write!(out, "\t{name}\t\t")?;
     }
-    write!(out, "\n\t")?;
+    write!(out, "{header_end}\n\t")?;
     for marker in 1..=points.names.len() {
         write!(out, "\tX{marker}\tY{marker}\tZ{marker}")?;
     }
-    write!(out, "\n{after_header}")?;
+    write!(out, "{header_end}\n{after_header}")?;
     for (row, frame) in points.frames.iter().enumerate() {
         write!(out, "{}\t{:.6}", points.first_frame + row + first_number, points.time(row).unwrap_or(0.0))?;
         for point in frame {
@@ -271,8 +274,8 @@ mod tests {
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines[0], "PathFileType\t4\t(X/Y/Z)\twalk_30-30.trc");
         assert_eq!(lines[2], "60\t60\t1\t2\tm\t60\t30\t1");
-        assert_eq!(lines[3], "Frame#\tTime\tHip\t\t\tNose\t\t");
-        assert_eq!(lines[4], "\t\tX1\tY1\tZ1\tX2\tY2\tZ2");
+        assert_eq!(lines[3], "Frame#\tTime\tHip\t\t\tNose\t\t\t");
+        assert_eq!(lines[4], "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\t");
         assert_eq!(lines[5], "30\t0.500000\t2.0000000\t3.0000000\t1.0000000\tNaN\tNaN\tNaN");
     }
 

@@ -41,8 +41,8 @@ pub(super) fn check_coverage(path: &Path, cameras: &[Camera]) -> Result<()> {
     Ok(())
 }
 
-/// The point with the least sum of squared distances to the optical axes; `None` where the axes are parallel.
-fn nearest_to_axes(cameras: &[Camera]) -> Option<DVec3> {
+/// The point that cameras look at, world, mm: the one with the least sum of squared distances to the optical axes; `None` where the axes are parallel.
+pub fn nearest_to_axes(cameras: &[Camera]) -> Option<DVec3> {
     let (mut matrix, mut right) = (DMat3::ZERO, DVec3::ZERO);
     for camera in cameras {
         let axis = axis_in_world(camera);

@@ -101,13 +101,13 @@ impl Sequence {
         Ok(reader)
     }
 
-    /// The plate of each view's empty scene at the working size, where the view has one.
+    /// The plate of each view's empty scene at the working size, given or learnt, where the view has one.
     ///
     /// # Errors
     /// When a plate cannot be read, or is neither of the calibration's size nor of the working size.
     pub fn backgrounds(&self) -> Result<Vec<Option<RgbImage>>> {
         let plates = self.views.iter().zip(&self.sizes).map(|(view, &size)| {
-            let Some(path) = &view.background else { return Ok(None) };
+            let Some(path) = &view.background else { return Ok(view.learnt.as_deref().cloned()) };
             Ok(Some(area_average(read_picture(path, &[view.size, size])?.into_rgb8(), size)))
         });
         plates.collect()

@@ -1,18 +1,19 @@
 //! The manifest `sequence.toml`: which files make a sequence, checked before anything long is started.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::{Context, Result, anyhow, bail};
 use serde::Deserialize;
 
 use super::calibration::read_cameras;
 use super::coverage::check_coverage;
+use super::footage::{Footage, is_pattern};
 use super::ignored::Ignored;
 use super::live_options;
 use super::person::{Person, PersonTable, check_names};
-use super::pictures::{PicturePattern, picture_size, shown};
+use super::pictures::{picture_size, shown};
 use super::source::{LiveSource, Source};
-use super::video::{VideoInfo, probe_video};
 use crate::files::{nearest, parse_toml, read_toml};
 use crate::geometry::Camera;
 
@@ -69,12 +70,20 @@ pub struct View {
     pub mask: Option<(Source, [u32; 2])>,
     /// Pixels that count neither for nor against anybody.
     pub ignored: Option<Ignored>,
+    /// A picture of the empty scene that was learnt, at the working size; no manifest names one.
+    pub learnt: Option<Arc<image::RgbImage>>,
 }
 
 impl View {
     /// Whether it has neither mask nor plate, so that its background must be learnt from the frames.
     pub fn learns_background(&self) -> bool {
-        self.mask.is_none() && self.background.is_none()
+        self.mask.is_none() && self.background.is_none() && self.learnt.is_none()
+    }
+
+    /// Its pictures by themselves, of which there are `frame_count`.
+    pub fn footage(&self, frame_count: usize) -> Footage {
+        let shown = format!("the pictures of camera {:?}", self.camera);
+        Footage { shown, source: self.source.clone(), size: self.size, frame_count, rotation: 0, fps: None }
     }
 }
 
@@ -204,6 +213,15 @@ impl Sequence {
         !self.names_body
     }
 
+    /// Whether the manifest names a body, and it is not `file`, which may be yet to be made.
+    pub fn names_another_body(&self, file: &Path) -> bool {
+        let whole = |path: &Path| {
+            let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            Some(parent.canonicalize().ok()?.join(path.file_name()?))
+        };
+        self.names_body && whole(file).is_some_and(|file| Some(file) != whole(&self.body))
+    }
+
     /// The same sequence with one of its people alone.
     #[must_use]
     pub fn of_person(&self, person: &Person) -> Self {
@@ -321,7 +339,7 @@ fn open_view(
             let shown = live.address.clone();
             // What it delivers is looked at when it is opened: a camera can be opened once.
             let (size, frame_count) = (camera.size, Sequence::NO_END);
-            OpenedSource { shown, source: Source::Live(live), size, frame_count, rotation: 0 }
+            Footage { shown, source: Source::Live(live), size, frame_count, rotation: 0, fps: None }
         }
         None => open_source(&key("source"), &table.source, existing, dir)?,
     };
@@ -363,12 +381,20 @@ fn open_view(
     let ignored =
         table.ignore.as_deref().map(|ignore| Ignored::open(&key("ignore"), &dir.join(ignore), camera.size, length));
     let ignored = ignored.transpose()?;
-    let view = View { camera: name.clone(), size: camera.size, source: source.source, background, mask, ignored };
+    let view = View {
+        camera: name.clone(),
+        size: camera.size,
+        source: source.source,
+        background,
+        mask,
+        ignored,
+        learnt: None,
+    };
     Ok((view, source.frame_count))
 }
 
 /// Masks may be smaller or larger than the pictures, but of the same shape, to a pixel, and as many.
-fn check_mask(camera: &str, size: [u32; 2], frame_count: usize, mask: &OpenedSource) -> Result<()> {
+fn check_mask(camera: &str, size: [u32; 2], frame_count: usize, mask: &Footage) -> Result<()> {
     let ([width, height], [mask_width, mask_height]) = (size.map(u64::from), mask.size.map(u64::from));
     if (width * mask_height).abs_diff(height * mask_width) > width.max(height) {
         bail!("{} has masks of {} pixels, expected the shape of {}", mask.shown, shown(mask.size), shown(size));
@@ -383,32 +409,14 @@ fn check_mask(camera: &str, size: [u32; 2], frame_count: usize, mask: &OpenedSou
     Ok(())
 }
 
-struct OpenedSource {
-    /// Its name in messages.
-    shown: String,
-    source: Source,
-    size: [u32; 2],
-    frame_count: usize,
-    rotation: i32,
-}
-
 fn open_source(
     key: &str,
     relative: &Path,
     existing: &impl Fn(&str, &Path) -> Result<PathBuf>,
     dir: &Path,
-) -> Result<OpenedSource> {
+) -> Result<Footage> {
     let file = dir.join(relative);
-    let shown = file.display().to_string();
-    // A file may carry a percent sign in its plain name; then it is that file.
-    if file.file_name().is_some_and(|name| name.to_string_lossy().contains('%')) && !file.is_file() {
-        let pattern = PicturePattern::open(&file)?;
-        let (size, frame_count) = (picture_size(&pattern.file(0))?, pattern.frame_count());
-        return Ok(OpenedSource { shown, source: Source::Pictures(pattern), size, frame_count, rotation: 0 });
-    }
-    let video = probe_video(&existing(key, relative)?)?;
-    let VideoInfo { size, frame_count, rotation } = video;
-    Ok(OpenedSource { shown, source: Source::Video(file), size, frame_count, rotation })
+    Footage::open(&if is_pattern(&file) { file } else { existing(key, relative)? })
 }
 
 /// The number of frames all views have.

@@ -322,7 +322,7 @@ fn videos_and_pictures_mix() {
     let error = scene.error("", &["camera = \"cam02\"\nsource = \"turned.mp4\""]);
     assert!(error.contains("30x40") && error.contains("calibrated for 40x30"), "{error}");
     // Older and newer versions of ffmpeg set the mark by different options; where it is set, the sentence says more.
-    let turned = probe_video(&scene.path("turned.mp4")).unwrap();
+    let turned = crate::sequence::probe_video(&scene.path("turned.mp4")).unwrap();
     assert_eq!(turned.size, [30, 40], "the stored size");
     assert_eq!(turned.rotation % 180 != 0, error.contains("re-encode them upright"), "{error}");
 }

@@ -2,6 +2,7 @@
 
 mod calibration;
 mod coverage;
+mod footage;
 mod frames;
 mod ignored;
 mod live;
@@ -21,6 +22,8 @@ pub use calibration::{
     CalibrationFormat, cameras_toml, parse_cameras_toml, parse_opencv_xml, parse_opencv_yaml, parse_qualisys,
     read_cameras, write_cameras_toml,
 };
+pub use coverage::nearest_to_axes;
+pub use footage::{Footage, SpreadFrames};
 pub use frames::{FrameReader, FrameSet, STALL_TIMEOUT};
 pub use ignored::Ignored;
 pub use live::LiveReader;

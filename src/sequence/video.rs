@@ -12,7 +12,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use super::program::{Process, Stopper, missing_program};
 
 /// What a video file holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VideoInfo {
     /// Size of its pictures as they are stored, pixels, width then height.
     pub size: [u32; 2],
@@ -20,6 +20,8 @@ pub struct VideoInfo {
     pub frame_count: usize,
     /// What a player would turn the pictures by, degrees; ignored when reading.
     pub rotation: i32,
+    /// Frames per second on average, where the file tells.
+    pub fps: Option<f64>,
 }
 
 /// Reads the size and counts the frames of a video without decoding it.
@@ -35,10 +37,10 @@ fn probe_with(program: &Path, path: &Path) -> Result<VideoInfo> {
     let mut command = Command::new(program);
     command.args(["-v", "error", "-select_streams", "v:0", "-of", "flat", "-show_entries"]);
     // Packets are listed rather than counted: those an edit list cuts off are marked, and never become frames.
-    command.arg("stream=width,height,nb_frames:stream_side_data=rotation:packet=flags");
+    command.arg("stream=width,height,nb_frames,avg_frame_rate:stream_side_data=rotation:packet=flags");
     command.args(["-protocol_whitelist", "file", "-i"]).arg(file_url(path));
     let mut process = Process::spawn(command)?;
-    let (mut size, mut promised, mut rotation) = ([0_u32; 2], 0_usize, 0);
+    let (mut size, mut promised, mut rotation, mut fps) = ([0_u32; 2], 0_usize, 0, None);
     let (mut packets, mut discarded, mut corrupt) = (0_usize, 0_usize, 0_usize);
     for line in BufReader::new(&mut process.output).lines() {
         let line = line.with_context(|| format!("cannot read what ffprobe says of {}", path.display()))?;
@@ -53,6 +55,7 @@ fn probe_with(program: &Path, path: &Path) -> Result<VideoInfo> {
             Some("width") => size[0] = value.parse().unwrap_or(0),
             Some("height") => size[1] = value.parse().unwrap_or(0),
             Some("nb_frames") => promised = value.parse().unwrap_or(0),
+            Some("avg_frame_rate") => fps = rate(value),
             Some("rotation") => rotation = value.parse().unwrap_or(0),
             _ => {}
         }
@@ -71,7 +74,14 @@ fn probe_with(program: &Path, path: &Path) -> Result<VideoInfo> {
     if packets == discarded {
         bail!("{} holds a video of no frames", path.display());
     }
-    Ok(VideoInfo { size, frame_count: packets - discarded, rotation })
+    Ok(VideoInfo { size, frame_count: packets - discarded, rotation, fps })
+}
+
+/// A rate as ffprobe writes it, `30000/1001`.
+fn rate(text: &str) -> Option<f64> {
+    let (count, seconds) = text.split_once('/')?;
+    let rate = count.parse::<f64>().ok()? / seconds.parse::<f64>().ok()?;
+    (rate.is_finite() && rate > 0.0).then_some(rate)
 }
 
 /// The mean rate of a video, frames a second, as its container tells it.
@@ -127,6 +137,22 @@ impl VideoDecoder {
     /// # Errors
     /// When ffmpeg is missing or cannot be started.
     pub(super) fn open(path: &Path, range: Range<usize>, size: [u32; 2], format: PixelFormat) -> Result<Self> {
+        let select = format!("gte(n\\,{})", range.start);
+        Self::select(path, &select, range, size, format)
+    }
+
+    /// Starts decoding `count` frames of a file that has `total`, evenly spread, each delivered at `size`.
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub(super) fn open_spread(path: &Path, total: usize, count: usize, size: [u32; 2]) -> Result<Self> {
+        // Frame n is one of them where n count / total passes a whole number before the next frame.
+        let select = format!("gt(floor((n+1)*{count}/{total})\\,floor(n*{count}/{total}))");
+        Self::select(path, &select, 0..count, size, PixelFormat::Rgb)
+    }
+
+    /// Starts decoding the frames that `select` lets through, which are counted by `range`.
+    fn select(path: &Path, select: &str, range: Range<usize>, size: [u32; 2], format: PixelFormat) -> Result<Self> {
         let program = ffmpeg_sidecar::paths::ffmpeg_path();
         let [width, height] = size;
         let (pixels, channels) = match format {
@@ -141,8 +167,7 @@ impl VideoDecoder {
         command.args(["-map", "0:v:0", "-an", "-sn", "-dn"]).args(passthrough_option(&program)?);
         // One conversion with rounding that does not depend on the processor's instruction set.
         command.arg("-vf").arg(format!(
-            "select=gte(n\\,{}),scale={width}:{height}:flags=area+accurate_rnd+full_chroma_int+bitexact,format={pixels}",
-            range.start
+            "select={select},scale={width}:{height}:flags=area+accurate_rnd+full_chroma_int+bitexact,format={pixels}"
         ));
         command.arg("-frames:v").arg(range.len().to_string()).args(["-bitexact", "-f", "rawvideo", "pipe:1"]);
         Ok(Self {

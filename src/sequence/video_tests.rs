@@ -42,12 +42,24 @@ fn every_frame_is_found_by_its_number() {
     let path = folder.path().join("-a 100%.mp4");
     make_video(&path.with_file_name("plain.mp4"), "320x240", 30, &["-bf", "2", "-g", "7"]);
     fs::rename(path.with_file_name("plain.mp4"), &path).unwrap();
-    assert_eq!(probe_video(&path).unwrap(), VideoInfo { size: [320, 240], frame_count: 30, rotation: 0 });
+    assert_eq!(
+        probe_video(&path).unwrap(),
+        VideoInfo { size: [320, 240], frame_count: 30, rotation: 0, fps: Some(25.0) }
+    );
     let all = decode(&path, 0..30, [160, 120]).unwrap();
     assert_eq!(all.len(), 30);
     assert!(all.windows(2).all(|pair| pair[0] != pair[1]), "the frames differ, so that a shift is seen");
     for range in [0..1, 6..9, 13..20, 29..30] {
         assert_eq!(decode(&path, range.clone(), [160, 120]).unwrap(), all[range]);
+    }
+    for (count, expected) in
+        [(30, (0..30).collect::<Vec<_>>()), (3, vec![9, 19, 29]), (7, vec![4, 8, 12, 17, 21, 25, 29])]
+    {
+        let mut decoder = VideoDecoder::open_spread(&path, 30, count, [160, 120]).unwrap();
+        for frame in expected {
+            assert_eq!(decoder.next_frame().unwrap().as_ref(), Some(&all[frame]), "{count} frames, frame {frame}");
+        }
+        assert_eq!(decoder.next_frame().unwrap(), None);
     }
 }
 

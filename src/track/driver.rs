@@ -8,6 +8,7 @@ use super::progress::Progress;
 use super::summary::TrackSummary;
 use super::unaided::with_start;
 use crate::files::OutputFolder;
+use crate::observe::{Plated, with_plates};
 use crate::sequence::Sequence;
 
 /// Tracks a sequence and fills `output` with what FORMATS calls a track's folder.
@@ -36,8 +37,10 @@ pub fn track(
         "{} has [[person]], and people who are tracked together are no part of this: expected `body` and `start` of one",
         sequence.path.display()
     );
-    let (sequence, found) = with_start(sequence, settings, output)?;
-    let planned = Planned::new(sequence.as_ref(), settings, output, found.into_iter().collect())?;
+    let plated = plated(sequence, settings, progress)?;
+    let (sequence, found) = with_start(&plated.sequence, settings, output, progress)?;
+    let warnings = plated.remarks().into_iter().chain(found).collect();
+    let planned = Planned::new(sequence.as_ref(), settings, output, warnings)?;
     let Begun { mut run, record, done, warnings } = planned.begin()?;
     progress.start(&run.start(done.len(), &warnings));
     run.take_over(done)?;
@@ -57,4 +60,19 @@ pub fn track(
     let finished = run.finish(&record, warnings);
     searched.map_err(|error| anyhow!("{error:#}; the {done} poses before it are in {}", output.path().display()))?;
     finished
+}
+
+/// The sequence with plates learnt where it has none. A run that keeps time has seen nothing yet, and learns as it goes.
+///
+/// # Errors
+/// As [`with_plates`].
+pub(super) fn plated<'a>(
+    sequence: &'a Sequence,
+    settings: &TrackSettings,
+    progress: &mut dyn Progress,
+) -> Result<Plated<'a>> {
+    if settings.realtime.is_some() {
+        return Ok(Plated::as_it_is(sequence));
+    }
+    with_plates(sequence, &mut |what, done, total| progress.preparing(what, done, total))
 }

@@ -49,7 +49,7 @@ mod unseen;
 pub use backend::{Backend, BuiltBackend};
 pub use confidence::{Confidence, FrameConfidence, JointConfidence, JointHints, LossRule, WRONG};
 pub use driver::track;
-pub use fit::{Coverage, Fit, FitSettings, fit};
+pub use fit::{Coverage, Fit, FitSettings, fit, fit_with};
 pub use frame_range::FrameRange;
 pub use journal::FrameResult;
 pub use motion::Width;

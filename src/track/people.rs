@@ -8,6 +8,7 @@ use anyhow::{Context, Result, bail, ensure};
 
 use super::begin::{Begun, Planned};
 use super::crowd::Crowd;
+use super::driver::plated;
 use super::feed::{Feed, Frames, Prepared};
 use super::journal::FrameResult;
 use super::progress::{FrameDone, Progress};
@@ -68,11 +69,13 @@ pub fn track_people(
         "{name} has [[person]], and several people are not tracked in real time: leave out --realtime"
     );
     ensure!(settings.start.is_none(), "{name} has [[person]], each with a start of her own: leave out --start");
+    let plated = plated(sequence, settings, progress)?;
+    let sequence = plated.sequence.as_ref();
     let alone: Vec<Sequence> = sequence.people.iter().map(|person| sequence.of_person(person)).collect();
     let folders = sequence.people.iter().map(|person| OutputFolder::open(&output.path().join(&person.name)));
     let folders = folders.collect::<Result<Vec<_>>>()?;
     let [first_alone, other_alone @ ..] = alone.as_slice() else { bail!("{name} has no [[person]]") };
-    let first = Planned::new(first_alone, settings, &folders[0], Vec::new())?;
+    let first = Planned::new(first_alone, settings, &folders[0], plated.remarks())?;
     // What suits one suits all; it is not measured again.
     let chosen = Backend::from_name(first.plan.backend.evaluator.name())?;
     let others = TrackSettings { backend: chosen, ..settings.clone() };

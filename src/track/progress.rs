@@ -8,6 +8,9 @@ pub trait Progress {
     /// A frame is done and safe.
     fn frame(&mut self, _frame: &FrameDone) {}
 
+    /// So many steps of so many are done of work that comes before the first frame; `what` says which.
+    fn preparing(&mut self, _what: &'static str, _done: usize, _total: usize) {}
+
     /// So many frames are done in the second pass too.
     fn looked_back(&mut self, _done: usize) {}
 

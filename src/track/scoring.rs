@@ -14,7 +14,9 @@ use crate::evaluate::{Components, Evaluator, Objective, Reference, SegmentSums};
 use crate::features::Observation;
 use crate::files::OutputFolder;
 use crate::geometry::Camera;
-use crate::observe::{Appearance, Observer, check_background, feature_settings, take_likelihoods, take_observations};
+use crate::observe::{
+    Appearance, Observer, check_background, feature_settings, take_likelihoods, take_observations, with_plates,
+};
 use crate::sequence::Sequence;
 
 /// Poses scored at once: enough to keep every worker busy, and a bound on the memory.
@@ -43,6 +45,8 @@ impl ScoredFrame {
             sequence.frame_count.saturating_sub(1)
         );
         let range = frame..frame + 1;
+        let plated = with_plates(sequence, &mut |_, _, _| {})?;
+        let sequence = plated.sequence.as_ref();
         check_background(sequence, &range)?;
         let mut settings = feature_settings(sequence)?;
         settings.likelihoods = objective.weighs_evidence();

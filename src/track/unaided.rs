@@ -6,7 +6,8 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, ensure};
 
-use super::fit::{Fit, FitSettings, fit};
+use super::fit::{Fit, FitSettings, fit_with};
+use super::progress::Progress;
 use super::{FrameRange, TrackSettings};
 use crate::files::{OutputFolder, Overwrite};
 use crate::sequence::Sequence;
@@ -22,11 +23,12 @@ const SAMPLES: usize = 6;
 /// keeps what was found when it began.
 ///
 /// # Errors
-/// As [`fit`]; when a live source brings no first pose, or what was found cannot be written.
+/// As [`super::fit`]; when a live source brings no first pose, or what was found cannot be written.
 pub(super) fn with_start<'a>(
     sequence: &'a Sequence,
     settings: &TrackSettings,
     output: &OutputFolder,
+    progress: &mut dyn Progress,
 ) -> Result<(Cow<'a, Sequence>, Option<String>)> {
     let names_start = settings.start.is_some() || sequence.start.is_some();
     if names_start && !sequence.needs_body() {
@@ -47,7 +49,7 @@ pub(super) fn with_start<'a>(
     let note = if is_there(&start) && (is_there(&body) || !sequence.needs_body()) {
         None
     } else {
-        let found = search(sequence, settings).with_context(|| {
+        let found = search(sequence, settings, progress).with_context(|| {
             format!("{name} names no start pose, and none was found in its first second; give one as `start` there or as --start")
         })?;
         if sequence.needs_body() {
@@ -64,10 +66,10 @@ pub(super) fn with_start<'a>(
 }
 
 /// Finds the person in the first second.
-fn search(sequence: &Sequence, settings: &TrackSettings) -> Result<Fit> {
+fn search(sequence: &Sequence, settings: &TrackSettings, progress: &mut dyn Progress) -> Result<Fit> {
     let range = settings.frames.within(sequence.frame_count, &sequence.path.display().to_string())?;
     let second = range.start.saturating_add((sequence.fps.ceil() as usize).max(1));
-    let mut found = fit(
+    let mut found = fit_with(
         sequence,
         &FitSettings {
             height: sequence.height,
@@ -79,6 +81,7 @@ fn search(sequence: &Sequence, settings: &TrackSettings) -> Result<Fit> {
             seed: settings.search.seed,
             ..FitSettings::default()
         },
+        &mut |what, done, total| progress.preparing(what, done, total),
     )?;
     // The frames after the first have told which pose it is; what a run starts from is the first alone.
     found.poses.frames.truncate(1);

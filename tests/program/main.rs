@@ -28,6 +28,7 @@ mod observe;
 mod obstacles;
 mod pages;
 mod people;
+mod plate;
 mod pose2sim;
 mod reliability;
 mod report_in_browser;

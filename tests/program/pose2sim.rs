@@ -105,7 +105,7 @@ fn a_session_is_tracked_and_written_as_pose2sim_writes_it() {
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines[0], "PathFileType\t4\t(X/Y/Z)\tTrial_1_1-4.trc");
     assert_eq!(lines[2], "25\t25\t4\t22\tm\t25\t1\t4");
-    assert_eq!(lines[3].split('\t').skip(2).step_by(3).collect::<Vec<_>>(), HALPE26);
+    assert_eq!(lines[3].trim_end().split('\t').skip(2).step_by(3).collect::<Vec<_>>(), HALPE26);
     assert!(lines[5].starts_with("1\t0.040000\t"), "{}", lines[5]);
     assert_eq!(lines.len(), 5 + 4);
 
@@ -148,7 +148,6 @@ fn only_what_is_missing_is_asked_for() {
         &session.run_alone("session", &[]),
         &["Trial_1/Config.toml: project.participant_height is 'auto'", "--height MM", "--body FILE"],
     );
-    refused(&session.run_alone("session", &["--height", "1750"]), &["the empty scene", "--plates DIR", "cam0.png"]);
     let plates = session.text("plates");
     fs::remove_file(session.path("plates/cam3.png")).unwrap();
     refused(&session.run_alone("session", &["--height", "1750", "--plates", &plates]), &["plates holds no cam3.png"]);
@@ -184,9 +183,11 @@ fn a_second_try_needs_no_force_and_a_stopped_run_is_gone_on_with() {
 
 /// The height comes from the configuration, body and first pose from the pictures.
 #[test]
-fn a_project_that_says_all_needs_plates_alone() {
+fn a_project_that_says_all_needs_no_more_than_plates() {
     let session = Session::new();
     session.write("session/Trial_1/Config.toml", "[project]\nparticipant_height = 1.75\nframe_range = [0, 1]\n");
+    // Six frames are too few to learn the empty scene from.
+    refused(&session.run_alone("session", &[]), &["neither a background picture nor masks", "learn the empty scene"]);
     let done = session.run_alone("session", &["--plates", &session.text("plates")]);
     succeeded(&done);
     assert!(session.path("session/Trial_1/pantin/track/found_body.toml").is_file());

@@ -3,11 +3,13 @@
 use anyhow::{Context, Result};
 
 use super::super::hull::Hull;
+use super::FitSettings;
 use super::scorer::{Scorer, proportions};
 use super::seen::Seen;
 use crate::body::{Body, Proportions};
 use crate::evaluate::{Objective, ObjectiveKind};
 use crate::geometry::Camera;
+use crate::observe::Advance;
 use crate::search::{SearchSettings, SearchSpace};
 
 /// Headings a first pose is searched from, evenly round the circle.
@@ -17,6 +19,8 @@ const ARMS: [f64; 3] = [10.0, 45.0, 88.0];
 /// Spreads, in steps of the body, that a promising first pose is searched with one after the other: an arm on the wrong
 /// side of the trunk needs a wide one to come round.
 const SPREADS: [f32; 4] = [4.0, 3.0, 2.0, 1.0];
+/// Spreads of a pose that is settled.
+const SETTLING: [f32; 2] = [2.0, 1.0];
 /// First poses that are followed further.
 const SURVIVORS: usize = 3;
 /// Times they are searched round once more.
@@ -38,6 +42,9 @@ pub(super) struct Fitter<'a> {
     objective: Objective,
     /// Searches done: each draws random numbers of its own.
     searches: u32,
+    /// Hears of the searches, of which there will be about as many as expected.
+    progress: &'a mut Advance<'a>,
+    expected: usize,
 }
 
 impl<'a> Fitter<'a> {
@@ -51,10 +58,42 @@ impl<'a> Fitter<'a> {
         seen: Seen,
         search: SearchSettings,
         objective: Objective,
+        progress: &'a mut Advance<'a>,
     ) -> Result<Self> {
         let first = if objective.weighs_evidence() { Objective::of(ObjectiveKind::Sp) } else { objective };
         let scorer = Scorer::new(body, cameras, &seen.observations, first)?;
-        Ok(Self { space: SearchSpace::of(body)?, search, scorer, cameras, seen, objective, searches: 0 })
+        Ok(Self {
+            space: SearchSpace::of(body)?,
+            search,
+            scorer,
+            cameras,
+            seen,
+            objective,
+            searches: 0,
+            progress,
+            expected: 0,
+        })
+    }
+
+    /// Works out how many searches there will be, for who waits: in `frames` frames, with a body that `is_measured` or is kept.
+    pub(super) fn expect(&mut self, frames: usize, settings: &FitSettings, is_measured: bool) {
+        let headings = if settings.heading.is_some() { 1 } else { HEADINGS };
+        let weighs_evidence = self.objective.weighs_evidence();
+        let first = match settings.start {
+            Some(_) if weighs_evidence => 0,
+            Some(_) => SETTLING.len(),
+            None => headings * (ARMS.len() + SPREADS.len()) + SURVIVORS.min(headings) * ENCORES * SPREADS.len(),
+        };
+        let followed = if settings.follow { 2 * frames.saturating_sub(1) * SPREADS.len() } else { 0 };
+        let settled = if weighs_evidence { 2 * SETTLING.len() } else { 0 };
+        let stretched = if is_measured { ROUNDS as usize * (1 + frames) } else { 0 };
+        self.expected = frames * (first + settled) + followed + stretched;
+    }
+
+    /// Counts a search that begins.
+    fn begin(&mut self) {
+        (self.progress)("fitting", (self.searches as usize).min(self.expected), self.expected);
+        self.searches += 1;
     }
 
     /// From here on poses are searched by evidence, of the colours that a person with this body has in `poses`.
@@ -71,7 +110,7 @@ impl<'a> Fitter<'a> {
         let mut search = SearchSettings { iterations, ..self.search }.build(&self.space)?;
         let steps = self.space.spread(1.0 / 25.0)?;
         let spread: Vec<f32> = steps.into_iter().map(|step| step * spread).collect();
-        self.searches += 1;
+        self.begin();
         let dofs = self.space.dof_count();
         let scorer = &self.scorer;
         let found = search.search_frame(self.searches, centre, &spread, &mut |rows, results| {
@@ -153,7 +192,7 @@ impl<'a> Fitter<'a> {
     }
 
     fn settled(&mut self, frame: usize, mut pose: Vec<f32>) -> Result<Vec<f32>> {
-        for spread in [2.0, 1.0] {
+        for spread in SETTLING {
             pose = self.pose(frame, &pose, spread, self.search.iterations)?.0;
         }
         Ok(pose)
@@ -198,7 +237,7 @@ impl<'a> Fitter<'a> {
             let narrow = NARROWING.powi(round) as f32;
             let spread: Vec<f32> = steps.iter().map(|step| step * narrow).collect();
             let mut search = self.search.build(&space)?;
-            self.searches += 1;
+            self.begin();
             let scorer = &self.scorer;
             let found = search.search_frame(self.searches, &centre, &spread, &mut |rows, results| {
                 scorer.people(body, dofs, rows, results)

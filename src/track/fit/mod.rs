@@ -20,6 +20,7 @@ use super::hull::Hull;
 use super::{FrameRange, ObjectiveChoice};
 use crate::body::{Body, PoseTable, Proportions};
 use crate::evaluate::ObjectiveKind;
+use crate::observe::{Advance, with_plates};
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::Sequence;
 
@@ -87,18 +88,31 @@ pub struct Fit {
     pub views: Vec<String>,
     /// Coverage of each view with the first poses, and in the end.
     pub coverage: [Vec<Coverage>; 2],
+    /// Sentences the user should read.
+    pub remarks: Vec<String>,
 }
 
 /// Measures the person in a sequence.
 ///
 /// # Errors
-/// When the sequence has a view without background and masks, pictures cannot be read, the silhouettes have no volume in
-/// common, or the body lacks the joints of the default one.
+/// When a view has neither background nor masks and its background cannot be learnt, pictures cannot be read, the silhouettes have no
+/// volume in common, or the body lacks the joints of the default one.
 pub fn fit(sequence: &Sequence, settings: &FitSettings) -> Result<Fit> {
+    fit_with(sequence, settings, &mut |_, _, _| {})
+}
+
+/// As [`fit`], and tells how far it is.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_with(sequence: &Sequence, settings: &FitSettings, progress: &mut Advance<'_>) -> Result<Fit> {
     let name = sequence.path.display().to_string();
     ensure!(settings.samples > 0, "0 frames were asked for, expected at least 1");
     let objective = settings.objective.resolve_over(ObjectiveKind::Evidence, sequence.objective.as_ref(), &name)?;
     let weighs_evidence = objective.weighs_evidence();
+    let plated = with_plates(sequence, progress)?;
+    let remarks = plated.remarks();
+    let sequence = plated.sequence.as_ref();
     let frames = sampled(settings.frames.within(sequence.frame_count, &name)?, settings.samples);
     let seen = Seen::look(sequence, &frames, weighs_evidence)?;
     let in_frame = |at: usize| format!("{name}, frame {}", frames[at]);
@@ -126,7 +140,8 @@ pub fn fit(sequence: &Sequence, settings: &FitSettings) -> Result<Fit> {
         ..SearchSettings::default()
     };
     search.check()?;
-    let mut fitter = Fitter::new(&body, &sequence.cameras, seen, search, objective)?;
+    let mut fitter = Fitter::new(&body, &sequence.cameras, seen, search, objective, progress)?;
+    fitter.expect(frames.len(), settings, height.is_some());
     let mut poses = match &settings.start {
         Some(path) => {
             let poses = start_poses(path, &body, &frames)?;
@@ -170,6 +185,7 @@ pub fn fit(sequence: &Sequence, settings: &FitSettings) -> Result<Fit> {
         fitness,
         views: sequence.cameras.iter().map(|camera| camera.name.clone()).collect(),
         coverage: [before, after],
+        remarks,
     })
 }
 

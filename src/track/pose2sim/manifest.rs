@@ -62,23 +62,14 @@ pub fn pose2sim_manifest(trial: &Pose2SimTrial, given: &Pose2SimGiven) -> Result
              measured, --body FILE"
         ),
     }
-    // A first pose is found by silhouettes, which need plates; a background is learnt while a person moves.
-    let needs_plates = given.body.is_none() || !given.has_start;
+    // Without plates the empty scene is learnt from the whole recordings.
     let mut views = Vec::new();
     for view in &trial.views {
         let mut table = Table::new();
         table.insert("camera".into(), Value::String(view.camera.clone()));
         table.insert("source".into(), path(&view.source));
-        match &given.plates {
-            Some(plates) => {
-                table.insert("background".into(), path(&plate(plates, trial, view)?));
-            }
-            None if needs_plates => bail!(
-                "{}: nothing shows the empty scene, which the first pose is found by: give --plates DIR with {}.png and so on",
-                trial.dir.display(),
-                view.camera
-            ),
-            None => {}
+        if let Some(plates) = &given.plates {
+            table.insert("background".into(), path(&plate(plates, trial, view)?));
         }
         views.push(Value::Table(table));
     }

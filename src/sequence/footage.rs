@@ -1,0 +1,152 @@
+//! A video or numbered pictures by themselves: what one camera saw, without a manifest that names it.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, bail, ensure};
+use image::RgbImage;
+
+use super::pictures::{PicturePattern, picture_size, read_picture};
+use super::resample::area_average;
+use super::source::Source;
+use super::video::{VideoDecoder, VideoInfo, probe_video};
+
+/// A video or numbered pictures (`frames/cam01_%04d.png`), looked at and not yet read.
+#[derive(Clone, Debug)]
+pub struct Footage {
+    /// Its name in messages.
+    pub shown: String,
+    /// Where its pictures come from.
+    pub source: Source,
+    /// Size of its pictures as they are stored, pixels, width then height.
+    pub size: [u32; 2],
+    /// Number of frames.
+    pub frame_count: usize,
+    /// What a player would turn the pictures by, degrees; ignored when reading.
+    pub rotation: i32,
+    /// Frames per second, where a video tells.
+    pub fps: Option<f64>,
+}
+
+impl Footage {
+    /// Looks at a file that ffmpeg reads, or at numbered pictures; videos are counted, not decoded.
+    ///
+    /// # Errors
+    /// As [`probe_video`] and [`PicturePattern::open`].
+    pub fn open(file: &Path) -> Result<Self> {
+        let shown = file.display().to_string();
+        if is_pattern(file) {
+            let pattern = PicturePattern::open(file)?;
+            let (size, frame_count) = (picture_size(&pattern.file(0))?, pattern.frame_count());
+            return Ok(Self { shown, source: Source::Pictures(pattern), size, frame_count, rotation: 0, fps: None });
+        }
+        ensure!(
+            file.is_file(),
+            "there is no file {shown}, expected a video or numbered pictures (frames/cam01_%04d.png)"
+        );
+        let VideoInfo { size, frame_count, rotation, fps } = probe_video(file)?;
+        Ok(Self { shown, source: Source::Video(file.to_path_buf()), size, frame_count, rotation, fps })
+    }
+
+    /// `count` of its frames at `size`, evenly spread over all; all frames where there are fewer.
+    ///
+    /// # Errors
+    /// When a decoder cannot be started, or it is live.
+    pub fn spread(&self, count: usize, size: [u32; 2]) -> Result<SpreadFrames> {
+        let count = count.min(self.frame_count);
+        let frames = match &self.source {
+            Source::Video(path) => Frames::Video(VideoDecoder::open_spread(path, self.frame_count, count, size)?),
+            Source::Pictures(pattern) => Frames::Pictures(pattern.clone()),
+            Source::Live(live) => bail!("{} is live, expected a recording", live.address),
+        };
+        Ok(SpreadFrames { frames, stored: self.size, size, total: self.frame_count, count, next: 0 })
+    }
+}
+
+/// Whether a name is one of numbered pictures. A file may carry a percent sign in its plain name; then it is that file.
+pub(super) fn is_pattern(file: &Path) -> bool {
+    file.file_name().is_some_and(|name| name.to_string_lossy().contains('%')) && !file.is_file()
+}
+
+/// Frames that are evenly spread over footage, one after the other.
+#[derive(Debug)]
+pub struct SpreadFrames {
+    frames: Frames,
+    stored: [u32; 2],
+    size: [u32; 2],
+    total: usize,
+    count: usize,
+    next: usize,
+}
+
+#[derive(Debug)]
+enum Frames {
+    Video(VideoDecoder),
+    Pictures(PicturePattern),
+}
+
+impl Iterator for SpreadFrames {
+    type Item = Result<RgbImage>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.next >= self.count {
+            return None;
+        }
+        self.next += 1;
+        let read = self.read();
+        if read.is_err() {
+            self.next = self.count;
+        }
+        Some(read)
+    }
+}
+
+impl SpreadFrames {
+    fn read(&mut self) -> Result<RgbImage> {
+        let [width, height] = self.size;
+        match &mut self.frames {
+            Frames::Video(decoder) => {
+                let bytes = decoder.next_frame()?.unwrap_or_default();
+                RgbImage::from_raw(width, height, bytes).context("a frame has too few bytes")
+            }
+            // The same frames as a video's: the last of each share.
+            Frames::Pictures(pattern) => {
+                let frame = (self.next * self.total).div_ceil(self.count) - 1;
+                let picture = read_picture(&pattern.file(frame), &[self.stored])?;
+                Ok(area_average(picture.into_rgb8(), self.size))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::video::tests::{ffmpeg_is_here, make_video};
+    use super::*;
+
+    #[test]
+    fn frames_of_pictures_and_of_a_video_are_the_same_ones() {
+        let folder = tempfile::tempdir().unwrap();
+        for frame in 0..10_u8 {
+            let picture = RgbImage::from_pixel(8, 6, image::Rgb([frame * 20; 3]));
+            picture.save(folder.path().join(format!("p_{frame:02}.png"))).unwrap();
+        }
+        let footage = Footage::open(&folder.path().join("p_%02d.png")).unwrap();
+        assert_eq!((footage.size, footage.frame_count, footage.fps), ([8, 6], 10, None));
+        let shown = |count| -> Vec<u8> {
+            footage.spread(count, [4, 3]).unwrap().map(|picture| picture.unwrap().get_pixel(0, 0)[0] / 20).collect()
+        };
+        assert_eq!((shown(4), shown(10), shown(99)), (vec![2, 4, 7, 9], (0..10).collect(), (0..10).collect()));
+        if !ffmpeg_is_here("frames_of_pictures_and_of_a_video_are_the_same_ones") {
+            return;
+        }
+        let path = folder.path().join("v.mp4");
+        make_video(&path, "64x48", 10, &[]);
+        let video = Footage::open(&path).unwrap();
+        assert_eq!((video.size, video.frame_count, video.fps), ([64, 48], 10, Some(25.0)));
+        let all: Vec<_> = video.spread(10, [64, 48]).unwrap().map(Result::unwrap).collect();
+        let some: Vec<_> = video.spread(4, [64, 48]).unwrap().map(Result::unwrap).collect();
+        assert_eq!(some, [2, 4, 7, 9].map(|frame: usize| all[frame].clone()));
+        let error = format!("{:#}", Footage::open(&folder.path().join("none.mp4")).unwrap_err());
+        assert!(error.contains("none.mp4, expected a video or numbered pictures"), "{error}");
+    }
+}
