@@ -24,6 +24,7 @@ mod pose2sim;
 mod progress;
 mod realtime_flags;
 mod score;
+mod start;
 mod study;
 mod synth;
 mod texture;
@@ -75,6 +76,7 @@ enum Command {
     /// Track a project of Pose2Sim: its Config.toml, calibration and videos in, pose-3d/*.trc out.
     #[command(name = "pose2sim")]
     Pose2Sim(pose2sim::Pose2SimArgs),
+    Start(start::StartArgs),
     /// Run many settings over many sequences and seeds, and compare them in tables and plots.
     Study(study::StudyArgs),
     Synth(synth::SynthArgs),
@@ -121,6 +123,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Man(args) => pages::man(&args, Arguments::command()),
         Command::Matrix(args) => matrix::run(&args),
         Command::Pose2Sim(args) => pose2sim::run(&args),
+        Command::Start(args) => start::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Synth(args) => synth::run(&args),
         Command::Texture(args) => texture::run(&args),

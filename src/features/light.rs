@@ -56,6 +56,11 @@ pub(super) fn gains(picture: &RgbImage, background: &RgbImage) -> [f32; 3] {
     ratios.gains()
 }
 
+/// A colour whose channels are multiplied with `dim`.
+pub(super) fn lit(colour: [u8; 3], dim: [f32; 3]) -> [i16; 3] {
+    [0, 1, 2].map(|channel: usize| (f32::from(colour[channel]) * dim[channel] + 0.5) as i16)
+}
+
 /// The median of counted ratios (steps of 1/[`STEPS`]); 1 when none was counted.
 fn median(counts: &[u32]) -> f32 {
     let half = counts.iter().sum::<u32>() / 2;

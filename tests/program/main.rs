@@ -22,6 +22,7 @@ mod evaluate;
 mod evidence;
 mod example_bodies;
 mod features;
+mod first_try;
 mod losses;
 mod matrix;
 mod observe;

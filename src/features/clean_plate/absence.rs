@@ -4,8 +4,8 @@ use image::RgbImage;
 
 use super::super::BitImage;
 use super::super::blobs::Components;
+use super::super::light::lit;
 use super::super::morphology::{Element, Morphology, Shape};
-use super::lit;
 
 /// A pixel this far from the estimate, grey levels in RGB, shows something else: shadows are left out as well.
 const DIFFERENT: i32 = 24;

@@ -18,7 +18,7 @@ use self::absence::Absence;
 use self::colours::Colours;
 use self::fill::fill_in;
 use super::blobs::Components;
-use super::light::gains;
+use super::light::{gains, lit};
 use super::morphology::{Element, Morphology, Shape};
 use super::{BitImage, Region};
 
@@ -38,6 +38,8 @@ const CLEAR: f32 = 0.3;
 const SAME_LIGHT: f32 = 0.004;
 /// Doubtful places smaller than this share of the picture are the noise of edges.
 const LEAST_DOUBT: f64 = 2e-4;
+/// All doubtful places of one kind together are worth a word from this share of the picture on.
+const LEAST_SAID: f64 = 2e-3;
 
 /// A picture of the empty scene that was learnt.
 #[derive(Clone, Debug)]
@@ -236,7 +238,7 @@ impl<'a> Lesson<'a> {
         }
         let doubt = |kind: DoubtKind, where_: &BitImage| {
             let share = f64::from(where_.count()) / (f64::from(width) * f64::from(height));
-            where_.bounds().map(|bounds| Doubt { kind, share, bounds })
+            where_.bounds().filter(|_| share >= LEAST_SAID).map(|bounds| Doubt { kind, share, bounds })
         };
         let doubts = [doubt(DoubtKind::NeverEmpty, &never), doubt(DoubtKind::Unclear, &unclear)];
         fill_in(&mut picture, &never);
@@ -249,11 +251,6 @@ impl<'a> Lesson<'a> {
             doubts: doubts.into_iter().flatten().collect(),
         }
     }
-}
-
-/// A colour in another light.
-fn lit(colour: [u8; 3], dim: [f32; 3]) -> [i16; 3] {
-    [0, 1, 2].map(|channel: usize| (f32::from(colour[channel]) * dim[channel] + 0.5) as i16)
 }
 
 /// Without specks.

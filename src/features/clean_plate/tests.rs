@@ -23,7 +23,7 @@ fn room() -> RgbImage {
 /// colour.
 fn person(x: u32, y: u32, at: u32) -> Option<[u8; 3]> {
     let inside = (at..at + 12).contains(&x) && (15..55).contains(&y);
-    inside.then(|| match y {
+    inside.then_some(match y {
         15..22 => [130, 120, 105],
         22..40 => [190, 40, 40],
         _ => [30, 40, 90],

@@ -3,7 +3,6 @@
 use anyhow::{Context, Result};
 
 use super::super::hull::Hull;
-use super::FitSettings;
 use super::scorer::{Scorer, proportions};
 use super::seen::Seen;
 use crate::body::{Body, Proportions};
@@ -75,16 +74,24 @@ impl<'a> Fitter<'a> {
         })
     }
 
-    /// Works out how many searches there will be, for who waits: in `frames` frames, with a body that `is_measured` or is kept.
-    pub(super) fn expect(&mut self, frames: usize, settings: &FitSettings, is_measured: bool) {
-        let headings = if settings.heading.is_some() { 1 } else { HEADINGS };
+    /// Works out how many searches there will be, for who waits: in `frames` frames, with poses to start from or
+    /// one heading of all, with frames that are followed, and with a body that is measured or kept.
+    pub(super) fn expect(
+        &mut self,
+        frames: usize,
+        has_start: bool,
+        has_heading: bool,
+        follows: bool,
+        is_measured: bool,
+    ) {
+        let headings = if has_heading { 1 } else { HEADINGS };
         let weighs_evidence = self.objective.weighs_evidence();
-        let first = match settings.start {
-            Some(_) if weighs_evidence => 0,
-            Some(_) => SETTLING.len(),
-            None => headings * (ARMS.len() + SPREADS.len()) + SURVIVORS.min(headings) * ENCORES * SPREADS.len(),
+        let first = match has_start {
+            true if weighs_evidence => 0,
+            true => SETTLING.len(),
+            false => headings * (ARMS.len() + SPREADS.len()) + SURVIVORS.min(headings) * ENCORES * SPREADS.len(),
         };
-        let followed = if settings.follow { 2 * frames.saturating_sub(1) * SPREADS.len() } else { 0 };
+        let followed = if follows { 2 * frames.saturating_sub(1) * SPREADS.len() } else { 0 };
         let settled = if weighs_evidence { 2 * SETTLING.len() } else { 0 };
         let stretched = if is_measured { ROUNDS as usize * (1 + frames) } else { 0 };
         self.expected = frames * (first + settled) + followed + stretched;

@@ -141,7 +141,13 @@ pub fn fit_with(sequence: &Sequence, settings: &FitSettings, progress: &mut Adva
     };
     search.check()?;
     let mut fitter = Fitter::new(&body, &sequence.cameras, seen, search, objective, progress)?;
-    fitter.expect(frames.len(), settings, height.is_some());
+    fitter.expect(
+        frames.len(),
+        settings.start.is_some(),
+        settings.heading.is_some(),
+        settings.follow,
+        height.is_some(),
+    );
     let mut poses = match &settings.start {
         Some(path) => {
             let poses = start_poses(path, &body, &frames)?;

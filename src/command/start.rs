@@ -1,0 +1,122 @@
+//! `pantin start`.
+
+use std::path::PathBuf;
+
+use anyhow::{Result, bail};
+
+use super::fit::summary;
+use super::output::{put, say, tell};
+use super::progress::WorkBar;
+use crate::files::Overwrite;
+use crate::track::{FirstTry, FirstTrySettings, FirstView, FitSettings, FrameRange, first_try};
+
+/// Makes all that a first track needs from your videos, their calibration and the person's height.
+///
+/// Writes sequence.toml, plates/ (the empty scene, learnt from each whole video), body.toml and start.csv (the person measured in frame
+/// 0, where a T-pose shows most) and look/ (pictures of what is taken for the person, and of the body over it), and says what it saw and
+/// what to do next. Videos are matched to cameras by name: cam01.mp4, or walk_cam01.mp4, is camera cam01's.
+#[derive(clap::Args, Debug)]
+pub(super) struct StartArgs {
+    /// A video a camera, or numbered pictures: frames/cam01_%04d.png.
+    #[arg(value_name = "VIDEO", required = true, num_args = 2..)]
+    videos: Vec<PathBuf>,
+    /// The calibration: Pose2Sim, anipose or caliscope TOML, Qualisys .qca.txt, OpenCV YAML or XML.
+    #[arg(long, value_name = "FILE")]
+    cameras: PathBuf,
+    /// Height of the person, with shoes and hair, mm.
+    #[arg(long, value_name = "MM")]
+    height: f64,
+    /// The folder to make.
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Frames per second [default: what the videos say].
+    #[arg(long, value_name = "FPS")]
+    fps: Option<f64>,
+    /// Working size over stored size [default: such that the person is some 220 pixels tall].
+    #[arg(long, value_name = "S")]
+    scale: Option<f64>,
+    /// Frames that the person is measured in: A..B without B, A.., or ..B; counted from 0.
+    #[arg(long, value_name = "A..B", default_value = "0..1")]
+    frames: FrameRange,
+    /// Where the person faces: degrees, 0 along x, 90 along y [default: tries all round].
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    heading: Option<f64>,
+    /// Poses scored at once.
+    #[arg(long, value_name = "N", default_value_t = FitSettings::default().particles)]
+    particles: usize,
+    /// Times that many poses are scored in a round.
+    #[arg(long, value_name = "K", default_value_t = FitSettings::default().iterations)]
+    iterations: usize,
+    /// Replace sequence.toml, body.toml, start.csv and the plates.
+    #[arg(long)]
+    force: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// As [`first_try`]; and when nobody could be measured.
+pub(super) fn run(args: &StartArgs) -> Result<()> {
+    if let Some(heading) = args.heading.filter(|heading| !(-360.0..=360.0).contains(heading)) {
+        bail!("--heading is {heading}, expected -360 to 360 degrees");
+    }
+    if let Some(scale) = args.scale.filter(|scale| !(*scale > 0.0 && *scale <= 1.0)) {
+        bail!("--scale is {scale}, expected more than 0 and at most 1");
+    }
+    let name = args.output.file_name().map_or_else(|| "walk".into(), |name| name.to_string_lossy().into_owned());
+    let settings = FirstTrySettings {
+        videos: args.videos.clone(),
+        cameras: args.cameras.clone(),
+        name,
+        fps: args.fps,
+        scale: args.scale,
+        fit: FitSettings {
+            height: Some(args.height),
+            frames: args.frames,
+            heading: args.heading,
+            particles: args.particles,
+            iterations: args.iterations,
+            ..FitSettings::default()
+        },
+        overwrite: if args.force { Overwrite::Replace } else { Overwrite::Refuse },
+    };
+    let mut bar = WorkBar::default();
+    let made = first_try(&settings, &args.output, &mut |what, done, total| bar.show(what, done, total))?;
+    drop(bar);
+    told(&made, args)
+}
+
+/// What was made, and what to do next.
+fn told(made: &FirstTry, args: &StartArgs) -> Result<()> {
+    let folder = args.output.display();
+    say!("{}: {} frames, {:.2} a second, scale {}", made.manifest.display(), made.frame_count, made.fps, made.scale);
+    for FirstView { camera, video, size: [width, height], person, learnt_from, .. } in &made.views {
+        let person = person.map(|tall| format!(", a person some {tall:.0} pixels tall")).unwrap_or_default();
+        let video = video.display();
+        say!("  {camera}: {video}, {width}x{height}{person}, plate from {learnt_from} pictures");
+    }
+    for remark in &made.remarks {
+        tell!("note: {remark}");
+    }
+    let fit = match &made.fit {
+        Ok(fit) => fit,
+        Err(why) => bail!(
+            "nobody could be measured ({why}); the rest is made: look at {folder}/look/silhouettes.png, whether the person and nothing \
+             else is outlined, and where it is not film the empty scene, or try other frames: `pantin fit {folder} -o \
+             {folder}/body.toml --start-out {folder}/start.csv --frames A..B`"
+        ),
+    };
+    put!("{}", summary(fit));
+    say!("look at {folder}/look/silhouettes.png: the outline should hold the person and nothing else");
+    if made.fits() {
+        say!("look at {folder}/look/body.png: the body should lie on the person in every view");
+    } else {
+        say!(
+            "look at {folder}/look/body.png: the body and the outline differ by more than a third in a view. Is the outline the person's? Are \
+             arms and legs apart in that frame? Else measure another one: pantin start ... --frames A..B --force, with --heading if back and front are exchanged"
+        );
+    }
+    say!("then: pantin check {folder}");
+    say!("      pantin track {folder} -o {folder}-track");
+    Ok(())
+}

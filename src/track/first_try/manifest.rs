@@ -1,0 +1,99 @@
+//! The manifest of a first try, as text.
+
+use std::fmt::Write as _;
+use std::path::{Component, Path, PathBuf};
+
+use anyhow::{Context, Result};
+
+/// A view of the manifest.
+pub(super) struct ManifestView<'a> {
+    pub(super) camera: &'a str,
+    pub(super) source: &'a Path,
+    /// Its plate, seen from the manifest's folder.
+    pub(super) plate: Option<String>,
+}
+
+/// What a manifest is written from.
+pub(super) struct ManifestText<'a> {
+    pub(super) name: &'a str,
+    pub(super) fps: f64,
+    pub(super) cameras: &'a Path,
+    pub(super) height: f64,
+    pub(super) scale: f64,
+    pub(super) views: Vec<ManifestView<'a>>,
+}
+
+impl ManifestText<'_> {
+    /// The text of a sequence.toml in `folder`, which is there.
+    ///
+    /// # Errors
+    /// When a file is not there, or has a name that no TOML holds.
+    pub(super) fn text(&self, folder: &Path) -> Result<String> {
+        let mut text = String::from(
+            "# Written by `pantin start`; docs/FORMATS.md has every key. Paths are seen from this folder.\n",
+        );
+        let cameras = quoted(&seen_from(folder, self.cameras)?);
+        // Writing into a String cannot fail.
+        let _ = writeln!(text, "name = {}\nfps = {:?}\ncameras = {cameras}", quoted(self.name), self.fps);
+        let _ = writeln!(text, "body = \"body.toml\"\nstart = \"start.csv\"\nheight = {:?}", self.height);
+        let _ = writeln!(text, "scale = {:?}", self.scale);
+        for view in &self.views {
+            let source = quoted(&seen_from(folder, view.source)?);
+            let _ = writeln!(text, "\n[[view]]\ncamera = {}\nsource = {source}", quoted(view.camera));
+            if let Some(plate) = &view.plate {
+                let _ = writeln!(text, "background = {}", quoted(plate));
+            }
+        }
+        Ok(text)
+    }
+}
+
+fn quoted(text: &str) -> String {
+    toml::Value::String(text.to_string()).to_string()
+}
+
+/// A file, which may be a pattern of numbered pictures, as seen from a folder.
+fn seen_from(folder: &Path, file: &Path) -> Result<String> {
+    let absolute = |path: &Path| path.canonicalize().with_context(|| format!("cannot find {}", path.display()));
+    let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let (folder, parent) = (absolute(folder)?, absolute(parent)?);
+    let common = folder.components().zip(parent.components()).take_while(|(a, b)| a == b).count();
+    let mut seen = PathBuf::new();
+    // Two files that share nothing but the root are named from there: the way up says nothing.
+    if common <= 1 {
+        seen.push(&parent);
+    } else {
+        folder.components().skip(common).for_each(|_| seen.push(Component::ParentDir));
+        parent.components().skip(common).for_each(|part| seen.push(part));
+    }
+    seen.push(file.file_name().unwrap_or_default());
+    seen.into_os_string()
+        .into_string()
+        .map_err(|name| anyhow::anyhow!("{} is no UTF-8, expected another name", name.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_named_from_the_folder_and_odd_names_survive() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        for name in ["walk", "videos"] {
+            std::fs::create_dir(at(name)).unwrap();
+        }
+        assert_eq!(seen_from(&at("walk"), &at("videos/a.mp4")).unwrap(), "../videos/a.mp4");
+        assert_eq!(seen_from(&at("walk"), &at("walk/a_%04d.png")).unwrap(), "a_%04d.png");
+        assert!(seen_from(&at("walk"), &at("none/a.mp4")).unwrap_err().to_string().contains("cannot find"));
+        let cameras = at("cameras.toml");
+        let source = at("videos/the \"first\".mp4");
+        let views = vec![ManifestView { camera: "c \\1", source: &source, plate: Some("plates/c.png".into()) }];
+        let text = ManifestText { name: "a \"b\"", fps: 25.0, cameras: &cameras, height: 1720.0, scale: 0.25, views };
+        let table: toml::Table = text.text(&at("walk")).unwrap().parse().unwrap();
+        assert_eq!(table["name"].as_str(), Some("a \"b\""));
+        assert_eq!(table["view"][0]["camera"].as_str(), Some("c \\1"));
+        assert_eq!(table["view"][0]["source"].as_str(), Some("../videos/the \"first\".mp4"));
+        assert_eq!(table["cameras"].as_str(), Some("../cameras.toml"));
+    }
+}

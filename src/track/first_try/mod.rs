@@ -1,0 +1,222 @@
+//! Everything that a first track needs, made from videos, their cameras and the person's height: manifest, plates, body, first pose,
+//! and pictures to look at.
+
+mod looked;
+mod manifest;
+mod matching;
+mod scale;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail, ensure};
+use image::codecs::png::PngEncoder;
+
+use self::looked::look;
+use self::manifest::{ManifestText, ManifestView};
+use self::matching::match_cameras;
+use self::scale::{ChosenScale, choose_scale};
+use super::fit::{Coverage, Fit, FitSettings, fit_with};
+use super::overlay::file_stem;
+use crate::files::{OutputFolder, Overwrite, write_atomically};
+use crate::geometry::Camera;
+use crate::observe::{Advance, with_plates};
+use crate::sequence::{Footage, Sequence, read_cameras};
+
+/// Rates of frames that differ by less than this share are one rate.
+const SAME_RATE: f64 = 1e-3;
+/// A body that covers less of the silhouettes than this, or lies on them with less, does not fit.
+const FITS: f64 = 0.65;
+
+/// What a first try is made from.
+#[derive(Clone, Debug)]
+pub struct FirstTrySettings {
+    /// A video, or numbered pictures, a camera; called after it.
+    pub videos: Vec<PathBuf>,
+    /// The calibration.
+    pub cameras: PathBuf,
+    /// The sequence's name.
+    pub name: String,
+    /// Frames per second; those of the videos without.
+    pub fps: Option<f64>,
+    /// Working size over stored size; chosen by how tall the person is in the pictures without.
+    pub scale: Option<f64>,
+    /// How the person is measured; its height must be there.
+    pub fit: FitSettings,
+    /// Whether files that are there may be replaced.
+    pub overwrite: Overwrite,
+}
+
+/// A view of a first try.
+#[derive(Clone, Debug)]
+pub struct FirstView {
+    /// The camera's name.
+    pub camera: String,
+    /// Its video.
+    pub video: PathBuf,
+    /// Size of its pictures as they are stored, pixels.
+    pub size: [u32; 2],
+    /// Frames per second, where the file tells.
+    pub fps: Option<f64>,
+    /// How tall somebody is where the cameras look, pixels at the working size.
+    pub person: Option<f64>,
+    /// Pictures that the plate was learnt from.
+    pub learnt_from: usize,
+}
+
+/// A first try that is made.
+#[derive(Clone, Debug)]
+pub struct FirstTry {
+    /// The manifest.
+    pub manifest: PathBuf,
+    /// Frames per second.
+    pub fps: f64,
+    /// Frames in every view.
+    pub frame_count: usize,
+    /// Working size over stored size.
+    pub scale: f64,
+    /// The views, in the order of the videos.
+    pub views: Vec<FirstView>,
+    /// The measured person; why not, where it could not be.
+    pub fit: Result<Fit, String>,
+    /// Pictures to look at.
+    pub looks: Vec<PathBuf>,
+    /// Sentences the user should read.
+    pub remarks: Vec<String>,
+}
+
+impl FirstTry {
+    /// Whether the body lies on the silhouettes of every view.
+    pub fn fits(&self) -> bool {
+        let fits = |coverage: &Coverage| coverage.seen >= FITS && coverage.drawn >= FITS;
+        self.fit.as_ref().is_ok_and(|fit| fit.coverage[1].iter().all(fits))
+    }
+}
+
+/// Makes sequence.toml, plates/, body.toml, start.csv and look/ in `folder`. Where nobody could be measured all but the body and the
+/// pose is there, and the result says why.
+///
+/// # Errors
+/// When a video is of no camera or of another size than its camera, no rate is known, a file is there and may not be replaced, a
+/// background cannot be learnt, or something cannot be read or written.
+pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Advance<'_>) -> Result<FirstTry> {
+    ensure!(settings.videos.len() >= 2, "{} videos were given, expected two or more", settings.videos.len());
+    let height = settings.fit.height.context("the person's height is not known, expected it in mm")?;
+    ensure!((500.0..=2500.0).contains(&height), "the person's height is {height}, expected 500 to 2500 mm");
+    let all_cameras = read_cameras(&settings.cameras)?;
+    let matched = match_cameras(&settings.videos, &all_cameras)?;
+    let cameras: Vec<Camera> = matched.iter().map(|&at| all_cameras[at].clone()).collect();
+    let footage = settings.videos.iter().map(|video| Footage::open(video)).collect::<Result<Vec<_>>>()?;
+    for (footage, camera) in footage.iter().zip(&cameras) {
+        let ([width, height], [wide, high]) = (footage.size, camera.size);
+        ensure!(
+            footage.size == camera.size,
+            "{} has pictures of {width}x{height} pixels, but camera {:?} is calibrated for {wide}x{high}",
+            footage.shown,
+            camera.name
+        );
+    }
+    let mut remarks = unused(&all_cameras, &matched);
+    let fps = rate(settings.fps, &footage, &mut remarks)?;
+    let ChosenScale { scale, heights } = match settings.scale {
+        Some(scale) => choose_scale(&cameras, height).at(scale),
+        None => choose_scale(&cameras, height),
+    };
+    let plate_of = |camera: &Camera| format!("plates/{}.png", file_stem(&camera.name));
+    let names = ["sequence.toml", "body.toml", "start.csv"].map(String::from);
+    for name in names.into_iter().chain(cameras.iter().map(plate_of)) {
+        settings.overwrite.check(&folder.join(name))?;
+    }
+    let output = OutputFolder::open(folder)?;
+    let manifest = output.file("sequence.toml")?;
+    let write_manifest = |with_plates: bool, overwrite: Overwrite| {
+        let views = cameras.iter().zip(&settings.videos);
+        let views = views
+            .map(|(camera, source)| ManifestView {
+                camera: &camera.name,
+                source,
+                plate: with_plates.then(|| plate_of(camera)),
+            })
+            .collect();
+        let text = ManifestText { name: &settings.name, fps, cameras: &settings.cameras, height, scale, views };
+        let text = text.text(output.path())?;
+        write_atomically(&manifest, overwrite, |writer| Ok(writer.write_all(text.as_bytes())?))
+    };
+    write_manifest(false, settings.overwrite)?;
+    let (frame_count, learnt) = {
+        let sequence = Sequence::open_unfitted(&manifest)?;
+        let plated = with_plates(&sequence, progress)?;
+        remarks.extend(plated.remarks());
+        (sequence.frame_count, plated.learnt)
+    };
+    for (camera, learnt) in cameras.iter().zip(&learnt) {
+        output.write(&plate_of(camera), |writer| {
+            Ok(learnt.plate.picture.write_with_encoder(PngEncoder::new(writer))?)
+        })?;
+    }
+    write_manifest(true, Overwrite::Replace)?;
+    let sequence = Sequence::open_unfitted(&manifest)?;
+    let fit = fit_with(&sequence, &settings.fit, progress).map_err(|error| format!("{error:#}"));
+    if let Ok(fit) = &fit {
+        let text = format!("# Measured by `pantin start` on {}.\n\n{}", sequence.name, fit.body.to_toml());
+        output.write("body.toml", |writer| Ok(writer.write_all(text.as_bytes())?))?;
+        fit.poses.write(&output.file("start.csv")?, Overwrite::Replace, &fit.body)?;
+    }
+    let frame = settings.fit.frames.within(frame_count, &sequence.path.display().to_string())?.start;
+    let looks = look(&sequence, frame, fit.as_ref().ok(), &output)?;
+    let views = cameras.iter().zip(&footage).zip(heights).zip(&learnt);
+    let views = views.map(|(((camera, footage), person), learnt)| FirstView {
+        camera: camera.name.clone(),
+        video: PathBuf::from(&footage.shown),
+        size: footage.size,
+        fps: footage.fps,
+        person,
+        learnt_from: learnt.plate.pictures,
+    });
+    Ok(FirstTry { manifest: manifest.clone(), fps, frame_count, scale, views: views.collect(), fit, looks, remarks })
+}
+
+/// A sentence about cameras that no video is of.
+fn unused(cameras: &[Camera], matched: &[usize]) -> Vec<String> {
+    let unused = cameras.iter().enumerate().filter(|(at, _)| !matched.contains(at));
+    let names: Vec<&str> = unused.map(|(_, camera)| camera.name.as_str()).collect();
+    if names.is_empty() { Vec::new() } else { vec![format!("no video is of camera {}", names.join(", "))] }
+}
+
+/// Frames per second: what is asked for, or the first video's.
+fn rate(asked: Option<f64>, footage: &[Footage], remarks: &mut Vec<String>) -> Result<f64> {
+    let said: Vec<(&str, f64)> = footage.iter().filter_map(|one| Some((one.shown.as_str(), one.fps?))).collect();
+    let Some(fps) = asked.or_else(|| said.first().map(|(_, fps)| *fps)) else {
+        bail!("numbered pictures do not tell how many frames a second they are, expected --fps");
+    };
+    ensure!(fps.is_finite() && fps > 0.0, "fps is {fps}, expected a positive number of frames per second");
+    if let Some((other, rate)) = said.iter().find(|(_, rate)| (rate / fps - 1.0).abs() > SAME_RATE) {
+        remarks.push(format!(
+            "{other} says {rate:.3} frames a second, and {fps:.3} are taken: frames that were not taken at the same moment cannot be \
+             put together (--fps says otherwise)"
+        ));
+    }
+    Ok(fps)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sequence::Source;
+
+    fn footage(fps: Option<f64>) -> Footage {
+        let source = Source::Video("v.mp4".into());
+        Footage { shown: "v.mp4".into(), source, size: [8, 8], frame_count: 9, rotation: 0, fps }
+    }
+
+    #[test]
+    fn rates_that_differ_are_said_and_a_missing_one_is_asked_for() {
+        let mut remarks = Vec::new();
+        assert_eq!(rate(None, &[footage(Some(29.97)), footage(Some(29.98))], &mut remarks).unwrap(), 29.97);
+        assert!(remarks.is_empty(), "{remarks:?}");
+        assert_eq!(rate(None, &[footage(Some(30.0)), footage(Some(25.0))], &mut remarks).unwrap(), 30.0);
+        assert!(remarks[0].contains("v.mp4 says 25.000 frames a second, and 30.000 are taken"), "{remarks:?}");
+        let error = rate(None, &[footage(None)], &mut remarks).unwrap_err().to_string();
+        assert!(error.contains("expected --fps"), "{error}");
+        assert_eq!(rate(Some(50.0), &[footage(None)], &mut remarks).unwrap(), 50.0);
+    }
+}

@@ -1,0 +1,101 @@
+//! The way from videos to a first track, line by line as the README and the guide write it.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use super::support::{has_ffmpeg, pantin, pantin_in, refused_in, stderr, stdout, succeeded};
+
+const FRAMES: usize = 24;
+
+/// Videos of a walk in `videos/`, called after their cameras, and `cameras.toml`.
+fn film(folder: &Path) {
+    let scene = folder.join("scene.toml");
+    let text = format!(
+        "name = \"film\"\nframes = {FRAMES}\n[output]\npictures = \"video\"\n[rig]\nsize = [160, 120]\n\
+         [[actor]]\nheight = 1750.0\nmotion = {{ gait = \"straight\", stride_time = 1.2 }}\n"
+    );
+    fs::write(&scene, text).unwrap();
+    let made = folder.join("made");
+    succeeded(&pantin(&["synth", scene.to_str().unwrap(), "-o", made.to_str().unwrap()]));
+    fs::rename(made.join("videos"), folder.join("videos")).unwrap();
+    fs::rename(made.join("cameras.toml"), folder.join("cameras.toml")).unwrap();
+}
+
+/// Runs a line in a shell that knows the program.
+fn run(folder: &Path, line: &str) -> Output {
+    let program = Path::new(env!("CARGO_BIN_EXE_pantin")).parent().unwrap();
+    let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap_or_default());
+    Command::new("sh").args(["-c", line]).env("PATH", path).current_dir(folder).output().unwrap()
+}
+
+/// The lines of the first block of commands after a heading that begin with the program's name, without what is said of them.
+fn lines(document: &str, heading: &str) -> Vec<String> {
+    let section = &document[document.find(heading).unwrap()..];
+    let section = &section[..section[3..].find("\n## ").map_or(section.len(), |end| end + 3)];
+    let commands = section.lines().map(str::trim).filter(|line| line.starts_with("pantin "));
+    commands.map(|line| line.split(" #").next().unwrap().trim().to_string()).collect()
+}
+
+#[test]
+fn the_lines_of_readme_and_guide_lead_to_a_track() {
+    if !has_ffmpeg("the_lines_of_readme_and_guide_lead_to_a_track") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    film(folder);
+    let readme = lines(include_str!("../../README.md"), "\n## Your own footage");
+    let guide = include_str!("../../docs/GUIDE.md");
+    let begin = lines(guide, "\n## 3. Begin");
+    assert!(readme.len() >= 3 && readme[0].starts_with("pantin start "), "{readme:?}");
+    assert_eq!(begin[0], readme[0], "both begin alike");
+    let mut asked: Vec<String> = readme.iter().take(3).cloned().collect();
+    asked.extend(lines(guide, "\n## 4. Look").into_iter().filter(|line| line.starts_with("pantin features")));
+    for line in asked {
+        let done = run(folder, &line);
+        // What a check finds in pictures this small is no matter here.
+        assert!(done.status.success() || stderr(&done).contains("checks failed"), "{line}: {}", stderr(&done));
+        if line.starts_with("pantin start") {
+            let said = stdout(&done);
+            assert!(said.contains("look/silhouettes.png") && said.contains("pantin track walk"), "{said}");
+        }
+    }
+    for file in
+        ["walk/sequence.toml", "walk/body.toml", "walk/start.csv", "walk/look/silhouettes.png", "walk/look/body.png"]
+    {
+        assert!(folder.join(file).is_file(), "{file}");
+    }
+    let manifest = fs::read_to_string(folder.join("walk/sequence.toml")).unwrap();
+    assert_eq!(manifest.matches("background = \"plates/").count(), 4, "{manifest}");
+    let poses = fs::read_to_string(folder.join("result/poses.csv")).unwrap();
+    assert_eq!(poses.lines().count(), 1 + FRAMES);
+
+    // What is there is kept unless told otherwise, and what cannot begin is one sentence.
+    let start = |more: &[&str]| {
+        let videos: Vec<String> = fs::read_dir(folder.join("videos"))
+            .unwrap()
+            .map(|entry| format!("videos/{}", entry.unwrap().file_name().to_string_lossy()))
+            .collect();
+        let mut arguments = vec!["start"];
+        arguments.extend(videos.iter().map(String::as_str));
+        arguments.extend(["--cameras", "cameras.toml", "--height", "1750"]);
+        arguments.extend(more);
+        pantin_in(folder, &arguments)
+    };
+    let (status, _, error) = start(&["-o", "walk"]);
+    assert!(status == 1 && error.contains("sequence.toml exists") && error.contains("--force"), "{error}");
+    assert_eq!(fs::read_to_string(folder.join("walk/sequence.toml")).unwrap(), manifest);
+    let first = fs::read_dir(folder.join("videos")).unwrap().next().unwrap().unwrap().path();
+    fs::copy(&first, folder.join("GX0042.mp4")).unwrap();
+    let first = first.to_str().unwrap();
+    let with = |video: &str| {
+        ["start", first, video, "--cameras", "cameras.toml", "--height", "1750", "-o", "other"].map(String::from)
+    };
+    let with_other = with("GX0042.mp4");
+    let with_other: Vec<&str> = with_other.iter().map(String::as_str).collect();
+    refused_in(folder, &with_other, "GX0042.mp4 is of no camera by its name");
+    assert!(!folder.join("other").exists(), "nothing is made where nothing can begin");
+    let low: Vec<&str> = with_other.iter().map(|word| if *word == "1750" { "1.75" } else { word }).collect();
+    refused_in(folder, &low, "the person's height is 1.75, expected 500 to 2500 mm");
+}
