@@ -103,7 +103,7 @@ impl Body {
         self.trajectory(self.marker_names(), poses, rate, Self::marker_positions)
     }
 
-    fn trajectory(
+    pub(super) fn trajectory(
         &self,
         names: Vec<String>,
         poses: &PoseTable,

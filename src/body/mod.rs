@@ -5,6 +5,7 @@ mod adult;
 mod animation;
 mod bvh;
 mod coordinates;
+mod halpe26;
 mod kinematics;
 mod loader;
 mod mesh;
@@ -17,6 +18,7 @@ mod skeleton;
 
 pub use adult::ADULT_HEIGHT;
 pub use coordinates::Coordinates;
+pub use halpe26::HALPE26;
 pub use loader::parse_body;
 pub use mesh::{FrustumBase, Mesh, MeshEdge, MeshSource, MeshVertex, Skinning};
 pub use model::Model;

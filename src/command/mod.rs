@@ -21,6 +21,7 @@ mod objective_flags;
 mod output;
 mod pages;
 mod plate;
+mod pose2sim;
 mod progress;
 mod realtime_flags;
 mod score;
@@ -73,6 +74,9 @@ enum Command {
     Features(features::FeaturesArgs),
     Man(pages::ManArgs),
     Matrix(matrix::MatrixArgs),
+    /// Track a project of Pose2Sim: its Config.toml, calibration and videos in, pose-3d/*.trc out.
+    #[command(name = "pose2sim")]
+    Pose2Sim(pose2sim::Pose2SimArgs),
     Start(start::StartArgs),
     /// Run many settings over many sequences and seeds, and compare them in tables and plots.
     Study(study::StudyArgs),
@@ -119,6 +123,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Features(args) => features::run(&args),
         Command::Man(args) => pages::man(&args, Arguments::command()),
         Command::Matrix(args) => matrix::run(&args),
+        Command::Pose2Sim(args) => pose2sim::run(&args),
         Command::Start(args) => start::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Synth(args) => synth::run(&args),

@@ -4,6 +4,7 @@ mod bvh;
 mod c3d;
 mod convention;
 mod error;
+mod gaps;
 mod mot;
 mod number;
 mod pairing;
@@ -34,7 +35,7 @@ pub use skeletal::{
     AsfBone, AsfSkeleton, DeepMimicSkeleton, MotionFormat, Placement, SkeletalJoint, SkeletalMotion, UpAxis, parse_amc,
     parse_asf, parse_deepmimic, parse_deepmimic_skeleton, read_skeletal_motion,
 };
-pub use trc::{parse_trc, write_trc};
+pub use trc::{parse_trc, write_pose2sim_trc, write_trc};
 
 use crate::files::{Overwrite, choices, write_atomically};
 use points::PointFile;

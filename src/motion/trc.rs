@@ -14,7 +14,7 @@ use crate::files::shortened;
 pub(super) const POINTS: PointFile = PointFile {
     read: |bytes, name| parse_trc(text(bytes, name)?, name),
     write: Ok(write_trc),
-    write_metres: Some(|out, points, file_name| write_in(out, points, file_name, METRES)),
+    write_metres: Some(|out, points, file_name| write_in(out, points, file_name, OPENSIM)),
 };
 
 /// A unit that files are written in.
@@ -27,6 +27,24 @@ struct Unit {
 
 const MILLIMETRES: Unit = Unit { name: "mm", millimetres: 1.0, decimals: 4 };
 const METRES: Unit = Unit { name: "m", millimetres: 1000.0, decimals: 7 };
+
+/// In which ways files differ.
+struct Layout {
+    unit: Unit,
+    /// `Frame#` of frame 0.
+    first_number: usize,
+    /// What ends the lines of names and axes.
+    header_end: &'static str,
+    /// What stands between the header and the data.
+    after_header: &'static str,
+}
+
+/// OpenSim expects an empty line between the header and the data.
+const PANTIN: Layout = Layout { unit: MILLIMETRES, first_number: 1, header_end: "", after_header: "\n" };
+const OPENSIM: Layout = Layout { unit: METRES, ..PANTIN };
+/// Pose2Sim counts frames from 0, and its files go without that line, which OpenSim (4.6) reads as well. Its marker augmentation finds the
+/// end of the names by one tab more than others write.
+const POSE2SIM: Layout = Layout { unit: METRES, first_number: 0, header_end: "\t", after_header: "" };
 
 /// How a coordinate of a missing point is written. OpenSim (4.6) reads it, and empty cells, as missing; but it refuses a row that ends
 /// in empty cells, of which it counts too few.
@@ -180,10 +198,19 @@ fn without_nan(cell: &str) -> &str {
 /// # Errors
 /// When the trajectory breaks [`PointTrajectory::check`], its rate is unknown, or writing fails.
 pub fn write_trc(out: &mut dyn Write, points: &PointTrajectory, file_name: &str) -> Result<()> {
-    write_in(out, points, file_name, MILLIMETRES)
+    write_in(out, points, file_name, PANTIN)
 }
 
-fn write_in(out: &mut dyn Write, points: &PointTrajectory, file_name: &str, unit: Unit) -> Result<()> {
+/// Writes the points (mm, z up) as Pose2Sim writes those of its pose-3d folders: metres, y up (x left, z forward), `Frame#` from 0.
+///
+/// # Errors
+/// As [`write_trc`].
+pub fn write_pose2sim_trc(out: &mut dyn Write, points: &PointTrajectory, file_name: &str) -> Result<()> {
+    write_in(out, &points.clone().z_up_to_y_up(), file_name, POSE2SIM)
+}
+
+fn write_in(out: &mut dyn Write, points: &PointTrajectory, file_name: &str, layout: Layout) -> Result<()> {
+    let Layout { unit, first_number, header_end, after_header } = layout;
     points.check()?;
     ensure!(points.rate > 0.0, "the frame rate is unknown, but TRC needs one: give it");
     let frames = points.frames.len();
@@ -199,20 +226,19 @@ fn write_in(out: &mut dyn Write, points: &PointTrajectory, file_name: &str, unit
         "{rate}\t{rate}\t{frames}\t{}\t{}\t{rate}\t{}\t{frames}",
         points.names.len(),
         unit.name,
-        points.first_frame + 1
+        points.first_frame + first_number
     )?;
     write!(out, "Frame#\tTime")?;
     for name in &points.names {
         write!(out, "\t{name}\t\t")?;
     }
-    write!(out, "\n\t")?;
+    write!(out, "{header_end}\n\t")?;
     for marker in 1..=points.names.len() {
         write!(out, "\tX{marker}\tY{marker}\tZ{marker}")?;
     }
-    // OpenSim expects an empty line between the header and the data.
-    write!(out, "\n\n")?;
+    write!(out, "{header_end}\n{after_header}")?;
     for (row, frame) in points.frames.iter().enumerate() {
-        write!(out, "{}\t{:.6}", points.first_frame + row + 1, points.time(row).unwrap_or(0.0))?;
+        write!(out, "{}\t{:.6}", points.first_frame + row + first_number, points.time(row).unwrap_or(0.0))?;
         for point in frame {
             match point {
                 Some(p) => {
@@ -233,6 +259,25 @@ mod tests {
     use super::*;
     use crate::motion::test_points::{close, real_data, trajectories};
     use proptest::prelude::*;
+
+    #[test]
+    fn pose2sim_counts_from_zero_in_metres_with_y_up() {
+        let points = PointTrajectory {
+            names: vec!["Hip".into(), "Nose".into()],
+            rate: 60.0,
+            first_frame: 30,
+            frames: vec![vec![Some(glam::DVec3::new(1000.0, 2000.0, 3000.0)), None]],
+        };
+        let mut out = Vec::new();
+        write_pose2sim_trc(&mut out, &points, "walk_30-30.trc").unwrap();
+        let text = String::from_utf8(out).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[0], "PathFileType\t4\t(X/Y/Z)\twalk_30-30.trc");
+        assert_eq!(lines[2], "60\t60\t1\t2\tm\t60\t30\t1");
+        assert_eq!(lines[3], "Frame#\tTime\tHip\t\t\tNose\t\t\t");
+        assert_eq!(lines[4], "\t\tX1\tY1\tZ1\tX2\tY2\tZ2\t");
+        assert_eq!(lines[5], "30\t0.500000\t2.0000000\t3.0000000\t1.0000000\tNaN\tNaN\tNaN");
+    }
 
     const SMALL: &str = "PathFileType\t4\t(X/Y/Z)\tsmall.trc\n\
         DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n\
@@ -278,7 +323,7 @@ mod tests {
     fn metres_are_said_in_the_header() {
         let points = parse_trc(SMALL, "small.trc").unwrap();
         let mut bytes = Vec::new();
-        write_in(&mut bytes, &points, "m.trc", METRES).unwrap();
+        write_in(&mut bytes, &points, "m.trc", OPENSIM).unwrap();
         let text = String::from_utf8(bytes).unwrap();
         assert!(
             text.contains("\t2\t2\tm\t60\t5\t2\n") && text.contains("\t0.5000000\t0.0000000\t-0.0010000\t"),

@@ -84,6 +84,31 @@ fn rate(text: &str) -> Option<f64> {
     (rate.is_finite() && rate > 0.0).then_some(rate)
 }
 
+/// The mean rate of a video, frames a second, as its container tells it.
+///
+/// # Errors
+/// When ffprobe is missing, or the file is no video or tells no rate.
+pub fn probe_rate(path: &Path) -> Result<f64> {
+    let mut command = Command::new(ffmpeg_sidecar::ffprobe::ffprobe_path());
+    command.args(["-v", "error", "-select_streams", "v:0", "-of", "csv=p=0", "-show_entries", "stream=avg_frame_rate"]);
+    command.args(["-protocol_whitelist", "file", "-i"]).arg(file_url(path));
+    let mut process = Process::spawn(command)?;
+    let mut text = String::new();
+    process
+        .output
+        .read_to_string(&mut text)
+        .with_context(|| format!("cannot read what ffprobe says of {}", path.display()))?;
+    let ended = process.finish();
+    if !ended.success() {
+        bail!("{} cannot be read as a video: {ended}", path.display());
+    }
+    let rate = text.trim().split_once('/').and_then(|(frames, seconds)| {
+        let [frames, seconds]: [f64; 2] = [frames.parse().ok()?, seconds.parse().ok()?];
+        Some(frames / seconds).filter(|rate| rate.is_finite() && *rate > 0.0)
+    });
+    rate.with_context(|| format!("{} tells no frame rate, expected a video that does", path.display()))
+}
+
 /// What each pixel of a decoded picture holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PixelFormat {

@@ -29,6 +29,7 @@ mod page;
 mod passes;
 mod people;
 mod plan;
+mod pose2sim;
 mod prediction;
 mod progress;
 mod realtime;
@@ -57,6 +58,9 @@ pub use motion::Width;
 pub use objective_choice::ObjectiveChoice;
 pub use passes::Passes;
 pub use people::{PersonSummary, track_all, track_people};
+pub use pose2sim::{
+    POSE2SIM_OWN, POSE2SIM_POINTS, Pose2SimGiven, Pose2SimPoints, pose2sim_manifest, pose2sim_points, pose2sim_written,
+};
 pub use prediction::Prediction;
 pub use progress::{FrameDone, Progress, RunStart, Silent};
 pub use realtime::{Drops, LatencySummary, RealtimeSettings, RealtimeSummary, Repeat};

@@ -13,7 +13,7 @@ use crate::files::{OutputFolder, Overwrite};
 use crate::sequence::Sequence;
 
 /// What is found, beside the results.
-const BODY: &str = "found_body.toml";
+pub(super) const BODY: &str = "found_body.toml";
 const START: &str = "found_start.csv";
 
 /// Frames of the first second that are looked at.

@@ -30,6 +30,7 @@ mod obstacles;
 mod pages;
 mod people;
 mod plate;
+mod pose2sim;
 mod reliability;
 mod report_in_browser;
 #[cfg(feature = "rerun")]
