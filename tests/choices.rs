@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use pantin::bench::{Preset, YardstickKind};
 use pantin::body::{Model, Skinning};
-use pantin::calibrate::{Held, Layout, LensModel};
+use pantin::calibrate::{BoardKind, Held, Layout, LensModel};
 use pantin::evaluate::ObjectiveKind;
 use pantin::evaluate::cpu::InstructionSet;
 use pantin::evaluate::device::{Coverage, Gathering, HostComparison, Packing, Projection, Tiling};
@@ -62,6 +62,7 @@ fn lists() -> Vec<List> {
         list::<MotionUnit>(),
         list::<UpAxis>(),
         list::<Garment>(),
+        list::<BoardKind>(),
         list::<LensModel>(),
         list::<Held>(),
         list::<Layout>(),

@@ -115,6 +115,9 @@ impl BoardFlags {
             );
         }
         footage.iter_mut().for_each(|footage| footage.frame_count = shortest);
+        if let Some(frame) = self.floor {
+            ensure!(frame < shortest, "--floor is {frame}, and the videos have {shortest} frames, counted from 0");
+        }
         let sizes: Vec<[u32; 2]> = footage.iter().map(|footage| footage.size).collect();
         let moments = moments(&footage, &detector, self.samples.min(shortest), self.floor)?;
         let floor = self.floor.map_or(Floor::Lowest, Floor::Frame);
@@ -196,8 +199,6 @@ fn moments(
     let mut progress = ProgressBar::new("looking for the board", samples);
     let mut moments = look(footage, detector, samples, &mut || progress.advance())?;
     if let Some(frame) = also.filter(|frame| moments.iter().all(|moment| moment.frame != *frame)) {
-        let shortest = footage.first().map_or(0, |footage| footage.frame_count);
-        ensure!(frame < shortest, "--floor is {frame}, and the videos have {shortest} frames, counted from 0");
         // The last frame of the footage up to there.
         let upto: Vec<Footage> =
             footage.iter().map(|footage| Footage { frame_count: frame + 1, ..footage.clone() }).collect();

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 
 use crate::features::LearntPlate;
 use crate::features::clean_plate::{FEWEST_PICTURES, PASSES};
@@ -104,32 +104,24 @@ impl<'a> Plated<'a> {
 }
 
 /// Whether a view's plate is to be learnt before its frames are looked at: it has neither plate nor masks, it has an end, and the
-/// manifest does not ask for a mixture that learns as the frames go by (`[features.mixture]`).
+/// manifest does not ask for a mixture that learns as the frames go by (`[features.mixture]`), which all that is too short for a plate
+/// is left to.
 fn wants_plate(sequence: &Sequence, view: &View) -> bool {
     let learns_on = sequence.features.as_ref().is_some_and(|table| table.contains_key("mixture"));
-    view.learns_background() && !sequence.is_live() && !learns_on
+    view.learns_background() && !sequence.is_live() && !learns_on && sequence.frame_count >= FEWEST_PICTURES
 }
 
 /// The sequence with plates, at the working size, for the views of recordings that have neither plate nor masks, learnt from all of
 /// their frames.
 ///
 /// # Errors
-/// When a recording is too short to learn from, or cannot be read.
+/// When a recording cannot be read.
 pub fn with_plates<'a>(sequence: &'a Sequence, progress: &mut Advance<'_>) -> Result<Plated<'a>> {
     let wanting: Vec<usize> =
         (0..sequence.views.len()).filter(|&at| wants_plate(sequence, &sequence.views[at])).collect();
     let mut plated = Plated::as_it_is(sequence);
     for (turn, &at) in wanting.iter().enumerate() {
         let view = &sequence.views[at];
-        if sequence.frame_count < FEWEST_PICTURES {
-            bail!(
-                "{}: camera {:?} has neither a background picture nor masks, expected one of them where there are fewer than \
-                 {FEWEST_PICTURES} frames to learn the empty scene from ({} here)",
-                sequence.path.display(),
-                view.camera,
-                sequence.frame_count
-            );
-        }
         let lesson = PlateLesson { size: Some(sequence.sizes[at]), ..PlateLesson::default() };
         let mut one = |done: usize, total: usize| progress(WORK, turn * total + done, wanting.len() * total);
         let plate = learn_plate(&view.footage(sequence.frame_count), &lesson, &mut one)

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
 use pantin::files::Overwrite;
 use pantin::geometry::Camera;
 use pantin::motion::{PointTrajectory, read_points, write_points};
@@ -161,4 +161,109 @@ fn cameras_of_a_real_recording_come_back() {
         let mean = seen.iter().map(apart).sum::<f64>() / seen.len() as f64;
         assert!(mean < 0.1, "{}: {mean} px", truth.name);
     }
+}
+
+/// A picture of a chessboard, four samples a pixel: white margin, grey room, the square before the first corner black.
+fn picture(camera: &Camera, world_from_board: DAffine3, corners: [u32; 2], square: f64) -> image::GrayImage {
+    let board_from_world = world_from_board.inverse();
+    let squares = DVec2::new(f64::from(corners[0]), f64::from(corners[1])) + 1.0;
+    let grey = |pixel: DVec2| -> f64 {
+        let (origin, direction) = camera.ray(pixel).unwrap();
+        let (origin, direction) =
+            (board_from_world.transform_point3(origin), board_from_world.transform_vector3(direction));
+        let place = (origin - direction * (origin.z / direction.z)).truncate() / square + 1.0;
+        let beyond = (-place).max(place - squares).max_element();
+        match (beyond > 0.5, beyond > 0.0) {
+            (true, _) => 90.0,
+            (false, true) => 235.0,
+            _ if (place.x.floor() + place.y.floor()) % 2.0 == 0.0 => 25.0,
+            _ => 235.0,
+        }
+    };
+    image::GrayImage::from_fn(camera.size[0], camera.size[1], |x, y| {
+        let middle = DVec2::new(x.into(), y.into());
+        let samples = [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]];
+        let sum: f64 = samples.iter().map(|&within| grey(middle + DVec2::from_array(within))).sum();
+        image::Luma([(0.25 * sum).round() as u8])
+    })
+}
+
+/// A board is carried through the room and laid on the floor; numbered pictures a camera.
+#[test]
+fn a_printed_board_becomes_cameras_on_the_floor() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let target = DVec3::new(0.0, 0.0, 700.0);
+    let lens = |focal| scene::brown(focal, [640, 480], [-0.12, 0.05, 0.0], [5e-4, -4e-4]);
+    let cameras = [
+        scene::camera("left", [640, 480], DVec3::new(2400.0, 1300.0, 1700.0), target, lens(700.0)),
+        scene::camera("right", [640, 480], DVec3::new(2400.0, -1200.0, 1900.0), target, lens(650.0)),
+    ];
+    let (corners, square) = ([6, 5], 90.0);
+    let middle = DVec3::new(2.5, 2.0, 0.0) * square;
+    let placed = |rotation: DMat3, at: DVec3| DAffine3::from_mat3_translation(rotation, at - rotation * middle);
+    let mut random = scene::Random(5);
+    let mut side = |scale: f32| f64::from(random.uniform(-scale, scale));
+    // Upright, its print towards +x, and then lying with its print upwards.
+    let facing = DMat3::from_cols(DVec3::Y, DVec3::NEG_Z, DVec3::NEG_X);
+    let mut boards: Vec<DAffine3> = (0..11)
+        .map(|_| {
+            let turn = DMat3::from_rotation_z(side(0.5))
+                * DMat3::from_rotation_y(side(0.5))
+                * DMat3::from_rotation_x(side(0.6));
+            placed(turn * facing, DVec3::new(side(300.0), side(350.0), 750.0 + side(250.0)))
+        })
+        .collect();
+    boards.push(placed(DMat3::from_cols(DVec3::Y, DVec3::X, DVec3::NEG_Z), DVec3::ZERO));
+    for camera in &cameras {
+        fs::create_dir(at.join(&camera.name)).unwrap();
+        for (frame, board) in boards.iter().enumerate() {
+            picture(camera, *board, corners, square).save(at.join(format!("{}/{frame:02}.png", camera.name))).unwrap();
+        }
+    }
+    let videos = ["left/%02d.png", "right/%02d.png"];
+    let board = ["calibrate", "--board", "chessboard", "--corners", "6x5", "--square", "90"];
+    let written = ["-o", "cameras.toml", "--residuals", "residuals"];
+    let (status, out, error) = pantin(at, &[&board[..], &videos, &written].concat());
+    assert_eq!(status, 0, "{error}");
+    assert!(out.contains("left: the board is found in 12 frames") && out.contains("lies in frame 11"), "{out}");
+    let found = read_cameras(&at.join("cameras.toml")).unwrap();
+    for (found, truth) in found.iter().zip(&cameras) {
+        assert_eq!((&found.name, found.size), (&truth.name, truth.size));
+        // The world of the board on the floor: its x along its rows.
+        let about = DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z);
+        let away = (about * found.centre_in_world()).distance(truth.centre_in_world());
+        assert!(away < 40.0, "{} stands {away:.1} mm off", truth.name);
+        assert!((about * found.centre_in_world() - truth.centre_in_world()).z.abs() < 15.0);
+    }
+    assert!(fs::read_to_string(at.join("residuals/left.svg")).unwrap().starts_with("<svg"));
+
+    let other = ["-o", "other.toml"];
+    let with = |board: &[&str], rest: &[&str]| {
+        [board, rest, &other].concat().into_iter().map(String::from).collect::<Vec<_>>()
+    };
+    for (arguments, expected) in [
+        (with(&["calibrate", "--board", "chessboard", "--square", "90"], &videos), "--corners is missing"),
+        (with(&["calibrate", "--board", "chessboard", "--corners", "6x5"], &videos), "--square is missing"),
+        (
+            with(&["calibrate", "--board", "chessboard", "--corners", "6x4", "--square", "9"], &videos),
+            "the same upside down",
+        ),
+        (with(&["calibrate", "--board", "charuco", "--square", "90"], &videos), "--squares is missing"),
+        (
+            with(&["calibrate", "--board", "charuco", "--squares", "7x6", "--square", "90"], &videos),
+            "--marker is missing",
+        ),
+        (with(&board, &["left/%02d.png", "left/%02d.png"]), "both called `left`"),
+        (with(&board, &["left/%02d.png", "none.mp4"]), "there is no file none.mp4"),
+        (with(&board, &[&videos[..], &["--floor", "12"]].concat()), "--floor is 12, and the videos have 12 frames"),
+        (with(&["calibrate", "--size", "640x480"], &["a.csv", "b.csv"]), "2 tables of points were given, expected one"),
+    ] {
+        refused(at, &arguments.iter().map(String::as_str).collect::<Vec<_>>(), expected);
+    }
+    // What is seen only when the pictures were looked at.
+    let another = with(&["calibrate", "--board", "chessboard", "--corners", "8x5", "--square", "90"], &videos);
+    let (status, _, error) = pantin(at, &another.iter().map(String::as_str).collect::<Vec<_>>());
+    assert!(status == 1 && error.contains("camera `left`: the board is found in 0 of 12 pictures"), "{error}");
+    assert!(!at.join("other.toml").exists());
 }

@@ -187,7 +187,10 @@ fn a_project_that_says_all_needs_no_more_than_plates() {
     let session = Session::new();
     session.write("session/Trial_1/Config.toml", "[project]\nparticipant_height = 1.75\nframe_range = [0, 1]\n");
     // Six frames are too few to learn the empty scene from.
-    refused(&session.run_alone("session", &[]), &["neither a background picture nor masks", "learn the empty scene"]);
+    refused(
+        &session.run_alone("session", &[]),
+        &["neither a background picture nor masks", "to measure a person with"],
+    );
     let done = session.run_alone("session", &["--plates", &session.text("plates")]);
     succeeded(&done);
     assert!(session.path("session/Trial_1/pantin/track/found_body.toml").is_file());

@@ -9,8 +9,12 @@ use calib_targets_chessboard::{
 };
 use glam::DVec2;
 use image::GrayImage;
+use image::imageops::{self, FilterType};
 
 use super::target::{Board, BoardKind, FEWEST_CORNERS, SeenCorner};
+
+/// From a board's column and row, and how many of each it has, to the detector's.
+type Way = fn([i32; 2], [i32; 2]) -> [i32; 2];
 
 /// Finds one board in pictures.
 pub struct BoardDetector {
@@ -48,18 +52,13 @@ impl BoardDetector {
 
     /// The corners of the board in a picture; none where it is not seen, or a chessboard not whole.
     pub fn find(&self, picture: &GrayImage) -> Vec<SeenCorner> {
-        let (width, height) = (picture.width() as usize, picture.height() as usize);
-        let view = GrayImageView { width, height, data: picture.as_raw() };
         let seen = match &self.finder {
-            Finder::Charuco(detector) => detector.detect(&view).map_or_else(
-                |_| Vec::new(),
-                |found| {
-                    let corners = found.corners.iter();
-                    corners.map(|at| (at.id as usize, DVec2::new(at.position.x.into(), at.position.y.into()))).collect()
-                },
-            ),
+            Finder::Charuco(detector) => {
+                let found = charuco(detector, picture);
+                if found.is_empty() { charuco_small(detector, picture) } else { found }
+            }
             Finder::Chessboard(detector) => {
-                let corners = detect_corners(&view, &default_chess_config());
+                let corners = detect_corners(&view_of(picture), &default_chess_config());
                 let cells = detector.detect(&corners).map_or_else(Vec::new, |found| {
                     let corners = found.corners.iter();
                     corners
@@ -97,7 +96,7 @@ impl BoardDetector {
         let at = |cell: [i32; 2]| cells.iter().find(|(known, _)| *known == cell).map(|(_, pixel)| *pixel);
         let Some([left, top]) = self.whole(cells) else { return Vec::new() };
         // The detector counts to the right and down, whichever way the board is turned.
-        let ways: [fn([i32; 2], [i32; 2]) -> [i32; 2]; 4] = [
+        let ways: [Way; 4] = [
             |[u, v], _| [u, v],
             |[u, v], [columns, rows]| [columns - 1 - u, rows - 1 - v],
             |[u, v], [_, rows]| [rows - 1 - v, u],
@@ -118,6 +117,24 @@ impl BoardDetector {
         }
         Vec::new()
     }
+}
+
+fn view_of(picture: &GrayImage) -> GrayImageView<'_> {
+    GrayImageView { width: picture.width() as usize, height: picture.height() as usize, data: picture.as_raw() }
+}
+
+fn charuco(detector: &CharucoDetector, picture: &GrayImage) -> Vec<(usize, DVec2)> {
+    let Ok(found) = detector.detect(&view_of(picture)) else { return Vec::new() };
+    let corners = found.corners.iter();
+    corners.map(|at| (at.id as usize, DVec2::new(at.position.x.into(), at.position.y.into()))).collect()
+}
+
+/// In the picture enlarged twofold: the corners of markers a few pixels wide run into those of the squares.
+fn charuco_small(detector: &CharucoDetector, picture: &GrayImage) -> Vec<(usize, DVec2)> {
+    let [width, height] = [picture.width() * 2, picture.height() * 2];
+    let larger = imageops::resize(picture, width, height, FilterType::CatmullRom);
+    let found = charuco(detector, &larger);
+    found.into_iter().map(|(corner, pixel)| (corner, (pixel + 0.5) / 2.0 - 0.5)).collect()
 }
 
 /// How much darker the squares are that have the colour of the one before the first corner, grey levels.

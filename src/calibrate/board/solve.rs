@@ -164,13 +164,12 @@ impl Alone<'_> {
             boards,
             views: views.collect(),
         };
-        let (bundle, left_out) = bundle.minimise().without_outliers();
+        let (bundle, left_out) = bundle.minimise_agreeing();
         ensure!(
             bundle.views.len() >= FEWEST_VIEWS.max(left_out),
             "{left_out} of {} views of the board contradict the others: is it flat, and its size as given?",
             left_out + bundle.views.len()
         );
-        let bundle = if left_out > 0 { bundle.minimise() } else { bundle };
         let noise = bundle.noise(0);
         ensure!(
             noise <= ASTRAY * diagonal(self.size),
@@ -258,15 +257,13 @@ fn together<'a>(
     let moves = (0..cameras.len()).map(|camera| camera > 0).collect();
     let count = cameras.len();
     let bundle = Bundle { board, cameras, lens, moves, boards, views };
-    let (bundle, left_out) = bundle.minimise().without_outliers();
+    let (bundle, left_out) = bundle.minimise_agreeing();
     let kept = |camera: usize| bundle.views.iter().filter(|view| view.camera == camera).count();
     ensure!(
         bundle.views.len() > 2 * left_out && (0..count).all(|camera| kept(camera) >= 2),
         "{left_out} of {} views of the board contradict the others: do the videos begin at the same moment?",
         left_out + bundle.views.len()
     );
-    // A board that nobody sees any more would move nothing.
-    let bundle = if left_out > 0 { seen_boards(bundle).minimise() } else { bundle };
     for (camera, name) in names.iter().enumerate() {
         let noise = bundle.noise(camera);
         ensure!(
@@ -276,21 +273,6 @@ fn together<'a>(
         );
     }
     Ok((bundle, left_out))
-}
-
-/// The same without boards that no view is left of.
-fn seen_boards(mut bundle: Bundle) -> Bundle {
-    let mut places = vec![None; bundle.boards.len()];
-    let mut boards = Vec::new();
-    for view in &mut bundle.views {
-        let place = *places[view.board].get_or_insert_with(|| {
-            boards.push(bundle.boards[view.board].clone());
-            boards.len() - 1
-        });
-        view.board = place;
-    }
-    bundle.boards = boards;
-    bundle
 }
 
 /// The board on the floor once more, from all cameras that see it then, which stay where they are.
