@@ -8,7 +8,7 @@ use image::codecs::png::PngEncoder;
 use super::output::{say, tell};
 use super::progress::WorkBar;
 use crate::features::clean_plate::FEWEST_PICTURES;
-use crate::files::{Overwrite, write_atomically};
+use crate::files::{Overwrite, png_name, write_atomically};
 use crate::observe::{PlateLesson, learn_plate};
 use crate::sequence::Footage;
 
@@ -44,6 +44,7 @@ pub(super) struct PlateArgs {
 pub(super) fn run(args: &PlateArgs) -> Result<()> {
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     for file in [Some(&args.output), args.sure.as_ref()].into_iter().flatten() {
+        png_name(file)?;
         overwrite.check(file)?;
     }
     let footage = Footage::open(&args.video)?;

@@ -20,7 +20,7 @@ pub(super) struct StartArgs {
     /// A video a camera, or numbered pictures: frames/cam01_%04d.png.
     #[arg(value_name = "VIDEO", required = true, num_args = 2..)]
     videos: Vec<PathBuf>,
-    /// The calibration: Pose2Sim, anipose or caliscope TOML, Qualisys .qca.txt, OpenCV YAML or XML.
+    /// The calibration: Pose2Sim, anipose or caliscope TOML, Qualisys .qca.txt, Vicon .xcp, OpenCV YAML or XML, EasyMocap's pair.
     #[arg(long, value_name = "FILE")]
     cameras: PathBuf,
     /// Height of the person, with shoes and hair, mm.
@@ -29,6 +29,9 @@ pub(super) struct StartArgs {
     /// The folder to make.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    /// Pictures of the empty scene, DIR/CAMERA.png (or .jpg) each [default: learnt from the whole videos].
+    #[arg(long, value_name = "DIR")]
+    plates: Option<PathBuf>,
     /// Frames per second [default: what the videos say].
     #[arg(long, value_name = "FPS")]
     fps: Option<f64>,
@@ -67,6 +70,7 @@ pub(super) fn run(args: &StartArgs) -> Result<()> {
     let settings = FirstTrySettings {
         videos: args.videos.clone(),
         cameras: args.cameras.clone(),
+        plates: args.plates.clone(),
         name,
         fps: args.fps,
         scale: args.scale,
@@ -93,7 +97,8 @@ fn told(made: &FirstTry, args: &StartArgs) -> Result<()> {
     for FirstView { camera, video, size: [width, height], person, learnt_from, .. } in &made.views {
         let person = person.map(|tall| format!(", a person some {tall:.0} pixels tall")).unwrap_or_default();
         let video = video.display();
-        say!("  {camera}: {video}, {width}x{height}{person}, plate from {learnt_from} pictures");
+        let plate = learnt_from.map_or_else(|| "filmed".to_string(), |pictures| format!("from {pictures} pictures"));
+        say!("  {camera}: {video}, {width}x{height}{person}, plate {plate}");
     }
     for remark in &made.remarks {
         tell!("note: {remark}");

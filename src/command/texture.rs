@@ -9,7 +9,7 @@ use image::{DynamicImage, RgbImage};
 use super::draws::Draws;
 use super::output::say;
 use super::progress::ProgressBar;
-use crate::files::{Choice as _, Overwrite, choices, write_atomically};
+use crate::files::{Choice as _, Overwrite, choices, png_name, write_atomically};
 use crate::synth::portrait;
 use crate::texture::example::{Settings, patch_count, synthesise};
 use crate::texture::materials::{Material, MaterialKind, Parameters};
@@ -155,6 +155,8 @@ pub(super) struct Drawn {
 /// # Errors
 /// As [`run`].
 pub(super) fn drawn(args: &TextureArgs) -> Result<Drawn> {
+    // Said before the work, not after it.
+    args.output.as_deref().map(png_name).transpose()?;
     let drawn = match (&args.example, &args.material) {
         (Some(example), _) => from_example(args, example)?,
         (None, Some(name)) => Drawn { picture: of_depth(args, of_material(args, name)?), resynthesised: 0 },

@@ -9,6 +9,7 @@ mod toml_file;
 
 pub(crate) use choice::choices;
 pub use choice::{Choice, ChoiceParser, deserialize as deserialize_choice, expected, names, nearest, unknown};
+pub(crate) use output::png_name;
 pub use output::{Occupied, OutputFolder, Overwrite, write_atomically};
 pub use shortened::shortened;
 pub use toml_file::{parse_table, parse_toml, read_toml, table_of};

@@ -29,6 +29,22 @@ impl Overwrite {
     }
 }
 
+/// Checks the name of a picture that will be a PNG.
+///
+/// # Errors
+/// When it ends as pictures of another kind do: the file would not be what it is called.
+pub(crate) fn png_name(path: &Path) -> Result<()> {
+    const OTHERS: [&str; 11] = ["jpg", "jpeg", "bmp", "gif", "tif", "tiff", "webp", "ppm", "tga", "exr", "svg"];
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    if OTHERS.contains(&ending.as_str()) {
+        bail!(
+            "{} is called as if it were no PNG, expected a name that ends in .png: that is what is written",
+            path.display()
+        );
+    }
+    Ok(())
+}
+
 /// Writes a file through `body` under a temporary name beside `path`, then renames it to `path`.
 ///
 /// # Errors

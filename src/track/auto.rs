@@ -25,10 +25,15 @@ pub(super) fn is_device_worth_measuring() -> Result<(), String> {
     let (found, index) = found.map_err(|error| format!("{error:#}"))?;
     let usable = found.iter().filter(|device| device.usable && index.is_none_or(|index| index == device.index));
     let Some(best) = usable.min_by_key(|device| device.kind) else {
-        let why: Vec<String> = found.iter().map(|d| format!("{}: {}", d.name, d.reasons.join("; "))).collect();
-        return Err(match why.is_empty() {
-            true => "Vulkan finds no device on this machine".to_string(),
-            false => format!("no Vulkan device of this machine can be used ({})", why.join("; ")),
+        let unusable = found.iter().filter(|device| !device.usable);
+        let why: Vec<String> = unusable.map(|d| format!("{}: {}", d.name, d.reasons.join("; "))).collect();
+        return Err(match index.filter(|&index| index >= found.len()) {
+            _ if found.is_empty() => "Vulkan finds no device on this machine".to_string(),
+            Some(index) => format!(
+                "PANTIN_DEVICE is {index}, and of the Vulkan devices that this machine has the last is {}, counted from 0",
+                found.len() - 1
+            ),
+            None => format!("no Vulkan device that may be taken can be used ({})", why.join("; ")),
         });
     };
     if best.kind == DeviceKind::Cpu {

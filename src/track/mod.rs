@@ -11,6 +11,7 @@ mod confidence;
 mod crowd;
 mod driver;
 mod feed;
+mod filmed_plate;
 mod first_try;
 mod fit;
 mod folder;

@@ -65,6 +65,9 @@ fn devices_are_listed_as_the_contract_says() {
     } else {
         assert!(reason.contains("measured on"), "{reason}");
     }
+    let beyond = object(&pantin(&["devices", "--json"], &[("PANTIN_DEVICE", "99")]));
+    let reason = beyond["auto"]["reason"].as_str().unwrap();
+    assert!(reason.contains("PANTIN_DEVICE is 99") && reason.contains("counted from 0"), "{reason}");
     let table = stdout(&pantin(&["devices"], &[]));
     assert!(table.contains(list[0]["name"].as_str().unwrap()) && table.contains("with --backend auto: "), "{table}");
 }

@@ -83,6 +83,16 @@ fn the_lines_of_readme_and_guide_lead_to_a_track() {
         arguments.extend(more);
         pantin_in(folder, &arguments)
     };
+    // With filmed plates nothing is learnt.
+    let quick = ["--particles", "40", "--iterations", "2"];
+    let (status, said, error) = start(&[&["-o", "filmed", "--plates", "walk/plates"], &quick[..]].concat());
+    assert!(status == 0 && said.contains("plate filmed"), "{said}{error}");
+    let filmed = fs::read_to_string(folder.join("filmed/sequence.toml")).unwrap();
+    assert_eq!(filmed.matches("background = \"../walk/plates/").count(), 4, "{filmed}");
+    assert!(!folder.join("filmed/plates").exists());
+    let (status, _, error) = start(&["-o", "none", "--plates", "videos"]);
+    assert!(status == 1 && error.contains("expected a picture of the empty scene of each camera"), "{error}");
+    assert!(!folder.join("none").exists(), "nothing is made where nothing can begin");
     let (status, _, error) = start(&["-o", "walk"]);
     assert!(status == 1 && error.contains("sequence.toml exists") && error.contains("--force"), "{error}");
     assert_eq!(fs::read_to_string(folder.join("walk/sequence.toml")).unwrap(), manifest);

@@ -60,6 +60,7 @@ fn a_plate_is_learnt_from_a_walk_without_a_ghost() {
     assert_eq!(sure.dimensions(), track.dimensions());
 
     refused(&pantin(&["plate", frames, "-o", plate_name]), &["plate.png exists", "--force"]);
+    refused(&pantin(&["plate", frames, "-o", "plate.JPG"]), &["plate.JPG", "expected a name that ends in .png"]);
     let none = folder.path().join("none.mp4");
     refused(
         &pantin(&["plate", none.to_str().unwrap(), "-o", sure_name, "--force"]),

@@ -78,6 +78,7 @@ fn bad_requests_are_one_sentence() {
         (&["marble", "-o", "x.png", "--scale", "nan"], "a picture of NaN units"),
         (&["marble", "-o", "x.png", "--preview", "sphere", "--person", "a.glb"], "--person is for --preview person"),
         (&["marble", "-o", "x.png", "--preview", "person", "--person", "a.glb"], "a.glb"),
+        (&["marble", "-o", "x.jpg", "--size", "20x20"], "x.jpg is called as if it were no PNG"),
         (&["--example", "nowhere.png", "-o", "x.png"], "nowhere.png"),
         (&["--example", "text.png", "-o", "x.png"], "text.png"),
         (&["--example", "text.png", "-o", "x.png", "--preview", "cube"], "means nothing with --example"),

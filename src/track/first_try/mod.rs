@@ -7,6 +7,7 @@ mod matching;
 mod scale;
 
 use std::path::{Path, PathBuf};
+use std::slice;
 
 use anyhow::{Context, Result, bail, ensure};
 use image::codecs::png::PngEncoder;
@@ -15,6 +16,7 @@ use self::looked::look;
 use self::manifest::{ManifestText, ManifestView};
 use self::matching::match_cameras;
 use self::scale::{ChosenScale, choose_scale};
+use super::filmed_plate::filmed_plate;
 use super::fit::{Coverage, Fit, FitSettings, fit_with};
 use super::overlay::file_stem;
 use crate::files::{OutputFolder, Overwrite, write_atomically};
@@ -34,6 +36,8 @@ pub struct FirstTrySettings {
     pub videos: Vec<PathBuf>,
     /// The calibration.
     pub cameras: PathBuf,
+    /// A folder with a picture of the empty scene a camera, called after it; learnt from the videos without.
+    pub plates: Option<PathBuf>,
     /// The sequence's name.
     pub name: String,
     /// Frames per second; those of the videos without.
@@ -59,8 +63,8 @@ pub struct FirstView {
     pub fps: Option<f64>,
     /// How tall somebody is where the cameras look, pixels at the working size.
     pub person: Option<f64>,
-    /// Pictures that the plate was learnt from.
-    pub learnt_from: usize,
+    /// Pictures that the plate was learnt from; None where it was filmed.
+    pub learnt_from: Option<usize>,
 }
 
 /// A first try that is made.
@@ -121,39 +125,45 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
         Some(scale) => choose_scale(&cameras, height).at(scale),
         None => choose_scale(&cameras, height),
     };
+    let filmed = |folder: &PathBuf| -> Result<Vec<PathBuf>> {
+        cameras.iter().map(|camera| filmed_plate(slice::from_ref(folder), &[&camera.name])).collect()
+    };
+    let filmed = settings.plates.as_ref().map(filmed).transpose()?;
     let plate_of = |camera: &Camera| format!("plates/{}.png", file_stem(&camera.name));
+    let learnt_plates = if filmed.is_some() { Vec::new() } else { cameras.iter().map(plate_of).collect() };
     let names = ["sequence.toml", "body.toml", "start.csv"].map(String::from);
-    for name in names.into_iter().chain(cameras.iter().map(plate_of)) {
+    for name in names.iter().chain(&learnt_plates) {
         settings.overwrite.check(&folder.join(name))?;
     }
     let output = OutputFolder::open(folder)?;
     let manifest = output.file("sequence.toml")?;
-    let write_manifest = |with_plates: bool, overwrite: Overwrite| {
-        let views = cameras.iter().zip(&settings.videos);
+    let write_manifest = |plates: &[PathBuf], overwrite: Overwrite| {
+        let views = cameras.iter().zip(&settings.videos).enumerate();
         let views = views
-            .map(|(camera, source)| ManifestView {
-                camera: &camera.name,
-                source,
-                plate: with_plates.then(|| plate_of(camera)),
-            })
+            .map(|(at, (camera, source))| ManifestView { camera: &camera.name, source, plate: plates.get(at).cloned() })
             .collect();
         let text = ManifestText { name: &settings.name, fps, cameras: &settings.cameras, height, scale, views };
         let text = text.text(output.path())?;
         write_atomically(&manifest, overwrite, |writer| Ok(writer.write_all(text.as_bytes())?))
     };
-    write_manifest(false, settings.overwrite)?;
+    write_manifest(filmed.as_deref().unwrap_or_default(), settings.overwrite)?;
     let (frame_count, learnt) = {
         let sequence = Sequence::open_unfitted(&manifest)?;
         let plated = with_plates(&sequence, progress)?;
         remarks.extend(plated.remarks());
         (sequence.frame_count, plated.learnt)
     };
-    for (camera, learnt) in cameras.iter().zip(&learnt) {
-        output.write(&plate_of(camera), |writer| {
-            Ok(learnt.plate.picture.write_with_encoder(PngEncoder::new(writer))?)
-        })?;
+    ensure!(
+        filmed.is_some() || learnt.len() == cameras.len(),
+        "the videos have {frame_count} frames, too few to learn the empty scene from, expected pictures of it with --plates"
+    );
+    for (name, learnt) in learnt_plates.iter().zip(&learnt) {
+        output.write(name, |writer| Ok(learnt.plate.picture.write_with_encoder(PngEncoder::new(writer))?))?;
     }
-    write_manifest(true, Overwrite::Replace)?;
+    if filmed.is_none() {
+        let plates: Vec<PathBuf> = learnt_plates.iter().map(|name| output.path().join(name)).collect();
+        write_manifest(&plates, Overwrite::Replace)?;
+    }
     let sequence = Sequence::open_unfitted(&manifest)?;
     let fit = fit_with(&sequence, &settings.fit, progress).map_err(|error| format!("{error:#}"));
     if let Ok(fit) = &fit {
@@ -163,14 +173,14 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
     }
     let frame = settings.fit.frames.within(frame_count, &sequence.path.display().to_string())?.start;
     let looks = look(&sequence, frame, fit.as_ref().ok(), &output)?;
-    let views = cameras.iter().zip(&footage).zip(heights).zip(&learnt);
-    let views = views.map(|(((camera, footage), person), learnt)| FirstView {
+    let views = cameras.iter().zip(&footage).zip(heights).enumerate();
+    let views = views.map(|(at, ((camera, footage), person))| FirstView {
         camera: camera.name.clone(),
         video: PathBuf::from(&footage.shown),
         size: footage.size,
         fps: footage.fps,
         person,
-        learnt_from: learnt.plate.pictures,
+        learnt_from: learnt.get(at).map(|learnt| learnt.plate.pictures),
     });
     Ok(FirstTry { manifest: manifest.clone(), fps, frame_count, scale, views: views.collect(), fit, looks, remarks })
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use toml::{Table, Value};
 
+use super::super::filmed_plate::filmed_plate;
 use super::POSE2SIM_OWN;
 use crate::sequence::{Pose2SimTrial, Pose2SimView};
 
@@ -69,27 +70,15 @@ pub fn pose2sim_manifest(trial: &Pose2SimTrial, given: &Pose2SimGiven) -> Result
         table.insert("camera".into(), Value::String(view.camera.clone()));
         table.insert("source".into(), path(&view.source));
         if let Some(plates) = &given.plates {
-            table.insert("background".into(), path(&plate(plates, trial, view)?));
+            table.insert(
+                "background".into(),
+                path(&filmed_plate(&[plates.join(&trial.name), plates.clone()], &[&view.camera, &view.name])?),
+            );
         }
         views.push(Value::Table(table));
     }
     manifest.insert("view".into(), Value::Array(views));
     Ok(manifest)
-}
-
-/// The picture of the empty scene that a camera saw.
-fn plate(folder: &Path, trial: &Pose2SimTrial, view: &Pose2SimView) -> Result<PathBuf> {
-    for folder in [folder.join(&trial.name), folder.to_path_buf()] {
-        for name in [&view.camera, &view.name] {
-            for ending in ["png", "jpg", "jpeg"] {
-                let file = folder.join(format!("{name}.{ending}"));
-                if file.is_file() {
-                    return fs::canonicalize(&file).with_context(|| format!("cannot read {}", file.display()));
-                }
-            }
-        }
-    }
-    bail!("{} holds no {}.png, expected a picture of the empty scene of each camera", folder.display(), view.camera)
 }
 
 /// The part of the pictures' size that is worked at.
