@@ -123,11 +123,16 @@ class Cameras:
         """Cameras as OpenCV has them: picture sizes [n, 2] (width, height), camera matrices [n, 3, 3], distortions [n, 4 or 5]
         (k1, k2, p1, p2, k3), rotations camera from world [n, 3, 3] or Rodrigues vectors [n, 3], translations [n, 3], mm.
 
-        >>> cameras = pantin.Cameras.of_arrays(
+        >>> cameras = Cameras.of_arrays(
         ...     ["front"], [[640, 480]], [[[800, 0, 320], [0, 800, 240], [0, 0, 1]]], [[0, 0, 0, 0]], [[0, 0, 0]], [[0, 0, 3000]])
         >>> cameras.project([[0, 0, 0]]).tolist()
         [[[320.0, 240.0]]]
         """
+        if len(names) == 0:
+            raise _pantin.PantinError("no camera was given, expected at least one")
+        for at, name in enumerate(names):
+            if name in names[:at]:
+                raise _pantin.PantinError(f"two cameras are named `{name}`, expected a name of its own for each")
         parts = {"K": matrices, "D": distortions, "image_size": sizes, "R": rotations, "T": translations}
         rows = {key: np.asarray(value, np.float64) for key, value in parts.items()}
         for key, value in rows.items():

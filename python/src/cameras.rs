@@ -6,9 +6,7 @@ use anyhow::ensure;
 use glam::DVec3;
 use numpy::PyReadonlyArray2;
 use pantin::geometry::Camera;
-use pantin::sequence::{
-    Sequence, cameras_toml, parse_cameras_toml, parse_opencv_yaml, read_cameras, write_cameras_toml,
-};
+use pantin::sequence::{Sequence, parse_opencv_yaml, read_cameras, write_cameras_toml};
 use pyo3::prelude::*;
 
 use crate::arrays::shaped;
@@ -34,10 +32,7 @@ impl Cameras {
     #[staticmethod]
     fn of_texts(texts: Vec<String>) -> PyResult<Self> {
         let cameras = texts.iter().map(|text| parse_opencv_yaml(text, "the arrays"));
-        let cameras = cameras.collect::<anyhow::Result<Vec<_>>>().map_err(raised)?.concat();
-        let text = cameras_toml(&cameras);
-        // What no file could hold is no set of cameras: two of one name, none at all.
-        Ok(Self(parse_cameras_toml(&text, "the arrays").map_err(raised)?))
+        Ok(Self(cameras.collect::<anyhow::Result<Vec<_>>>().map_err(raised)?.concat()))
     }
 
     fn save(&self, path: PathBuf, force: bool) -> PyResult<()> {
