@@ -103,9 +103,7 @@ impl FromStr for PictureSize {
 pub(super) fn run(args: &CalibrateArgs) -> Result<()> {
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     // Said before the work, not after it.
-    if !args.force && args.output.exists() {
-        bail!("{} exists: choose another name, or replace it with --force", args.output.display());
-    }
+    overwrite.check(&args.output)?;
     let settings = settings(args)?;
     let calibrations = if args.board.is_given() { from_board(args, settings)? } else { from_points(args, &settings)? };
     let calibrated: Vec<Camera> = calibrations.iter().map(|found| found.camera.clone()).collect();

@@ -36,6 +36,8 @@ impl BoardPose {
 /// One camera's view of the board at one moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoardView<'a> {
+    /// The moment's.
+    pub(super) frame: usize,
     pub(super) camera: usize,
     /// Place in the bundle's boards.
     pub(super) board: usize,

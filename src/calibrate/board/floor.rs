@@ -49,7 +49,7 @@ pub(super) struct Placed {
 pub(super) fn find(board: &Board, boards: &[Placed], cameras: &[Camera], floor: Floor) -> Result<(Placed, FloorFound)> {
     let up = upwards(cameras);
     let normal = |placed: &Placed| -placed.world_from_board.matrix3.z_axis;
-    let tilt = |placed: &Placed| normal(placed).dot(up).clamp(-1.0, 1.0).acos().to_degrees();
+    let tilt = |placed: &Placed| degrees_between(normal(placed), up);
     let middle = |placed: &Placed| placed.world_from_board.transform_point3(board.middle());
     let chosen = match floor {
         Floor::Frame(frame) => {
@@ -78,8 +78,7 @@ pub(super) fn find(board: &Board, boards: &[Placed], cameras: &[Camera], floor: 
         }
     };
     let is_there = |placed: &&Placed| {
-        middle(placed).distance(middle(chosen)) < STILL
-            && normal(placed).dot(normal(chosen)).clamp(-1.0, 1.0).acos().to_degrees() < STEADY
+        middle(placed).distance(middle(chosen)) < STILL && degrees_between(normal(placed), normal(chosen)) < STEADY
     };
     let there: Vec<&Placed> = boards.iter().filter(is_there).collect();
     // Of the same place, the moment that most is known of.
@@ -103,6 +102,11 @@ pub(super) fn floor_from_world(board: &Board, lying: &Placed, thickness: f64) ->
     let origin = pose.transform_point3(board.middle()) + z * thickness;
     let world_from_floor = DAffine3::from_mat3_translation(DMat3::from_cols(x, -y, -z), origin);
     Ok(world_from_floor.inverse())
+}
+
+/// The angle between two directions of length 1.
+fn degrees_between(one: DVec3, other: DVec3) -> f64 {
+    one.dot(other).clamp(-1.0, 1.0).acos().to_degrees()
 }
 
 /// The mean upward direction of the pictures.

@@ -12,7 +12,7 @@ use super::floor::{self, Floor, FloorFound, Placed};
 use super::homography::{focal_length, homography, pose};
 use super::start::place_cameras;
 use super::target::{Board, BoardMoment, FEWEST_CORNERS, SeenCorner};
-use super::views::{outline, spread};
+use super::views::{Outline, of_camera, outline, spread};
 use crate::geometry::{Camera, Lens};
 
 /// Views that a lens is first found from.
@@ -81,7 +81,7 @@ pub fn calibrate_board(
     ensure!(!names.is_empty(), "there is no camera, expected at least one");
     let held = settings.held.clone().unwrap_or_else(|| vec![Held::K3]);
     let lens: Vec<usize> = Parameters::free(settings.model, &held).into_iter().filter(|&at| at >= 6).collect();
-    let outlines: Vec<Vec<Option<[DVec2; 4]>>> = moments
+    let outlines: Vec<Vec<Option<Outline>>> = moments
         .iter()
         .map(|moment| {
             let views = moment.views.iter().zip(sizes);
@@ -109,7 +109,7 @@ pub fn calibrate_board(
     let (lying, found) = floor::find(board, &placed, &cameras, settings.floor)?;
     let lying = refined(&solved, moments, &lying);
     let floor_from_world = floor::floor_from_world(board, &lying, settings.thickness)?;
-    let cameras = results(&solved, &chosen, moments, names, floor_from_world);
+    let cameras = results(&solved, names, floor_from_world);
     Ok(BoardCalibration { cameras, alone, moments: chosen.len(), left_out, floor: found })
 }
 
@@ -123,7 +123,7 @@ struct Alone<'a> {
     camera: usize,
     size: [u32; 2],
     moments: &'a [BoardMoment],
-    outlines: &'a [Vec<Option<[DVec2; 4]>>],
+    outlines: &'a [Vec<Option<Outline>>],
     lens: &'a [usize],
     settings: &'a BoardSettings,
 }
@@ -131,8 +131,7 @@ struct Alone<'a> {
 impl Alone<'_> {
     /// Its lens, in how many moments it sees the board, and the noise of its pixels.
     fn solve(&self) -> Result<(Parameters, usize, f64)> {
-        let own: Vec<Vec<Option<[DVec2; 4]>>> = self.outlines.iter().map(|views| vec![views[self.camera]]).collect();
-        let seen: Vec<usize> = (0..own.len()).filter(|&moment| own[moment][0].is_some()).collect();
+        let (own, seen) = of_camera(self.outlines, self.camera);
         ensure!(
             seen.len() >= FEWEST_VIEWS,
             "the board is found in {} of {} pictures, expected at least {FEWEST_VIEWS}: is it the board that was printed, seen \
@@ -155,7 +154,12 @@ impl Alone<'_> {
         };
         let settings = self.settings;
         let camera = Parameters::new(settings.model, self.size, settings.pitch, DAffine3::IDENTITY, focal, 1.0);
-        let views = corners.iter().enumerate().map(|(at, &corners)| BoardView { camera: 0, board: at, corners });
+        let views = corners.iter().zip(&chosen).enumerate().map(|(board, (&corners, &moment))| BoardView {
+            frame: self.moments[moment].frame,
+            camera: 0,
+            board,
+            corners,
+        });
         let bundle = Bundle {
             board: self.board,
             cameras: vec![camera],
@@ -186,7 +190,7 @@ fn board_poses(
     board: &Board,
     cameras: &[Parameters],
     moments: &[BoardMoment],
-    outlines: &[Vec<Option<[DVec2; 4]>>],
+    outlines: &[Vec<Option<Outline>>],
 ) -> Vec<Vec<Option<DAffine3>>> {
     let lenses: Vec<Lens> = cameras.iter().map(|camera| camera.camera("").lens).collect();
     let of_view = |seen: &[SeenCorner], lens: &Lens| -> Option<DAffine3> {
@@ -196,7 +200,7 @@ fn board_poses(
         let straight: Vec<SeenCorner> = seen.iter().map(straight).collect::<Option<_>>()?;
         pose(&homography(board, &straight)?, 1.0, DVec2::ZERO)
     };
-    let of_moment = |(moment, outlines): (&BoardMoment, &Vec<Option<[DVec2; 4]>>)| {
+    let of_moment = |(moment, outlines): (&BoardMoment, &Vec<Option<Outline>>)| {
         let views = moment.views.iter().zip(&lenses).zip(outlines);
         views.map(|((seen, lens), outline)| outline.as_ref().and_then(|_| of_view(seen, lens))).collect()
     };
@@ -204,13 +208,12 @@ fn board_poses(
 }
 
 /// The moments that everything is fitted to.
-fn joint_moments(moments: &[BoardMoment], outlines: &[Vec<Option<[DVec2; 4]>>], cameras: usize) -> Vec<usize> {
+fn joint_moments(moments: &[BoardMoment], outlines: &[Vec<Option<Outline>>], cameras: usize) -> Vec<usize> {
     let seen_by = |moment: usize| outlines[moment].iter().flatten().count();
     let shared: Vec<usize> = (0..moments.len()).filter(|&moment| seen_by(moment) >= 2).collect();
     let mut chosen = spread(&shared, moments, outlines, JOINT_MOMENTS);
     for camera in 0..cameras {
-        let own: Vec<Vec<_>> = outlines.iter().map(|views| vec![views[camera]]).collect();
-        let seen: Vec<usize> = (0..moments.len()).filter(|&moment| own[moment][0].is_some()).collect();
+        let (own, seen) = of_camera(outlines, camera);
         let most = if shared.is_empty() { LENS_VIEWS } else { OWN_MOMENTS };
         chosen.extend(spread(&seen, moments, &own, most));
     }
@@ -249,7 +252,7 @@ fn together<'a>(
         let Some(placed) = start.iter().find(|placed| placed.frame == moments[moment].frame) else { continue };
         for (camera, corners) in moments[moment].views.iter().enumerate() {
             if poses[moment][camera].is_some() {
-                views.push(BoardView { camera, board: boards.len(), corners });
+                views.push(BoardView { frame: moments[moment].frame, camera, board: boards.len(), corners });
             }
         }
         boards.push(BoardPose::new(placed.world_from_board));
@@ -279,7 +282,7 @@ fn together<'a>(
 fn refined(solved: &Bundle, moments: &[BoardMoment], lying: &Placed) -> Placed {
     let Some(moment) = moments.iter().find(|moment| moment.frame == lying.frame) else { return *lying };
     let seen = moment.views.iter().enumerate().filter(|(_, corners)| corners.len() >= FEWEST_CORNERS);
-    let views = seen.map(|(camera, corners)| BoardView { camera, board: 0, corners }).collect();
+    let views = seen.map(|(camera, corners)| BoardView { frame: moment.frame, camera, board: 0, corners }).collect();
     let bundle = Bundle {
         lens: &[],
         moves: vec![false; solved.cameras.len()],
@@ -292,13 +295,7 @@ fn refined(solved: &Bundle, moments: &[BoardMoment], lying: &Placed) -> Placed {
 }
 
 /// The cameras in the world of the floor, with what they are worth.
-fn results(
-    solved: &Bundle,
-    chosen: &[usize],
-    moments: &[BoardMoment],
-    names: &[String],
-    floor_from_world: DAffine3,
-) -> Vec<Calibration> {
+fn results(solved: &Bundle, names: &[String], floor_from_world: DAffine3) -> Vec<Calibration> {
     let deviations = solved.unit_deviations();
     let world_from_floor = floor_from_world.inverse();
     let calibration = |(camera, name): (usize, &String)| {
@@ -311,16 +308,12 @@ fn results(
             Estimate { name, value: parameters.values[at], deviation }
         });
         let mut residuals = Vec::new();
-        for &moment in chosen {
-            let corners = &moments[moment].views[camera];
-            let used =
-                solved.views.iter().find(|view| view.camera == camera && std::ptr::eq(view.corners, &corners[..]));
-            let Some(view) = used else { continue };
+        for view in solved.views.iter().filter(|view| view.camera == camera) {
             let board = solved.boards[view.board].world_from_board();
-            residuals.extend(corners.iter().map(|seen| {
+            residuals.extend(view.corners.iter().map(|seen| {
                 let projected = placed.project(board.transform_point3(solved.board.corner(seen.corner)));
                 Residual {
-                    name: format!("frame {} corner {}", moments[moment].frame, seen.corner),
+                    name: format!("frame {} corner {}", view.frame, seen.corner),
                     pixel: seen.pixel,
                     offset: projected.map(|pixel| seen.pixel - pixel),
                     is_outlier: false,

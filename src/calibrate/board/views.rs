@@ -7,7 +7,10 @@ use super::homography::homography;
 use super::target::{Board, BoardMoment, SeenCorner};
 
 /// The four outer corners of a board in one camera's picture, over the picture's diagonal: place, distance and tilt at once.
-pub(super) fn outline(board: &Board, seen: &[SeenCorner], size: [u32; 2]) -> Option<[DVec2; 4]> {
+pub(super) type Outline = [DVec2; 4];
+
+/// The outline of what a camera sees of the board; None where it is no plane's image.
+pub(super) fn outline(board: &Board, seen: &[SeenCorner], size: [u32; 2]) -> Option<Outline> {
     let mapping = homography(board, seen)?;
     let [columns, rows] = board.corners.map(|count| f64::from(count - 1) * board.square);
     let diagonal = f64::from(size[0]).hypot(f64::from(size[1]));
@@ -18,12 +21,19 @@ pub(super) fn outline(board: &Board, seen: &[SeenCorner], size: [u32; 2]) -> Opt
     Some([image(0.0, 0.0), image(columns, 0.0), image(0.0, rows), image(columns, rows)])
 }
 
+/// One camera's outlines, a list of one a moment, and the moments at which there is one.
+pub(super) fn of_camera(outlines: &[Vec<Option<Outline>>], camera: usize) -> (Vec<Vec<Option<Outline>>>, Vec<usize>) {
+    let own: Vec<Vec<_>> = outlines.iter().map(|views| vec![views[camera]]).collect();
+    let seen = (0..own.len()).filter(|&moment| own[moment][0].is_some()).collect();
+    (own, seen)
+}
+
 /// Up to `most` of the candidates, each as far as possible from those chosen before it; the first is the one with the most
 /// corners. Candidates are places in `moments`; outlines hold one a moment and camera.
 pub(super) fn spread(
     candidates: &[usize],
     moments: &[BoardMoment],
-    outlines: &[Vec<Option<[DVec2; 4]>>],
+    outlines: &[Vec<Option<Outline>>],
     most: usize,
 ) -> Vec<usize> {
     let corners = |moment: usize| moments[moment].views.iter().map(Vec::len).sum::<usize>();
@@ -45,9 +55,9 @@ pub(super) fn spread(
 }
 
 /// How differently the board lies at two moments, to the cameras that see it at both; those that see it at one say nothing.
-fn distance(one: &[Option<[DVec2; 4]>], other: &[Option<[DVec2; 4]>]) -> f64 {
+fn distance(one: &[Option<Outline>], other: &[Option<Outline>]) -> f64 {
     let both = one.iter().zip(other).filter_map(|(one, other)| Some((one.as_ref()?, other.as_ref()?)));
-    let apart = |(one, other): (&[DVec2; 4], &[DVec2; 4])| {
+    let apart = |(one, other): (&Outline, &Outline)| {
         one.iter().zip(other).map(|(a, b)| a.distance_squared(*b)).sum::<f64>().sqrt()
     };
     // No camera in common: as different as can be.
