@@ -139,7 +139,8 @@ impl BrownConrady {
         )
     }
 
-    /// Where the radial part alone would have that image, or the end of the branch: Newton starts there.
+    /// Where the radial part alone would have that image to some 1e-12, or the end of the branch: Newton's method in two dimensions starts
+    /// there.
     fn radial_inverse(&self, distorted: DVec2, limit: f64) -> DVec2 {
         let wanted = distorted.length();
         if wanted == 0.0 {
@@ -147,6 +148,7 @@ impl BrownConrady {
         }
         let [k1, k2, k3] = self.radial;
         let image = |r: f64| r * (1.0 + r * r * (k1 + r * r * (k2 + r * r * k3)));
+        let slope = |r: f64| 1.0 + r * r * (3.0 * k1 + r * r * (5.0 * k2 + r * r * 7.0 * k3));
         let (mut low, mut high) = (0.0, limit.sqrt());
         if high.is_infinite() {
             high = wanted.max(1.0);
@@ -154,9 +156,20 @@ impl BrownConrady {
                 high *= 2.0;
             }
         }
+        // The image rises between the two, so a step that leads out of them is replaced by their middle.
+        let mut at = if wanted < high { wanted } else { 0.5 * (low + high) };
         for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if image(middle) < wanted { low = middle } else { high = middle }
+            let missing = wanted - image(at);
+            if missing > 0.0 {
+                low = at
+            } else {
+                high = at
+            }
+            let next = at + missing / slope(at);
+            if (next - at).abs() <= 1e-12 * at {
+                return distorted * (next / wanted);
+            }
+            at = if low < next && next < high { next } else { 0.5 * (low + high) };
         }
         distorted * (high / wanted)
     }
