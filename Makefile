@@ -21,7 +21,7 @@ SHADERC_PACKAGES := libshaderc-dev glslang-dev spirv-tools
 SHADERC_PARTS := shaderc_combined glslang SPIRV MachineIndependent GenericCodeGen OSDependent OGLCompiler HLSL SPIRV-Tools-opt \
 	SPIRV-Tools glslang-default-resource-limits
 
-.PHONY: demo test bench portability gpu-report wheel python dist shaders fuzz build ffmpeg vulkan shaderc c++ toolchain help
+.PHONY: demo test bench portability gpu-report wheel python python-tests dist shaders fuzz build ffmpeg vulkan shaderc c++ toolchain help
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -47,15 +47,16 @@ test: export PROPTEST_RNG_SEED = 1
 test: export CARGO_INCREMENTAL = 0
 # A failing test says its file and line without them; line tables are for profilers.
 test: export CARGO_PROFILE_DEV_DEBUG = 0
-# The crate's own tests are built as a user builds it. All that runs the program, and the benchmarks, of which each row runs once,
-# have the feature rerun too: 185 crates more, but no library is built a second time.
+# Everything is built at once, and once: all that is tested has the feature rerun (185 crates more), the Python package too, so that one
+# library serves them all.
+TESTED := --locked --workspace --features rerun
 test: toolchain shaderc ffmpeg vulkan
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --locked --features rerun,reload --all-targets -- -D warnings
-	env $(NEEDS_VULKAN) $(CARGO) test --locked --lib
-	env $(NEEDS_VULKAN) $(CARGO) test --locked --features rerun --test '*' --bench '*'
-	$(CARGO) test --locked --features rerun --doc
-	$(MAKE) --no-print-directory python
+	env $(FOR_PYTHON) $(CARGO) build $(TESTED) --lib --bins --tests --benches
+	env $(NEEDS_VULKAN) $(FOR_PYTHON) $(CARGO) test $(TESTED) --exclude pantin-python --lib --test '*' --bench '*'
+	env $(FOR_PYTHON) $(CARGO) test $(TESTED) --exclude pantin-python --doc
+	$(MAKE) --no-print-directory python-tests
 	@[ -d ../shared/data ] || echo "SKIPPED: the tests on real recordings; ../shared/data is absent"
 
 bench: toolchain shaderc
@@ -89,14 +90,20 @@ wheel: toolchain $(PYTHON)
 		--compatibility manylinux2014 --interpreter $(PYTHON) --out target/wheels
 	@ls -l target/wheels
 
-# Its tests, on a wheel of the tests' own profile, against the program that those left.
-python: toolchain ffmpeg $(PYTHON)
-	rm -rf target/wheels-for-tests
-	$(PYTHON) -m maturin build --manifest-path python/Cargo.toml --locked --profile dev --compatibility linux \
-		--interpreter $(PYTHON) --out target/wheels-for-tests
-	target/python/bin/pip install --quiet --disable-pip-version-check --force-reinstall --no-deps target/wheels-for-tests/*.whl
-	@[ -x target/debug/pantin ] || echo "SKIPPED: the comparisons with the program; target/debug/pantin is absent (make test builds it)"
-	env $$([ -x target/debug/pantin ] && echo PANTIN_PROGRAM=$(abspath target/debug/pantin)) $(PYTHON) -m pytest -q python/tests
+# An extension for any Python from 3.9 on: no interpreter is asked and none linked.
+FOR_PYTHON := PYO3_BUILD_EXTENSION_MODULE=1 PYO3_NO_PYTHON=1
+
+# Its tests, beside the program, both as the other tests are built.
+python: toolchain
+	env $(FOR_PYTHON) $(CARGO) build $(TESTED) --lib --bins
+	$(MAKE) --no-print-directory python-tests
+
+# On the package as a wheel lays it out.
+python-tests: ffmpeg $(PYTHON)
+	rm -rf target/python-package && mkdir -p target/python-package
+	cp -r python/pantin target/python-package/
+	cp target/debug/lib_pantin.so target/python-package/pantin/_pantin.abi3.so
+	env PYTHONPATH=$(abspath target/python-package) PANTIN_PROGRAM=$(abspath target/debug/pantin) $(PYTHON) -m pytest -q python/tests
 
 dist: toolchain $(PYTHON)
 	tests/dist/pack.sh $(abspath $(PYTHON))
