@@ -1,5 +1,6 @@
 //! `pantin texture`: procedural materials, and textures from an example.
 
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
@@ -9,7 +10,7 @@ use image::{DynamicImage, RgbImage};
 use super::draws::Draws;
 use super::output::say;
 use super::progress::ProgressBar;
-use crate::files::{Choice as _, Overwrite, choices, png_name, write_atomically};
+use crate::files::{Choice as _, Limit, Overwrite, choices, png_name, write_atomically};
 use crate::synth::portrait;
 use crate::texture::example::{Settings, patch_count, synthesise};
 use crate::texture::materials::{Material, MaterialKind, Parameters};
@@ -210,8 +211,10 @@ fn of_material(args: &TextureArgs, name: &str) -> Result<DynamicImage> {
 }
 
 fn read(path: &Path) -> Result<RgbImage> {
+    const EXAMPLE: Limit = Limit { what: "a picture", most: 1 << 30 };
     let context = || format!("cannot read the picture {}", path.display());
-    let picture = image::ImageReader::open(path).with_context(context)?.with_guessed_format().with_context(context)?;
+    let file = BufReader::new(EXAMPLE.open(path).with_context(context)?);
+    let picture = image::ImageReader::new(file).with_guessed_format().with_context(context)?;
     Ok(picture.decode().with_context(context)?.into_rgb8())
 }
 

@@ -3,9 +3,8 @@
 
 use std::collections::HashSet;
 
-use anyhow::{Result, anyhow, bail, ensure};
+use anyhow::{Result, bail, ensure};
 use glam::{DMat3, DQuat, DVec2, DVec3};
-use roxmltree::Document;
 
 use crate::geometry::{BrownConrady, Camera, LARGEST_SIDE, Lens, rodrigues_matrix};
 
@@ -92,12 +91,6 @@ pub(super) fn translation(vector: [f64; 3]) -> Result<DVec3> {
         "translation is {vector:?}, expected three finite lengths of sane size"
     );
     Ok(DVec3::from_array(vector))
-}
-
-/// The tree of an XML file.
-pub(super) fn parse_xml<'text>(text: &'text str, name: &str) -> Result<Document<'text>> {
-    // The parser quotes what it met, line ends too.
-    Document::parse(text).map_err(|error| anyhow!("{name} is not XML: {}", error.to_string().replace('\n', "\\n")))
 }
 
 /// The cameras of a file as a whole: at least one, each with a name of its own that can stand in a file's name.
