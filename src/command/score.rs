@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use serde_json::json;
 
 use super::name_pair::name_pair;
-use super::output::{put, say};
+use super::output::{put, say, tell};
 use crate::files::{Overwrite, write_atomically};
 use crate::motion::{Matching, PointPairs, TrajectoryError, read_points, read_y_up_points, write_frame_errors};
 use crate::track::tracked_points;
@@ -58,6 +58,11 @@ pub(super) struct ScoreArgs {
 pub(super) fn run(args: &ScoreArgs) -> Result<()> {
     let truth = if args.truth_y_up { read_y_up_points(&args.truth)? } else { read_points(&args.truth)? };
     let (path, ours, mut pairs) = tracked_points(&args.track, &truth, &args.map)?;
+    for (file, points) in [(&args.truth, &truth), (&path, &ours)] {
+        if let Some(note) = points.same_labels() {
+            tell!("note: {}: {note}", file.display());
+        }
+    }
     if !args.points.is_empty() {
         pairs.keep(&ours, &truth, &args.points)?;
     }
