@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 
 use super::draws::Draws;
 use super::output::{say, tell};
@@ -119,7 +119,11 @@ pub(super) fn made(args: &SynthArgs, progress: &(dyn Fn(usize, usize) -> Result<
     };
     scene.frames = args.frames.unwrap_or(scene.frames);
     scene.seed = args.seed.unwrap_or(scene.seed);
-    let synthetic = SyntheticSequence::new(&scene)?;
+    let synthetic = SyntheticSequence::new(&scene);
+    let synthetic = match &args.scene {
+        Some(path) => synthetic.with_context(|| path.display().to_string())?,
+        None => synthetic?,
+    };
     let device = device(args, &synthetic)?;
     let folder = folder(args)?;
     synthetic.write(&folder, args.resume, device.as_ref(), &|done| progress(done, scene.frames))?;
