@@ -132,6 +132,7 @@ fn from_board(args: &CalibrateArgs, settings: CalibrationSettings) -> Result<Vec
 }
 
 fn from_points(args: &CalibrateArgs, settings: &CalibrationSettings) -> Result<Vec<Calibration>> {
+    args.board.refuse_without_board()?;
     let (source, cameras) = pairs(args)?;
     let mut calibrations = Vec::new();
     for pairs in &cameras {

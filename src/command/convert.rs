@@ -55,10 +55,10 @@ pub(super) struct ConvertArgs {
 /// # Errors
 /// When a file cannot be read or written, or when the conversion is not possible; one sentence.
 pub(super) fn run(args: &ConvertArgs) -> Result<()> {
-    let positive = |value: f64| value.is_finite() && value > 0.0;
-    ensure!(positive(args.scale), "--scale is {}, expected a positive number", args.scale);
+    let sane = |value: f64| (1e-6..=1e6).contains(&value);
+    ensure!(sane(args.scale), "--scale is {:?}, expected a positive number, 1e-6 to 1e6", args.scale);
     if let Some(rate) = args.rate {
-        ensure!(positive(rate), "--rate is {rate}, expected a positive number of frames a second");
+        ensure!(sane(rate), "--rate is {rate:?}, expected a positive number of frames a second, 1e-6 to 1e6");
     }
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     if is_skinned_file(&args.input) {

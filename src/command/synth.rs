@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 
 use super::draws::Draws;
 use super::output::{say, tell};
@@ -112,6 +112,10 @@ pub(super) struct Made {
 pub(super) fn made(args: &SynthArgs, progress: &(dyn Fn(usize, usize) -> Result<()> + Sync)) -> Result<Made> {
     if let Some(seed) = args.lottery {
         return drawn_by_lot(args, seed, progress);
+    }
+    // A requirement of the parser's own gives way to what conflicts with it.
+    for (option, given) in [("--motions", &args.motions), ("--people", &args.people)] {
+        ensure!(given.is_none(), "{option} is for --lottery, expected it beside that alone");
     }
     let mut scene = match (&args.scene, &args.preset) {
         (Some(path), _) => Scene::load(path)?,

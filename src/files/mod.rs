@@ -3,6 +3,7 @@
 //! never over an existing file unless asked.
 
 mod choice;
+mod exact;
 mod input;
 mod listed;
 mod output;
@@ -12,6 +13,7 @@ mod toml_file;
 
 pub(crate) use choice::choices;
 pub use choice::{Choice, ChoiceParser, deserialize as deserialize_choice, expected, names, nearest, unknown};
+pub use exact::{exactly, exactly_if_any};
 pub use input::{Limit, check_regular};
 pub use listed::listed;
 pub(crate) use output::png_name;

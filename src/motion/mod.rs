@@ -71,7 +71,7 @@ impl PointFormat {
     pub(crate) fn of_input(path: &Path) -> Result<Self> {
         // A name without an ending is more often a wrong one than a file of no known format.
         if extension(path).is_empty() {
-            check_regular(path).map_err(|why| anyhow!("cannot read {}: {why}", path.display()))?;
+            check_regular(path).map_err(|why| anyhow!(why))?;
         }
         Self::of(path)
     }
@@ -198,7 +198,7 @@ mod tests {
         fs::write(at("binary.trc"), b"Path\n\xff\xfe").unwrap();
         assert!(message(&at("binary.trc")).contains("line 2: byte 5 is not UTF-8"));
         fs::create_dir(at("folder.csv")).unwrap();
-        assert!(message(&at("folder.csv")).contains("cannot read"));
+        assert!(message(&at("folder.csv")).contains("is a folder, expected a recording of motion"));
         let mut runner = proptest::test_runner::TestRunner::deterministic();
         let mut points = trajectories().new_tree(&mut runner).unwrap().current();
         let refused = format!("{:#}", write_points(&at("a.bvh"), &points, Overwrite::Refuse).unwrap_err());

@@ -10,7 +10,7 @@ use super::axes::{Axis, Value};
 use super::lottery::{Drawn, LotteryTable};
 use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
-use crate::files::{parse_toml, read_toml};
+use crate::files::{parse_toml, read_toml, shortened};
 use crate::search::{SearchKind, SearchSettings};
 use crate::track::{Backend, FrameRange, Passes};
 
@@ -357,6 +357,7 @@ fn several<T: std::hash::Hash + Eq + std::fmt::Display>(key: &str, list: &[T]) -
 /// Names become names of files.
 fn file_name(name: &str) -> Result<()> {
     let is_plain = |c: char| c.is_alphanumeric() || "-_.".contains(c);
+    ensure!(name.len() <= 100, "the name `{}` is {} bytes long, expected at most 100", shortened(name), name.len());
     ensure!(
         !name.is_empty() && name.chars().all(is_plain) && !name.starts_with('.'),
         "the name {name:?} cannot be part of a file's name, expected letters, digits, `-`, `_` and `.`"

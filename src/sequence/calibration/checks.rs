@@ -6,7 +6,11 @@ use std::collections::HashSet;
 use anyhow::{Result, bail, ensure};
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
+use crate::files::shortened;
 use crate::geometry::{BrownConrady, Camera, LARGEST_SIDE, Lens, rodrigues_matrix};
+
+/// Bytes of a camera's name.
+const LONGEST_NAME: usize = 100;
 
 /// A length in the file's own unit beyond which a number is damage, not a place.
 const FARTHEST: f64 = 1e9;
@@ -101,6 +105,12 @@ pub(super) fn names(cameras: &[Camera]) -> Result<()> {
         if name.is_empty() || name == "." || name == ".." || name.chars().any(|c| c.is_control() || "/\\".contains(c)) {
             bail!("camera name {name:?} cannot be part of a file's name, expected one without slashes");
         }
+        ensure!(
+            name.len() <= LONGEST_NAME,
+            "camera name `{}` is {} bytes long, expected at most {LONGEST_NAME}: files are called after it",
+            shortened(name),
+            name.len()
+        );
         ensure!(
             name != "metadata",
             "a camera is named `metadata`, expected another name: files keep that for themselves"

@@ -83,7 +83,7 @@ fn read_file(path: &Path, sizes: Sizes) -> Result<Vec<Camera>> {
     }
     // A name without an ending is more often a wrong one than a file of no known format.
     if path.extension().is_none() {
-        check_regular(path).map_err(|why| anyhow!("cannot read {name}: {why}"))?;
+        check_regular(path).map_err(|why| anyhow!(why))?;
     }
     let format = match format_of(path) {
         Some(format) => format,
