@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use super::mesh::{MeshEntry, build_source};
 use super::{Body, Bone, Dof, DofAxis, Marker, MeshSource, Part};
-use crate::files::{expected, parse_toml, read_toml, shortened};
+use crate::files::{exactly, expected, parse_toml, read_toml, shortened};
 use crate::geometry::{EulerOrder, LengthUnit};
 
 /// Longest length inside a body, mm. Larger ones are a mistaken unit, and would not survive single precision.
@@ -45,6 +45,7 @@ struct BodyFile {
 struct BoneEntry {
     name: String,
     parent: String,
+    #[serde(deserialize_with = "exactly")]
     offset: [f64; 3],
     #[serde(default)]
     order: Option<String>,
@@ -61,7 +62,9 @@ struct BoneEntry {
 struct PartEntry {
     name: String,
     bone: String,
+    #[serde(deserialize_with = "exactly")]
     a: [f64; 3],
+    #[serde(deserialize_with = "exactly")]
     b: [f64; 3],
     radius_a: f64,
     radius_b: f64,
@@ -73,6 +76,7 @@ struct PartEntry {
 struct MarkerEntry {
     name: String,
     bone: String,
+    #[serde(deserialize_with = "exactly")]
     at: [f64; 3],
 }
 
@@ -227,11 +231,20 @@ fn build_part(entry: &PartEntry, bone_index: &HashMap<&str, usize>, mm: f64) -> 
     Ok(Part { name: entry.name.clone(), bone, a, b, radius_a, radius_b, label })
 }
 
+/// Bytes of a name: files of markers hold no longer ones, and would be refused when a run is done.
+const LONGEST_NAME: usize = 100;
+
 /// The index of every name. Names become columns of tables and labels of trajectories, hence what they may hold.
 fn unique_names<'a>(kind: &str, names: impl Iterator<Item = &'a str>) -> Result<HashMap<&'a str, usize>> {
     let mut indices = HashMap::new();
     for (index, name) in names.enumerate() {
         ensure!(!name.is_empty(), "{kind} number {} has an empty name", index + 1);
+        ensure!(
+            name.len() <= LONGEST_NAME,
+            "{kind} name `{}` is {} bytes long, expected at most {LONGEST_NAME}",
+            shortened(name),
+            name.len()
+        );
         if let Some(found) = name.chars().find(|c| c.is_whitespace() || c.is_control() || ".,;\"\\".contains(*c)) {
             bail!(
                 "{kind} name {name:?} holds {found:?}, expected no blank, point, comma, semicolon, quote or backslash"

@@ -1,17 +1,19 @@
 //! Poses: state vectors checked against their body, and the table of them that files hold (`poses.csv`, FORMATS).
 
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::{BufReader, Read, Write};
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 
 use super::{Body, DofAxis};
-use crate::files::{Overwrite, expected, shortened, write_atomically};
+use crate::files::{Limit, Overwrite, expected, shortened, write_atomically};
 
 /// Largest value a cell may hold, mm or degrees; single precision resolves less than a millimetre up to there.
 const LARGEST: f64 = 1e7;
+
+/// A million poses of a person take less.
+const POSES: Limit = Limit { what: "a table of poses", most: 2 << 30 };
 
 /// What a limit may be exceeded by, relative to it: single precision rounds limits too.
 const LIMIT_TOLERANCE: f64 = 1e-6;
@@ -79,8 +81,7 @@ impl PoseTable {
     /// One sentence with the file, the line and the column: a column missing, unknown or twice, a cell empty or not a
     /// finite number of reasonable size, a row cut short, no rows.
     pub fn read(path: &Path, body: &Body) -> Result<Self> {
-        let file = File::open(path).with_context(|| format!("cannot read {}", path.display()))?;
-        Self::parse(BufReader::new(file), &path.display().to_string(), body)
+        Self::parse(BufReader::new(POSES.open(path)?.take(POSES.most)), &path.display().to_string(), body)
     }
 
     /// [`Self::read`] from anything; `name` stands for the file in messages.

@@ -77,9 +77,33 @@ pub struct Calibration {
 /// One sentence that begins with the camera and says why its points do not determine it: too few, on a line, in a plane
 /// where they should not be, parallel to the picture, mirrored, behind the camera, or contradicting each other.
 pub fn calibrate(pairs: &CameraPairs, size: [u32; 2], settings: &CalibrationSettings) -> Result<Calibration> {
-    Problem::new(pairs, size, settings)
+    check_within(&pairs.pairs, size)
+        .and_then(|()| Problem::new(pairs, size, settings))
         .and_then(|problem| problem.solve())
         .with_context(|| format!("camera `{}`", pairs.camera))
+}
+
+/// Refuses pairs of which more than a few, as wrong ones are, lie outside the picture.
+fn check_within(pairs: &[Pair], size: [u32; 2]) -> Result<()> {
+    let beyond = |pair: &Pair| {
+        let [width, height] = size.map(f64::from);
+        let (last, at) = (DVec2::new(width, height) - 0.5, pair.pixel);
+        (DVec2::splat(-0.5) - at).max(at - last).max_element()
+    };
+    let outside = pairs.iter().filter(|pair| beyond(pair) > 1.0).count();
+    let farthest = pairs.iter().max_by(|a, b| beyond(a).total_cmp(&beyond(b)));
+    if let Some(farthest) = farthest.filter(|_| outside * 10 > pairs.len()) {
+        bail!(
+            "{outside} of {} points lie outside its pictures of {}x{} pixels, {} at ({:.1}, {:.1}): is that their size?",
+            pairs.len(),
+            size[0],
+            size[1],
+            farthest.name,
+            farthest.pixel.x,
+            farthest.pixel.y
+        );
+    }
+    Ok(())
 }
 
 struct Problem<'a> {

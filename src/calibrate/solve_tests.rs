@@ -44,6 +44,20 @@ fn cases() -> [Case; 4] {
 }
 
 #[test]
+fn a_picture_smaller_than_its_points_is_refused() {
+    let (truth, model, points) = &cases()[0];
+    let mut pairs = seen(truth, points, 0.0, &mut Random(1));
+    let refused = |pairs: &CameraPairs, size| format!("{:#}", calibrate(pairs, size, &settings(*model)).unwrap_err());
+    let error = refused(&pairs, [SIZE[0] / 2, SIZE[1] / 2]);
+    assert!(error.contains(&format!("of {} points lie outside its pictures of", pairs.pairs.len())), "{error}");
+    assert!(error.ends_with("is that their size?"), "{error}");
+    // A wrong point or two are outliers.
+    pairs.pairs[0].pixel.x += 1e4;
+    let found = calibrate(&pairs, SIZE, &settings(*model)).unwrap();
+    assert_eq!(found.residuals.iter().filter(|residual| residual.is_outlier).count(), 1);
+}
+
+#[test]
 fn without_noise_every_parameter_comes_back() {
     for (truth, model, points) in cases() {
         let pairs = seen(&truth, &points, 0.0, &mut Random(1));

@@ -5,6 +5,7 @@
 use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
+use super::partners::partners;
 use super::signed_distance::SignedDistance;
 use crate::geometry::Camera;
 
@@ -48,12 +49,25 @@ impl Ray {
 
 /// Every ray of every moment, at most `rays` a silhouette.
 pub(super) fn rays(cameras: &[Camera], moments: &[Moment], rays: usize) -> Vec<Ray> {
+    rays_of(cameras, moments, rays, |_| true)
+}
+
+/// [`rays`] of some views alone.
+pub(super) fn rays_of(
+    cameras: &[Camera],
+    moments: &[Moment],
+    rays: usize,
+    is_wanted: impl Fn(usize) -> bool,
+) -> Vec<Ray> {
+    let is_wanted = &is_wanted;
     let silhouettes: Vec<(usize, usize, DVec3)> = moments
         .iter()
         .enumerate()
         .filter_map(|(at, moment)| Some((at, moment, crossing(cameras, moment)?)))
         .flat_map(|(at, moment, middle)| {
-            (0..moment.len()).filter(|&view| moment[view].is_some()).map(move |view| (at, view, middle))
+            (0..moment.len())
+                .filter(|&view| moment[view].is_some() && is_wanted(view))
+                .map(move |view| (at, view, middle))
         })
         .collect();
     silhouettes
@@ -88,11 +102,11 @@ fn best(
     direction: DVec3,
     [mut around, mut reach, mut step]: [f64; 3],
 ) -> Option<(f64, f64)> {
+    let others = partners(view, cameras.len());
     let miss = |along: f64| {
         let point = origin + direction * along;
-        let others = cameras.iter().zip(moment).enumerate().filter(|(other, _)| *other != view);
         // A view whose picture ends before the point says nothing about it.
-        let said = others.filter_map(|(_, (camera, silhouette))| silhouette.as_ref()?.at(camera.project(point)?));
+        let said = others.iter().filter_map(|&other| moment[other]?.at(cameras[other].project(point)?));
         said.reduce(f64::max)
     };
     let mut found: Option<(f64, f64)> = None;
@@ -134,6 +148,7 @@ fn crossing(cameras: &[Camera], moment: &Moment) -> Option<DVec3> {
 
 /// How much the views disagree, in pixels: the mean excess, each ray's cut at `cap` so that a missing hand weighs no more
 /// than that.
-pub(super) fn disagreement(rays: &[Ray], cap: f64) -> f64 {
-    rays.iter().map(|ray| ray.excess().min(cap)).sum::<f64>() / rays.len().max(1) as f64
+pub(super) fn disagreement<'a>(rays: impl IntoIterator<Item = &'a Ray>, cap: f64) -> f64 {
+    let (sum, count) = rays.into_iter().fold((0.0, 0), |(sum, count), ray| (sum + ray.excess().min(cap), count + 1));
+    sum / f64::from(count.max(1))
 }

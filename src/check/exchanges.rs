@@ -1,7 +1,8 @@
 //! Would the views agree with two cameras exchanged, or with all pictures mirrored?
 
-use super::agreement::{CAP, FEWER_RAYS, Ray, disagreement, rays};
+use super::agreement::{CAP, FEWER_RAYS, Ray, disagreement, rays, rays_of};
 use super::finding::Finding;
+use super::partners::shows;
 use super::silhouettes::Silhouettes;
 use crate::geometry::{Camera, Lens};
 
@@ -9,6 +10,9 @@ use crate::geometry::{Camera, Lens};
 const DISAGREE: f64 = 0.6;
 /// By which factor an exchange must improve on what there is.
 const BETTER: f64 = 0.6;
+
+/// Every pair of as many cameras is tried.
+const MOST_SUSPECTS: usize = 9;
 
 /// Handedness and order of the cameras.
 pub(super) fn exchanges(cameras: &[Camera], silhouettes: &Silhouettes, found: &[Ray]) -> [Finding; 2] {
@@ -19,13 +23,18 @@ pub(super) fn exchanges(cameras: &[Camera], silhouettes: &Silhouettes, found: &[
     // Where the views agree there is nothing to exchange.
     let mirrored = if tried { with(&cameras.iter().map(mirrored).collect::<Vec<_>>()) / now } else { 1.0 };
     let mut best = (1.0, String::new());
-    for (a, b) in (0..cameras.len()).flat_map(|a| (0..a).map(move |b| (b, a))) {
+    let suspects = suspects(cameras.len(), found);
+    for (a, b) in suspects.iter().flat_map(|&a| suspects.iter().map(move |&b| (b, a))).filter(|(b, a)| b < a) {
         if !tried || cameras[a].size != cameras[b].size {
             continue;
         }
         let mut exchanged = cameras.to_vec();
         exchanged.swap(a, b);
-        let ratio = with(&exchanged) / now;
+        // Only where it shows: with many cameras most rays meet neither of the two.
+        let touched = |view: usize| shows(a, view, cameras.len()) || shows(b, view, cameras.len());
+        let before = disagreement(found.iter().filter(|ray| touched(ray.view)), CAP);
+        let after = disagreement(&rays_of(&exchanged, &moments, FEWER_RAYS, touched), CAP);
+        let ratio = after / before;
         if ratio < best.0 {
             best = (ratio, format!("{} and {}", cameras[a].name, cameras[b].name));
         }
@@ -44,6 +53,17 @@ pub(super) fn exchanges(cameras: &[Camera], silhouettes: &Silhouettes, found: &[
             .found(if best.1.is_empty() { how } else { format!("{how}; best with {} exchanged", best.1) })
             .or(format!("the calibrations of {} are exchanged, or their videos: correct the names", best.1)),
     ]
+}
+
+/// The cameras that two exchanged ones are looked for among: those that the others agree with least.
+fn suspects(cameras: usize, found: &[Ray]) -> Vec<usize> {
+    let excess: Vec<f64> =
+        (0..cameras).map(|view| disagreement(found.iter().filter(|ray| ray.view == view), CAP)).collect();
+    let mut worst: Vec<usize> = (0..cameras).collect();
+    worst.sort_by(|&a, &b| excess[b].total_cmp(&excess[a]));
+    worst.truncate(MOST_SUSPECTS);
+    worst.sort_unstable();
+    worst
 }
 
 /// The camera of pictures turned over, left for right.

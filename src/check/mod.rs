@@ -7,6 +7,7 @@
 mod agreement;
 mod exchanges;
 mod finding;
+mod partners;
 mod person;
 mod signed_distance;
 mod silhouettes;

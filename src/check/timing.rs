@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::agreement::{CAP, FEWER_RAYS, Moment, disagreement, rays};
 use super::finding::{Finding, Status};
+use super::partners::{fewer, partners, shows};
 use super::silhouettes::{SHIFTS, Silhouettes};
 use crate::geometry::Camera;
 
@@ -21,9 +22,17 @@ type Curve = Vec<(isize, f64)>;
 pub(super) fn timing(cameras: &[Camera], silhouettes: &Silhouettes) -> Vec<Finding> {
     let mut delays = vec![0; cameras.len()];
     let mut settled: Vec<Option<Finding>> = vec![None; cameras.len()];
+    let mut curves: Vec<Curve> = vec![Vec::new(); cameras.len()];
+    let mut changed: Option<usize> = None;
     loop {
-        let curves: Vec<Curve> =
-            (0..cameras.len()).into_par_iter().map(|view| curve(cameras, silhouettes, &delays, view)).collect();
+        curves = curves
+            .into_par_iter()
+            .enumerate()
+            .map(|(view, before)| match changed {
+                Some(changed) if !shows(changed, view, cameras.len()) => before,
+                _ => curve(cameras, silhouettes, &delays, view),
+            })
+            .collect();
         let found: Vec<Finding> = curves.iter().zip(cameras).map(|(curve, camera)| finding(curve, camera)).collect();
         let open = (0..cameras.len()).filter(|&view| settled[view].is_none() && found[view].status == Status::Failed);
         let gain = |view: &usize| lowest(&curves[*view]).map_or(f64::INFINITY, |(_, _, least)| least);
@@ -32,6 +41,7 @@ pub(super) fn timing(cameras: &[Camera], silhouettes: &Silhouettes) -> Vec<Findi
         };
         delays[worst] = lowest(&curves[worst]).map_or(0, |(_, shift, _)| shift);
         settled[worst] = Some(found[worst].clone());
+        changed = Some(worst);
     }
 }
 
@@ -46,10 +56,20 @@ fn curve(cameras: &[Camera], silhouettes: &Silhouettes, delays: &[isize], view: 
     if samples.is_empty() {
         return Vec::new();
     }
+    // The view and those that it is compared with, by themselves.
+    let mut group = partners(view, cameras.len());
+    group.push(view);
+    group.sort_unstable();
+    let own_cameras: Vec<Camera> = group.iter().map(|&view| cameras[view].clone()).collect();
+    let count = fewer(FEWER_RAYS, cameras.len());
     SHIFTS
         .map(|shift| {
-            let moments: Vec<Moment> = samples.iter().filter_map(|&sample| shifted(sample, shift)).collect();
-            (shift, disagreement(&rays(cameras, &moments, FEWER_RAYS), CAP))
+            let own = |&sample: &usize| {
+                let moment = shifted(sample, shift)?;
+                Some(group.iter().map(|&view| moment[view]).collect())
+            };
+            let moments: Vec<Moment> = samples.iter().filter_map(own).collect();
+            (shift, disagreement(&rays(&own_cameras, &moments, count), CAP))
         })
         .collect()
 }

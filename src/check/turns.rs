@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::agreement::{CAP, Moment, Ray, again, disagreement, rays};
 use super::finding::Finding;
+use super::partners::{fewer, partners};
 use crate::geometry::{Camera, rodrigues_matrix};
 
 /// Residuals beyond this many pixels are taken for faults of the silhouettes and weigh ever less.
@@ -29,7 +30,8 @@ const RAYS: usize = 80;
 pub(super) fn turns(cameras: &[Camera], moments: &[Moment]) -> Vec<Finding> {
     let found = best_turns(cameras, moments);
     let after: Vec<Camera> = cameras.iter().zip(&found).map(|(camera, turn)| turned(camera, *turn)).collect();
-    let [before, after] = [cameras, &after].map(|cameras| disagreement(&rays(cameras, moments, RAYS), CAP));
+    let count = fewer(RAYS, cameras.len());
+    let [before, after] = [cameras, &after].map(|cameras| disagreement(&rays(cameras, moments, count), CAP));
     let finding = |(camera, turn): (&Camera, &DVec3)| {
         let [right, down, ahead] = turn.to_array().map(f64::to_degrees);
         let advice = "the camera was moved since its calibration, or that is not exact: calibrate it anew, or refine it on \
@@ -67,7 +69,7 @@ fn best_turns(cameras: &[Camera], moments: &[Moment]) -> Vec<DVec3> {
     let mut damping = 1.0;
     for _ in 0..ROUNDS {
         let current: Vec<Camera> = cameras.iter().zip(&turns).map(|(camera, turn)| turned(camera, *turn)).collect();
-        let rays = rays(&current, moments, RAYS);
+        let rays = rays(&current, moments, fewer(RAYS, cameras.len()));
         let cost = cost(&rays, &turns);
         if cost < best.0 {
             best = (cost, turns.clone());
@@ -117,24 +119,37 @@ fn step(cameras: &[Camera], moments: &[Moment], rays: &[Ray], turns: &[DVec3], d
             })
         })
         .collect();
+    // What moves a ray's miss: its own camera's turn and those of the cameras that it is compared with.
     let equations = |ray: &Ray| {
         let moment = &moments[ray.moment];
         let excess = |cameras: &[Camera]| again(cameras, moment, ray).map(|miss| (miss + 0.5).max(0.0));
-        let row = moved.iter().map(|[up, down]| match (excess(up), excess(down)) {
-            (Some(up), Some(down)) => (up - down) / (2.0 * STEP),
-            _ => 0.0,
+        let mut involved = partners(ray.view, cameras.len());
+        involved.push(ray.view);
+        involved.sort_unstable();
+        let row = involved.into_iter().flat_map(|camera| 3 * camera..3 * camera + 3).map(|unknown| {
+            let [up, down] = &moved[unknown];
+            let slope = match (excess(up), excess(down)) {
+                (Some(up), Some(down)) => (up - down) / (2.0 * STEP),
+                _ => 0.0,
+            };
+            (unknown, slope)
         });
-        (DVector::from_iterator(unknowns, row), ray.excess())
+        (row.collect::<Vec<_>>(), ray.excess())
     };
-    let sum = |(matrix, vector): (DMatrix<f64>, DVector<f64>), (row, excess): (DVector<f64>, f64)| {
+    let sum = |(mut matrix, mut vector): (DMatrix<f64>, DVector<f64>), (row, excess): (Vec<(usize, f64)>, f64)| {
         let weight = weight(excess);
-        (matrix + weight * &row * row.transpose(), vector + weight * excess * row)
+        for &(at, slope) in &row {
+            vector[at] += weight * excess * slope;
+            for &(other, along) in &row {
+                matrix[(at, other)] += weight * slope * along;
+            }
+        }
+        (matrix, vector)
     };
     let nothing = || (DMatrix::zeros(unknowns, unknowns), DVector::zeros(unknowns));
-    // Folded in pieces of fixed size and in their order, so that the sums are the same on every run.
-    let pieces: Vec<_> = rays.par_chunks(256).map(|rays| rays.iter().map(equations).fold(nothing(), sum)).collect();
-    let (mut matrix, mut vector) =
-        pieces.into_iter().fold(nothing(), |(matrix, vector), (m, v)| (matrix + m, vector + v));
+    // Summed in the rays' order, so that the sums are the same on every run.
+    let rows: Vec<_> = rays.par_iter().map(equations).collect();
+    let (mut matrix, mut vector) = rows.into_iter().fold(nothing(), sum);
     let prior = prior(rays.len());
     for unknown in 0..unknowns {
         matrix[(unknown, unknown)] += prior;

@@ -1,7 +1,6 @@
 //! `pantin calibrate`.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -13,7 +12,7 @@ use crate::calibrate::{
     BoardSettings, Calibration, CalibrationSettings, CameraPairs, Held, Layout, LensModel, ResidualSummary, calibrate,
     join_tracks, parse_pairs, parse_tracks,
 };
-use crate::files::{OutputFolder, Overwrite};
+use crate::files::{Limit, OutputFolder, Overwrite};
 use crate::geometry::{Camera, LARGEST_SIDE, LengthUnit};
 use crate::motion::read_points;
 use crate::report::{Arrow, arrow_chart};
@@ -131,6 +130,7 @@ fn from_board(args: &CalibrateArgs, settings: CalibrationSettings) -> Result<Vec
 }
 
 fn from_points(args: &CalibrateArgs, settings: &CalibrationSettings) -> Result<Vec<Calibration>> {
+    args.board.refuse_without_board()?;
     let (source, cameras) = pairs(args)?;
     let mut calibrations = Vec::new();
     for pairs in &cameras {
@@ -181,11 +181,8 @@ fn pairs(args: &CalibrateArgs) -> Result<(String, Vec<CameraPairs>)> {
 
 fn text(path: &Path) -> Result<String> {
     /// A hundred thousand points a camera take less; anything larger is a mistake.
-    const LARGEST: u64 = 256 << 20;
-    let cannot = || format!("cannot read {}", path.display());
-    let size = fs::metadata(path).with_context(cannot)?.len();
-    ensure!(size <= LARGEST, "{} holds {size} bytes, expected a table of at most {LARGEST}", path.display());
-    fs::read_to_string(path).with_context(cannot)
+    const TABLE: Limit = Limit { what: "a table of points", most: 256 << 20 };
+    TABLE.read_text(path)
 }
 
 fn size_of(sizes: &[PictureSize], camera: &str) -> Result<[u32; 2]> {

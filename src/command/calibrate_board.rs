@@ -18,6 +18,11 @@ use crate::sequence::{Footage, SpreadFrames};
 /// videos are suspected.
 const NOISIER: (f64, f64) = (2.5, 0.2);
 
+/// The dictionary of most printed boards.
+const DICTIONARY: &str = "DICT_4X4_50";
+/// Frames a video.
+const SAMPLES: usize = 240;
+
 /// The board, and how its videos are looked at.
 #[derive(clap::Args, Debug)]
 pub(super) struct BoardFlags {
@@ -38,7 +43,7 @@ pub(super) struct BoardFlags {
     #[arg(long, value_name = "MM", requires = "board")]
     marker: Option<f64>,
     /// A ChArUco board's dictionary, as OpenCV calls it.
-    #[arg(long, value_name = "NAME", default_value = "DICT_4X4_50")]
+    #[arg(long, value_name = "NAME", default_value = DICTIONARY)]
     dictionary: String,
     /// Thickness of the board, mm: the floor is that far below its print.
     #[arg(long, value_name = "MM", default_value_t = 0.0)]
@@ -47,7 +52,7 @@ pub(super) struct BoardFlags {
     #[arg(long, value_name = "FRAME", requires = "board")]
     floor: Option<usize>,
     /// Frames a video that the board is looked for in, evenly spread.
-    #[arg(long, value_name = "N", default_value_t = 240)]
+    #[arg(long, value_name = "N", default_value_t = SAMPLES)]
     samples: usize,
 }
 
@@ -68,6 +73,26 @@ impl BoardFlags {
     /// Whether a board was asked for.
     pub(super) fn is_given(&self) -> bool {
         self.board.is_some()
+    }
+
+    /// Refuses what is for a board alone where none was asked for.
+    ///
+    /// # Errors
+    /// With the option.
+    pub(super) fn refuse_without_board(&self) -> Result<()> {
+        for (option, given) in [
+            ("--corners", self.corners.is_some()),
+            ("--squares", self.squares.is_some()),
+            ("--square", self.square.is_some()),
+            ("--marker", self.marker.is_some()),
+            ("--dictionary", self.dictionary != DICTIONARY),
+            ("--thickness", self.thickness != 0.0),
+            ("--floor", self.floor.is_some()),
+            ("--samples", self.samples != SAMPLES),
+        ] {
+            ensure!(!given, "{option} is for --board, expected it beside that alone");
+        }
+        Ok(())
     }
 
     fn board(&self) -> Result<Board> {

@@ -44,7 +44,14 @@ pub(super) fn run(args: &CheckArgs) -> Result<()> {
     }
     let failed: Vec<&Finding> = report.checks.iter().filter(|finding| finding.status == Status::Failed).collect();
     if let Some(first) = failed.first() {
-        bail!("{} of {} checks failed, the first is `{}`", failed.len(), report.checks.len(), first.check);
+        let found = if first.found.is_empty() { String::new() } else { format!(": {}", first.found) };
+        bail!(
+            "{}: {} of {} checks failed, the first is `{}`{found}",
+            args.sequence.display(),
+            failed.len(),
+            report.checks.len(),
+            first.check
+        );
     }
     Ok(())
 }

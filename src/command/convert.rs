@@ -7,7 +7,7 @@ use anyhow::{Context, Result, ensure};
 
 use super::convert_poses::PoseFlags;
 use super::name_pair::name_pair;
-use super::output::say;
+use super::output::{say, tell};
 use crate::body::{ADULT_HEIGHT, Body};
 use crate::files::{Overwrite, write_atomically};
 use crate::motion::{Convention, PointFormat, read_bvh, read_points, read_y_up_points, write_bvh, write_points_by};
@@ -55,10 +55,10 @@ pub(super) struct ConvertArgs {
 /// # Errors
 /// When a file cannot be read or written, or when the conversion is not possible; one sentence.
 pub(super) fn run(args: &ConvertArgs) -> Result<()> {
-    let positive = |value: f64| value.is_finite() && value > 0.0;
-    ensure!(positive(args.scale), "--scale is {}, expected a positive number", args.scale);
+    let sane = |value: f64| (1e-6..=1e6).contains(&value);
+    ensure!(sane(args.scale), "--scale is {:?}, expected a positive number, 1e-6 to 1e6", args.scale);
     if let Some(rate) = args.rate {
-        ensure!(positive(rate), "--rate is {rate}, expected a positive number of frames a second");
+        ensure!(sane(rate), "--rate is {rate:?}, expected a positive number of frames a second, 1e-6 to 1e6");
     }
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     if is_skinned_file(&args.input) {
@@ -73,7 +73,7 @@ pub(super) fn run(args: &ConvertArgs) -> Result<()> {
     if args.poses.convert(&args.input, &args.output, args.rate, args.convention, overwrite)? {
         return Ok(());
     }
-    let formats = (PointFormat::of(&args.input)?, PointFormat::of(&args.output)?);
+    let formats = (PointFormat::of_input(&args.input)?, PointFormat::of(&args.output)?);
     let (points, frames, what) = if formats == (PointFormat::Bvh, PointFormat::Bvh) {
         ensure!(!args.y_up, "--y-up turns points, but a BVH stays a skeleton here: write .c3d, .trc or .csv instead");
         let mut motion = read_bvh(&args.input)?.scaled(args.scale);
@@ -86,6 +86,9 @@ pub(super) fn run(args: &ConvertArgs) -> Result<()> {
         (motion.joints.len(), motion.frames.len(), "joints")
     } else {
         let points = if args.y_up { read_y_up_points(&args.input)? } else { read_points(&args.input)? };
+        if let Some(note) = points.same_labels() {
+            tell!("note: {}: {note}", args.input.display());
+        }
         let mut points = points.scaled(args.scale);
         points.rate = args.rate.unwrap_or(points.rate);
         let counts = (points.names.len(), points.frames.len(), "points");

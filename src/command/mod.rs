@@ -40,6 +40,7 @@ use anyhow::Result;
 use clap::{CommandFactory, Parser, Subcommand};
 
 use self::output::tell;
+use crate::files::one_line;
 
 /// Markerless 3D human motion from a few calibrated cameras.
 #[derive(Parser, Debug)]
@@ -101,7 +102,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     };
     let done = dispatch(arguments.command);
     if let Err(error) = &done {
-        tell!("pantin: {error:#}");
+        tell!("pantin: {}", one_line(&format!("{error:#}")));
     }
     if output::finish() || done.is_err() { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }

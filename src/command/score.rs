@@ -6,9 +6,11 @@ use anyhow::{Context, Result};
 use serde_json::json;
 
 use super::name_pair::name_pair;
-use super::output::{put, say};
+use super::output::{put, say, tell};
 use crate::files::{Overwrite, write_atomically};
-use crate::motion::{Matching, PointPairs, TrajectoryError, read_points, read_y_up_points, write_frame_errors};
+use crate::motion::{
+    Matching, PointFormat, PointPairs, TrajectoryError, read_points, read_y_up_points, write_frame_errors,
+};
 use crate::track::tracked_points;
 
 /// Measures the error of tracked markers or joints against C3D, TRC or CSV truth, in mm: for every point its mean over
@@ -58,6 +60,19 @@ pub(super) struct ScoreArgs {
 pub(super) fn run(args: &ScoreArgs) -> Result<()> {
     let truth = if args.truth_y_up { read_y_up_points(&args.truth)? } else { read_points(&args.truth)? };
     let (path, ours, mut pairs) = tracked_points(&args.track, &truth, &args.map)?;
+    for (file, points, other) in [(&args.truth, &truth, &ours), (&path, &ours, &truth)] {
+        if let Some(note) = points.same_labels() {
+            tell!("note: {}: {note}", file.display());
+        }
+        // One of another program, or saved by one: it cannot say where it begins.
+        if PointFormat::of(file)? == PointFormat::Bvh && points.first_frame == 0 && other.first_frame > 0 {
+            let begins = other.first_frame;
+            tell!(
+                "note: {} is taken to begin at frame 0, and what it is compared with at frame {begins}",
+                file.display()
+            );
+        }
+    }
     if !args.points.is_empty() {
         pairs.keep(&ours, &truth, &args.points)?;
     }

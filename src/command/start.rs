@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 
 use super::fit::summary;
 use super::output::{put, say, tell};
 use super::progress::WorkBar;
 use crate::files::Overwrite;
+use crate::sequence::check_scale;
 use crate::track::{FirstTry, FirstTrySettings, FirstView, FitSettings, FrameRange, first_try};
 
 /// Makes all that a first track needs from your videos, their calibration and the person's height.
@@ -63,9 +64,7 @@ pub(super) fn run(args: &StartArgs) -> Result<()> {
     if let Some(heading) = args.heading.filter(|heading| !(-360.0..=360.0).contains(heading)) {
         bail!("--heading is {heading}, expected -360 to 360 degrees");
     }
-    if let Some(scale) = args.scale.filter(|scale| !(*scale > 0.0 && *scale <= 1.0)) {
-        bail!("--scale is {scale}, expected more than 0 and at most 1");
-    }
+    args.scale.map_or(Ok(()), check_scale).context("--scale")?;
     let name = args.output.file_name().map_or_else(|| "walk".into(), |name| name.to_string_lossy().into_owned());
     let settings = FirstTrySettings {
         videos: args.videos.clone(),

@@ -86,10 +86,13 @@ pub(super) fn run(args: &StudyArgs) -> Result<()> {
     let output = if args.resume {
         OutputFolder::open(&args.output)?
     } else {
-        OutputFolder::create(&args.output, Overwrite::Refuse).map_err(|error| {
-            // Nothing of a study is thrown away by accident: there is no --force.
-            error.context("a study is gone on with by --resume")
-        })?
+        // Nothing of a study is thrown away by accident: there is no --force.
+        ensure!(
+            !OutputFolder::holds_something(&args.output)?,
+            "the folder {} is not empty: go on with the study in it by --resume, or choose another folder",
+            args.output.display()
+        );
+        OutputFolder::create(&args.output, Overwrite::Refuse)?
     };
     let summary = study::run(&study, &output, &Watch::new()?)?;
     told(args, &summary);

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use anyhow::Result;
+use anyhow::{Context, Result, ensure};
 
 use super::draws::Draws;
 use super::output::{say, tell};
@@ -113,13 +113,21 @@ pub(super) fn made(args: &SynthArgs, progress: &(dyn Fn(usize, usize) -> Result<
     if let Some(seed) = args.lottery {
         return drawn_by_lot(args, seed, progress);
     }
+    // A requirement of the parser's own gives way to what conflicts with it.
+    for (option, given) in [("--motions", &args.motions), ("--people", &args.people)] {
+        ensure!(given.is_none(), "{option} is for --lottery, expected it beside that alone");
+    }
     let mut scene = match (&args.scene, &args.preset) {
         (Some(path), _) => Scene::load(path)?,
         (None, preset) => Scene::preset(preset.unwrap_or(ScenePreset::Demo).name())?,
     };
     scene.frames = args.frames.unwrap_or(scene.frames);
     scene.seed = args.seed.unwrap_or(scene.seed);
-    let synthetic = SyntheticSequence::new(&scene)?;
+    let synthetic = SyntheticSequence::new(&scene);
+    let synthetic = match &args.scene {
+        Some(path) => synthetic.with_context(|| path.display().to_string())?,
+        None => synthetic?,
+    };
     let device = device(args, &synthetic)?;
     let folder = folder(args)?;
     synthetic.write(&folder, args.resume, device.as_ref(), &|done| progress(done, scene.frames))?;

@@ -1,15 +1,16 @@
 //! `pantin texture`: procedural materials, and textures from an example.
 
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use image::codecs::png::PngEncoder;
 use image::{DynamicImage, RgbImage};
 
 use super::draws::Draws;
 use super::output::say;
 use super::progress::ProgressBar;
-use crate::files::{Choice as _, Overwrite, choices, png_name, write_atomically};
+use crate::files::{Choice as _, Limit, Overwrite, choices, png_name, write_atomically};
 use crate::synth::portrait;
 use crate::texture::example::{Settings, patch_count, synthesise};
 use crate::texture::materials::{Material, MaterialKind, Parameters};
@@ -193,7 +194,19 @@ fn list(args: &TextureArgs, output: Option<&Path>) -> Result<()> {
 }
 
 fn of_material(args: &TextureArgs, name: &str) -> Result<DynamicImage> {
-    check_size(args.size)?;
+    check_size(args.size).context("--size")?;
+    let usual = Settings::default();
+    for (option, given) in [
+        ("--patch", args.patch != usual.patch),
+        ("--overlap", args.overlap != usual.overlap),
+        ("--delta-max", args.delta_max != usual.delta_max),
+        ("--delta-pixel", args.delta_pixel != usual.delta_pixel),
+        ("--mask", args.mask.is_some()),
+        ("--decomposition", args.decomposition.is_some()),
+        ("--resynthesised", args.resynthesised.is_some()),
+    ] {
+        ensure!(!given, "{option} is for --example and means nothing with a material");
+    }
     let scale = args.scale.unwrap_or(if args.preview.is_some() { 1.0 } else { 4.0 });
     let view = View { size: args.size, offset: args.offset, scale }.checked()?;
     let parameters = args.params.as_deref().map_or(Parameters::Defaults, Parameters::File);
@@ -210,8 +223,10 @@ fn of_material(args: &TextureArgs, name: &str) -> Result<DynamicImage> {
 }
 
 fn read(path: &Path) -> Result<RgbImage> {
+    const EXAMPLE: Limit = Limit { what: "a picture", most: 1 << 30 };
     let context = || format!("cannot read the picture {}", path.display());
-    let picture = image::ImageReader::open(path).with_context(context)?.with_guessed_format().with_context(context)?;
+    let file = BufReader::new(EXAMPLE.open(path)?);
+    let picture = image::ImageReader::new(file).with_guessed_format().with_context(context)?;
     Ok(picture.decode().with_context(context)?.into_rgb8())
 }
 

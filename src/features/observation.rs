@@ -1,5 +1,6 @@
 //! The packed observation: what one camera saw in one frame, one byte a pixel (METHOD A5.5).
 
+use std::io::BufReader;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -9,7 +10,9 @@ use image::{DynamicImage, ExtendedColorType, GrayImage, ImageEncoder, ImageReade
 
 use super::distance::Codes;
 use super::{BitImage, DistanceMap, Evidence, Segmentation};
-use crate::files::{Overwrite, write_atomically};
+use crate::files::{Limit, Overwrite, write_atomically};
+
+const PACKED: Limit = Limit { what: "a packed observation", most: 1 << 30 };
 
 /// One camera's packed observation: bit 7 the silhouette, bits 0..=6 the edge proximity (127 on an edge, 0 far away); and
 /// the body parts in a second plane, where they are told apart.
@@ -165,8 +168,10 @@ impl Observation {
     /// # Errors
     /// When the file cannot be read or is no 8-bit grey picture; the message names it.
     pub fn read_png(path: &Path) -> Result<Self> {
-        let picture = (|| -> Result<DynamicImage> { Ok(ImageReader::open(path)?.with_guessed_format()?.decode()?) })()
-            .with_context(|| format!("cannot read the packed observation {}", path.display()))?;
+        let picture = (|| -> Result<DynamicImage> {
+            Ok(ImageReader::new(BufReader::new(PACKED.open(path)?)).with_guessed_format()?.decode()?)
+        })()
+        .with_context(|| format!("cannot read the packed observation {}", path.display()))?;
         match picture {
             DynamicImage::ImageLuma8(gray) => Ok(Self {
                 width: gray.width(),

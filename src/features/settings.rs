@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use serde::Deserialize;
 
 use super::distance::Metric;
@@ -109,8 +109,9 @@ impl FeatureSettings {
     /// # Errors
     /// An unknown key (the nearest known one is named), a value of the wrong type, or one that [`Self::check`] refuses.
     pub fn from_table(table: &toml::Table, name: &str) -> Result<Self> {
-        let settings: Self = parse_table(table, &format!("{name}, table [features]"))?;
-        settings.check()?;
+        let place = format!("{name}, table [features]");
+        let settings: Self = parse_table(table, &place)?;
+        settings.check().context(place)?;
         Ok(settings)
     }
 

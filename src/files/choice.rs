@@ -9,7 +9,7 @@ use anyhow::{Error, Result, anyhow};
 use clap::builder::{PossibleValue, TypedValueParser};
 use serde::de::{Deserializer, Visitor};
 
-use super::shortened;
+use super::{listed, shortened};
 
 /// One of a list of choices that have names.
 pub trait Choice: Copy + Send + Sync + 'static {
@@ -43,7 +43,7 @@ pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Opt
 /// The sentence for a name that is not known.
 pub fn unknown(what: &str, found: &str, known: &[&str]) -> Error {
     let nearest = nearest(found, known.iter().copied()).unwrap_or("none");
-    anyhow!("unknown {what} `{}`, the nearest is `{nearest}` (known: {})", shortened(found), known.join(", "))
+    anyhow!("unknown {what} `{}`, the nearest is `{nearest}` (known: {})", shortened(found), listed(known))
 }
 
 /// What to say after an unknown name: the nearest known one and the list, which is cut when it is long.
@@ -51,9 +51,7 @@ pub fn expected(found: &str, known: &[&str]) -> String {
     let Some(nearest) = nearest(found, known.iter().copied()) else {
         return "expected none".to_string();
     };
-    let shown = known.iter().take(40).copied().collect::<Vec<_>>().join(", ");
-    let more = if known.len() > 40 { ", …" } else { "" };
-    format!("the nearest known one is `{nearest}` (known: {shown}{more})")
+    format!("the nearest known one is `{}` (known: {})", shortened(nearest), listed(known))
 }
 
 /// Reads a choice by its name out of any file.

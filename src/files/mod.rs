@@ -3,13 +3,21 @@
 //! never over an existing file unless asked.
 
 mod choice;
+mod exact;
+mod input;
+mod listed;
 mod output;
 mod shortened;
+mod stem;
 mod toml_file;
 
 pub(crate) use choice::choices;
 pub use choice::{Choice, ChoiceParser, deserialize as deserialize_choice, expected, names, nearest, unknown};
+pub use exact::{exactly, exactly_if_any};
+pub use input::{Limit, check_regular};
+pub use listed::listed;
 pub(crate) use output::png_name;
 pub use output::{Occupied, OutputFolder, Overwrite, write_atomically};
-pub use shortened::shortened;
+pub use shortened::{one_line, shortened};
+pub use stem::file_stem;
 pub use toml_file::{parse_table, parse_toml, read_toml, table_of};

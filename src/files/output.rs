@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 
+use super::input::no_regular_file;
+
 /// What to do when a result is already there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overwrite {
@@ -59,7 +61,8 @@ pub fn write_atomically(
         bail!("{} exists already: pass --force to replace it, or choose another name", path.display());
     }
     // A rename would put the file in the place of a device or a link, for everybody who uses it.
-    if let Some(what) = no_regular_file(path) {
+    let there = fs::symlink_metadata(path).ok();
+    if let Some(what) = there.and_then(|metadata| no_regular_file(metadata.file_type())) {
         bail!("{} is {what}, expected a regular file or a name that is free", path.display());
     }
     let temporary = temporary_name(path);
@@ -81,17 +84,6 @@ pub fn write_atomically(
         let _ = fs::remove_file(&temporary);
     }
     written.with_context(|| format!("cannot write {}", path.display()))
-}
-
-/// What stands at a path, if it is something and no regular file.
-fn no_regular_file(path: &Path) -> Option<&'static str> {
-    let kind = fs::symlink_metadata(path).ok()?.file_type();
-    match (kind.is_file(), kind.is_symlink(), kind.is_dir()) {
-        (true, ..) => None,
-        (_, true, _) => Some("a link"),
-        (.., true) => Some("a folder"),
-        _ => Some("a device, a pipe or a socket"),
-    }
 }
 
 fn temporary_name(path: &Path) -> PathBuf {
@@ -117,12 +109,7 @@ impl OutputFolder {
         if path.exists() && !path.is_dir() {
             bail!("{} is a file, expected a folder to write results into", path.display());
         }
-        let occupied = path.is_dir()
-            && fs::read_dir(path)
-                .with_context(|| format!("cannot read the folder {}", path.display()))?
-                .next()
-                .is_some();
-        if occupied && overwrite == Overwrite::Refuse {
+        if overwrite == Overwrite::Refuse && Self::holds_something(path)? {
             bail!(
                 "the folder {} is not empty: pass --force to overwrite its files, or choose another folder",
                 path.display()
@@ -131,6 +118,15 @@ impl OutputFolder {
         fs::create_dir_all(path).with_context(|| format!("cannot create the folder {}", path.display()))?;
         // Past this point the folder is ours: files in it are replaced (a resumed run rewrites its own).
         Ok(Self { path: path.to_path_buf(), overwrite: Overwrite::Replace })
+    }
+
+    /// Whether a folder is there that is not empty.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn holds_something(path: &Path) -> Result<bool> {
+        let cannot = || format!("cannot read the folder {}", path.display());
+        Ok(path.is_dir() && fs::read_dir(path).with_context(cannot)?.next().is_some())
     }
 
     /// Creates the folder or opens it with what it holds (a resumed run).

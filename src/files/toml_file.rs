@@ -1,17 +1,16 @@
 //! One way to read a TOML file, with one kind of error sentence.
 
-use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Result, anyhow};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::{nearest, shortened};
+use super::{Limit, listed, nearest, one_line, shortened};
 
 /// Files a person edits are small; anything larger is a mistake (a video handed over as a body, say) and reading it
 /// whole would only waste memory.
-const LARGEST_TOML: u64 = 16 << 20;
+const TOML: Limit = Limit { what: "a TOML file", most: 16 << 20 };
 
 /// Reads a TOML file into `T`. Mark the structures of `T` with `#[serde(deny_unknown_fields)]`.
 ///
@@ -19,14 +18,7 @@ const LARGEST_TOML: u64 = 16 << 20;
 /// One sentence with the file, the line, what was found and what was expected; an unknown key is named with the
 /// nearest known one.
 pub fn read_toml<T: DeserializeOwned>(path: &Path) -> Result<T> {
-    let size = fs::metadata(path).with_context(|| format!("cannot read {}", path.display()))?.len();
-    if size > LARGEST_TOML {
-        return Err(anyhow!("{} holds {size} bytes, expected a TOML file of at most {LARGEST_TOML}", path.display()));
-    }
-    let bytes = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-    let text = String::from_utf8(bytes)
-        .map_err(|e| anyhow!("{} is not text (byte {} is not UTF-8)", path.display(), e.utf8_error().valid_up_to()))?;
-    parse_toml(&text, &path.display().to_string())
+    parse_toml(&TOML.read_text(path)?, &path.display().to_string())
 }
 
 /// [`read_toml`] for text already in memory; `name` stands for the file in messages.
@@ -60,7 +52,7 @@ pub fn table_of<T: Serialize>(value: &T) -> Result<toml::Table> {
 
 /// serde's "unknown field `x`, expected one of `a`, `b`" with the nearest known key put first.
 fn one_sentence(message: &str) -> String {
-    let message = message.trim().replace('\n', ", ");
+    let message = one_line(&message.trim().replace('\n', ", "));
     let Some(rest) = message.strip_prefix("unknown field `") else { return message };
     let mut quoted = rest.split('`');
     let Some(found) = quoted.next() else { return message };
@@ -69,7 +61,7 @@ fn one_sentence(message: &str) -> String {
     let known: Vec<&str> = quoted.skip(1).step_by(2).collect();
     match nearest(found, known.iter().copied()) {
         Some(nearest) => {
-            format!("unknown key `{found}`, the nearest known key is `{nearest}` (known: {})", known.join(", "))
+            format!("unknown key `{found}`, the nearest known key is `{nearest}` (known: {})", listed(&known))
         }
         None => format!("unknown key `{found}`, expected none here"),
     }
@@ -77,6 +69,8 @@ fn one_sentence(message: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[derive(serde::Deserialize, Debug)]

@@ -37,7 +37,7 @@ pub use skeletal::{
 };
 pub use trc::{parse_trc, write_pose2sim_trc, write_trc};
 
-use crate::files::{Overwrite, choices, write_atomically};
+use crate::files::{Overwrite, check_regular, choices, write_atomically};
 use points::PointFile;
 use whole_file::{extension, read_bytes, text};
 
@@ -63,6 +63,18 @@ impl PointFormat {
     pub fn of(path: &Path) -> Result<Self> {
         Self::from_name(&extension(path)).with_context(|| path.display().to_string())
     }
+
+    /// Of a file that is to be read.
+    ///
+    /// # Errors
+    /// As [`Self::of`], and when nothing that can be read is there.
+    pub(crate) fn of_input(path: &Path) -> Result<Self> {
+        // A name without an ending is more often a wrong one than a file of no known format.
+        if extension(path).is_empty() {
+            check_regular(path).map_err(|why| anyhow!(why))?;
+        }
+        Self::of(path)
+    }
 }
 
 /// Reads points (mm) from a file, whose format its extension tells. A BVH's joints and free ends become points
@@ -72,7 +84,7 @@ impl PointFormat {
 /// # Errors
 /// One sentence with the file, the line or byte, what was found and what was expected.
 pub fn read_points(path: &Path) -> Result<PointTrajectory> {
-    let format = PointFormat::of(path)?;
+    let format = PointFormat::of_input(path)?;
     (format.file().read)(&read_bytes(path)?, &path.display().to_string())
 }
 
@@ -81,7 +93,7 @@ pub fn read_points(path: &Path) -> Result<PointTrajectory> {
 /// # Errors
 /// As [`read_points`].
 pub fn read_y_up_points(path: &Path) -> Result<PointTrajectory> {
-    if PointFormat::of(path)? == PointFormat::Bvh {
+    if PointFormat::of_input(path)? == PointFormat::Bvh {
         let motion = read_bvh(path)?;
         let points = motion.to_points().with_context(|| path.display().to_string())?;
         return Ok(if motion.statement.is_some() { points } else { points.y_up_to_z_up() });
@@ -186,7 +198,7 @@ mod tests {
         fs::write(at("binary.trc"), b"Path\n\xff\xfe").unwrap();
         assert!(message(&at("binary.trc")).contains("line 2: byte 5 is not UTF-8"));
         fs::create_dir(at("folder.csv")).unwrap();
-        assert!(message(&at("folder.csv")).contains("cannot read"));
+        assert!(message(&at("folder.csv")).contains("is a folder, expected a recording of motion"));
         let mut runner = proptest::test_runner::TestRunner::deterministic();
         let mut points = trajectories().new_tree(&mut runner).unwrap().current();
         let refused = format!("{:#}", write_points(&at("a.bvh"), &points, Overwrite::Refuse).unwrap_err());

@@ -1,11 +1,11 @@
 //! Which points of two trajectories are the same, by name and by a map.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use anyhow::{Result, bail, ensure};
 
 use super::points::PointTrajectory;
-use crate::files::nearest;
+use crate::files::{listed, nearest, shortened};
 
 /// Which of our points stands for which point of the truth.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,11 +36,14 @@ impl PointPairs {
                 if uses(theirs) > 1 { theirs } else { mine }
             );
         }
+        let columns: HashMap<&str, usize> =
+            ours.names.iter().enumerate().map(|(column, name)| (name.as_str(), column)).collect();
+        let column = |name: &String| columns.get(name.as_str()).copied();
         let mapped: HashSet<&str> = map.iter().map(|(_, mine)| mine.as_str()).collect();
         let partner = |name: &String| match map.iter().find(|(theirs, _)| theirs == name) {
-            Some((_, mine)) => ours.column(mine),
+            Some((_, mine)) => column(mine),
             // A point of ours that the map gave to another is not free for its namesake.
-            None => ours.column(name).filter(|_| !mapped.contains(name.as_str())),
+            None => column(name).filter(|_| !mapped.contains(name.as_str())),
         };
         let columns: Vec<(usize, usize)> =
             truth.names.iter().enumerate().filter_map(|(column, name)| Some((column, partner(name)?))).collect();
@@ -120,12 +123,8 @@ fn others(names: &[String], paired: &HashSet<usize>) -> Vec<String> {
     names.iter().enumerate().filter(|(column, _)| !paired.contains(column)).map(|(_, name)| name.clone()).collect()
 }
 
-/// The first few names for a message.
 fn some_of(names: &[String]) -> String {
-    const SHOWN: usize = 5;
-    let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
-    let more = names.len().saturating_sub(SHOWN);
-    if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
+    listed(names.iter().map(|name| format!("`{}`", shortened(name))))
 }
 
 #[cfg(test)]

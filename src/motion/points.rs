@@ -7,6 +7,7 @@ use anyhow::{Result, bail, ensure};
 use glam::DVec3;
 
 use super::convention::y_up;
+use crate::files::listed;
 
 /// No recording is a thousand kilometres wide: a coordinate beyond this (mm) is damage or a wrong unit, and refusing it
 /// keeps every later sum, square and 32-bit copy finite.
@@ -42,6 +43,24 @@ impl PointTrajectory {
     /// The column of a point, by its exact name.
     pub fn column(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| known == name)
+    }
+
+    /// What a user should know of labels that stand several times in the file, whose points were named apart by [`numbered`]; none where
+    /// every label stands once.
+    pub fn same_labels(&self) -> Option<String> {
+        let names: HashSet<&str> = self.names.iter().map(String::as_str).collect();
+        let label = |name: &&String| {
+            name.rsplit_once(NUMBER)
+                .filter(|(label, number)| {
+                    names.contains(label) && !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())
+                })
+                .is_some()
+        };
+        let repeated: Vec<&String> = self.names.iter().filter(label).collect();
+        let points = if repeated.len() == 1 { "a point is" } else { "points are" };
+        let told =
+            || format!("labels that stand several times were numbered, so {points} called {}", listed(&repeated));
+        (!repeated.is_empty()).then(told)
     }
 
     /// The time of row `row` in seconds, counted from frame 0; `None` where the rate is unknown.
@@ -110,6 +129,14 @@ impl PointTrajectory {
             *point = change(*point);
         }
     }
+}
+
+/// Stands between a label and the number of the point that has it too.
+const NUMBER: char = '#';
+
+/// The name of the `count`th point of a label.
+pub(super) fn numbered(label: &str, count: usize) -> String {
+    format!("{label}{NUMBER}{count}")
 }
 
 /// Names by which points can be found again in every format.

@@ -34,7 +34,8 @@ pub(crate) fn close(a: &PointTrajectory, b: &PointTrajectory, tolerance: f64) ->
         _ => false,
     };
     a.names == b.names
-        && (a.rate - b.rate).abs() <= 1e-4 * a.rate
+        // A rate that is hardly farther from a whole number than what is rounded is rounded when its times are.
+        && (a.rate - b.rate).abs() <= 1.01e-4 * a.rate
         && a.first_frame == b.first_frame
         && a.frames.len() == b.frames.len()
         && a.frames.iter().zip(&b.frames).all(|(p, q)| p.len() == q.len() && p.iter().zip(q).all(|(p, q)| point(p, q)))

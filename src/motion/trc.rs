@@ -54,7 +54,7 @@ const MISSING: &str = "NaN";
 const LEADING: usize = 2;
 
 /// Reads the text of a TRC file; `name` stands for the file in messages. Millimetres from the unit that the header
-/// names; `Frame#` 1 is frame 0 (a file that starts at 0 is taken to count from 0).
+/// names; `Frame#` 1 is frame 0, but in files whose times say that they count from 0, as Pose2Sim's.
 ///
 /// # Errors
 /// One sentence with the file, the line, what was found and what was expected.
@@ -88,7 +88,10 @@ pub fn parse_trc(text: &str, name: &str) -> Result<PointTrajectory> {
         let (number, points) =
             data_row(row, trajectory.names.len(), header.factor).with_context(|| format!("{name}, line {line}"))?;
         match expected_number {
-            None => trajectory.first_frame = number.saturating_sub(1),
+            None => {
+                let counts_from = usize::from(!header.counts_from_0(row, number));
+                trajectory.first_frame = number.saturating_sub(counts_from);
+            }
             Some(expected) => {
                 ensure!(number == expected, "{name}, line {line}: found frame {number}, expected frame {expected}")
             }
@@ -112,10 +115,18 @@ struct Header {
     rate: f64,
     frames: Option<usize>,
     markers: Option<usize>,
+    start: Option<usize>,
     factor: f64,
 }
 
 impl Header {
+    /// Whether the first row, of that number, is one of a file whose frames count from 0, as Pose2Sim's do: so many frames lie before its
+    /// time, and the header begins there too. Others have either, but not both.
+    fn counts_from_0(&self, row: &str, number: usize) -> bool {
+        let time = row.split('\t').nth(1).and_then(|cell| finite(cell).ok());
+        self.start == Some(number) && time.is_some_and(|time| (time * self.rate - number as f64).abs() < 0.25)
+    }
+
     fn parse(keys: &str, values: &str) -> Result<Self> {
         let keys: Vec<&str> = keys.split('\t').map(str::trim).collect();
         let values: Vec<&str> = values.split('\t').map(str::trim).collect();
@@ -132,6 +143,7 @@ impl Header {
             rate,
             frames: count("NumFrames")?,
             markers: count("NumMarkers")?,
+            start: value("OrigDataStartFrame").and_then(|cell| whole(cell).ok()),
             factor: millimetres_in(&shortened(unit)).context("Units")?,
         })
     }
@@ -257,6 +269,28 @@ fn write_in(out: &mut dyn Write, points: &PointTrajectory, file_name: &str, layo
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn frames_of_pose2sim_count_from_0_wherever_they_start() {
+        for (first_frame, rate) in [(0, 60.0), (1, 60.0), (100, 59.94), (100_000, 1000.0)] {
+            let mut points = crate::motion::test_points::trajectory(rate, first_frame, 3);
+            for write in [write_trc, write_pose2sim_trc] {
+                let mut bytes = Vec::new();
+                write(&mut bytes, &points, "p.trc").unwrap();
+                let read = parse_trc(std::str::from_utf8(&bytes).unwrap(), "p.trc").unwrap();
+                assert_eq!(read.first_frame, first_frame, "{rate}");
+            }
+            // Times that begin at 0 wherever the frames do say nothing.
+            points.first_frame = 4;
+            let mut bytes = Vec::new();
+            write_trc(&mut bytes, &points, "p.trc").unwrap();
+            let text = String::from_utf8(bytes).unwrap();
+            let row = text.lines().nth(6).unwrap();
+            let time = row.split('\t').nth(1).unwrap();
+            let late = text.replacen(&format!("5\t{time}"), "5\t0.000000", 1);
+            assert_eq!(parse_trc(&late, "p.trc").unwrap().first_frame, 4);
+        }
+    }
     use crate::motion::test_points::{close, real_data, trajectories};
     use proptest::prelude::*;
 

@@ -1,12 +1,13 @@
 //! Recordings as files: read whole, told apart by their extensions.
 
-use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Result, anyhow};
+
+use crate::files::Limit;
 
 /// A recording is held in memory whole, several times its size in the file; a larger file is a mistake (a video, say).
-const LARGEST_FILE: u64 = 2 << 30;
+const RECORDING: Limit = Limit { what: "a recording of motion", most: 2 << 30 };
 
 /// A file's extension in lower case.
 pub(super) fn extension(path: &Path) -> String {
@@ -15,12 +16,7 @@ pub(super) fn extension(path: &Path) -> String {
 
 /// The bytes of a file.
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
-    let cannot = || format!("cannot read {}", path.display());
-    let metadata = fs::metadata(path).with_context(cannot)?;
-    if metadata.len() > LARGEST_FILE {
-        bail!("{} holds {} bytes, expected at most {LARGEST_FILE}", path.display(), metadata.len());
-    }
-    fs::read(path).with_context(cannot)
+    RECORDING.read(path)
 }
 
 /// The text that they are.

@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, bail};
 use image::RgbImage;
 
 use super::pictures::{PicturePattern, picture_size, read_picture};
 use super::resample::area_average;
 use super::source::Source;
 use super::video::{VideoDecoder, VideoInfo, probe_video};
+use crate::files::check_regular;
 
 /// A video or numbered pictures (`frames/cam01_%04d.png`), looked at and not yet read.
 #[derive(Clone, Debug)]
@@ -39,10 +40,9 @@ impl Footage {
             let (size, frame_count) = (picture_size(&pattern.file(0))?, pattern.frame_count());
             return Ok(Self { shown, source: Source::Pictures(pattern), size, frame_count, rotation: 0, fps: None });
         }
-        ensure!(
-            file.is_file(),
-            "there is no file {shown}, expected a video or numbered pictures (frames/cam01_%04d.png)"
-        );
+        if let Err(why) = check_regular(file) {
+            bail!("{why}: name a video or numbered pictures (frames/cam01_%04d.png)");
+        }
         let VideoInfo { size, frame_count, rotation, fps } = probe_video(file)?;
         Ok(Self { shown, source: Source::Video(file.to_path_buf()), size, frame_count, rotation, fps })
     }
@@ -147,6 +147,6 @@ mod tests {
         let some: Vec<_> = video.spread(4, [64, 48]).unwrap().map(Result::unwrap).collect();
         assert_eq!(some, [2, 4, 7, 9].map(|frame: usize| all[frame].clone()));
         let error = format!("{:#}", Footage::open(&folder.path().join("none.mp4")).unwrap_err());
-        assert!(error.contains("none.mp4, expected a video or numbered pictures"), "{error}");
+        assert!(error.contains("none.mp4: name a video or numbered pictures"), "{error}");
     }
 }

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use anyhow::{Result, bail};
 use image::GrayImage;
 
+use crate::files::check_regular;
+
 use super::pictures::{PicturePattern, picture_size, read_picture, shown};
 use super::resample::nearest_mask;
 
@@ -53,11 +55,8 @@ impl Ignored {
             let found = picture_size(&pattern.file(0))?;
             (Masks::Numbered(pattern), found)
         } else {
-            if !file.is_file() {
-                bail!(
-                    "{key} is {}, and there is no such file, expected a picture or a pattern of pictures",
-                    file.display()
-                );
+            if let Err(why) = check_regular(file) {
+                bail!("{key}: {why}: name a picture or a pattern of pictures");
             }
             (Masks::Still(file.to_path_buf()), picture_size(file)?)
         };

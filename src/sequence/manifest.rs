@@ -14,7 +14,7 @@ use super::live_options;
 use super::person::{Person, PersonTable, check_names};
 use super::pictures::{picture_size, shown};
 use super::source::{LiveSource, Source};
-use crate::files::{nearest, parse_toml, read_toml};
+use crate::files::{check_regular, nearest, parse_toml, read_toml};
 use crate::geometry::Camera;
 
 /// A sequence: synchronised pictures of calibrated cameras, and what belongs to them (METHOD A2, FORMATS).
@@ -118,6 +118,12 @@ struct ViewTable {
     ignore: Option<PathBuf>,
 }
 
+/// The smallest working scale.
+const SMALLEST_SCALE: f64 = 0.01;
+
+/// Pixels a side that scaling leaves of a picture at least.
+const SMALLEST_SIDE: u32 = 8;
+
 fn full_size() -> f64 {
     1.0
 }
@@ -125,12 +131,8 @@ fn full_size() -> f64 {
 impl ManifestFile {
     /// What can be said of a manifest without looking at the files it names.
     fn check(&self, name: &str) -> Result<()> {
-        if !(self.fps.is_finite() && self.fps > 0.0) {
-            bail!("{name}: fps is {}, expected a positive number of frames per second", self.fps);
-        }
-        if !(self.scale > 0.0 && self.scale <= 1.0) {
-            bail!("{name}: scale is {}, expected more than 0 and at most 1", self.scale);
-        }
+        check_fps(self.fps).with_context(|| name.to_string())?;
+        check_scale(self.scale).with_context(|| name.to_string())?;
         let own = [("body", self.body.is_some()), ("start", self.start.is_some()), ("truth", self.truth.is_some())];
         let own = own.into_iter().chain([("height", self.height.is_some())]).find(|(_, is_there)| *is_there);
         if let (Some((key, _)), false) = (own, self.person.is_empty()) {
@@ -197,6 +199,17 @@ impl Sequence {
         self.views.iter().any(|view| matches!(view.source, Source::Live(_)))
     }
 
+    /// What whoever tracks it should know of its views, a sentence each.
+    pub fn remarks(&self) -> Vec<String> {
+        if self.views.len() > 1 {
+            return Vec::new();
+        }
+        let path = self.path.display();
+        vec![format!(
+            "{path} has one view, in which near and far look alike: depth is a guess, expected two views or more"
+        )]
+    }
+
     fn refuse_live(&self) -> Result<()> {
         if let Some(view) = self.views.iter().find(|view| matches!(view.source, Source::Live(_))) {
             bail!(
@@ -247,8 +260,8 @@ impl Sequence {
         let dir = path.parent().map(Path::to_path_buf).unwrap_or_default();
         let existing = |key: &str, relative: &Path| -> Result<PathBuf> {
             let file = dir.join(relative);
-            if !file.is_file() {
-                bail!("{shown_path}: {key} is {:?}, and there is no file {}", relative.display(), file.display());
+            if let Err(why) = check_regular(&file) {
+                bail!("{shown_path}: {key} is {:?}, and {why}", relative.display());
             }
             Ok(file)
         };
@@ -288,13 +301,14 @@ impl Sequence {
             }
             let camera = find_camera(&calibrated, &table.camera)
                 .ok_or_else(|| unknown_camera(&path, &cameras_path, &calibrated, &table.camera))?;
-            opened.push(open_view(table, camera, &existing, &dir, file.scale)?);
+            opened.push(open_view(table, camera, &existing, (&path, &dir), file.scale)?);
             cameras.push(camera.clone());
         }
         let frame_count = common_length(&path, &opened)?;
         check_coverage(&path, &cameras)?;
 
         let views: Vec<View> = opened.into_iter().map(|(view, _)| view).collect();
+        check_sizes(&views, file.scale).with_context(|| path.display().to_string())?;
         let sizes: Vec<[u32; 2]> = views.iter().map(|view| working_size(view.size, file.scale)).collect();
         let cameras = cameras.iter().zip(&sizes).map(|(camera, &size)| camera.scaled(size)).collect();
         Ok(Self {
@@ -319,9 +333,57 @@ impl Sequence {
     }
 }
 
+/// Holds a frame rate to what cameras record: steps in time, and how far a person gets in one, follow from it.
+///
+/// # Errors
+/// With the value and the range.
+pub(crate) fn check_fps(fps: f64) -> Result<()> {
+    let [lowest, highest] = [0.01, 1e5];
+    if !(lowest..=highest).contains(&fps) {
+        bail!("fps is {}, expected {lowest} to {highest} frames per second", shown_number(fps));
+    }
+    Ok(())
+}
+
+/// Holds the working scale to where a picture is left of a picture.
+///
+/// # Errors
+/// With the value and the range.
+pub(crate) fn check_scale(scale: f64) -> Result<()> {
+    if !(SMALLEST_SCALE..=1.0).contains(&scale) {
+        bail!("scale is {}, expected {SMALLEST_SCALE} to 1", shown_number(scale));
+    }
+    Ok(())
+}
+
+/// Without the hundreds of digits of the largest and the smallest.
+fn shown_number(value: f64) -> String {
+    if value != 0.0 && value.is_finite() && !(1e-6..1e9).contains(&value.abs()) {
+        format!("{value:e}")
+    } else {
+        value.to_string()
+    }
+}
+
 /// The size pictures are worked on at.
 fn working_size(size: [u32; 2], scale: f64) -> [u32; 2] {
     size.map(|length| ((f64::from(length) * scale).round() as u32).max(1))
+}
+
+/// Refuses a scale that leaves nothing of a camera's pictures.
+fn check_sizes(views: &[View], scale: f64) -> Result<()> {
+    for View { camera, size, .. } in views {
+        let smallest = size.map(|side| side.min(SMALLEST_SIDE));
+        let working = working_size(*size, scale);
+        if working[0] < smallest[0] || working[1] < smallest[1] {
+            bail!(
+                "scale is {scale}, which leaves {} pixels of the {} of camera {camera:?}, expected {SMALLEST_SIDE} or more a side",
+                shown(working),
+                shown(*size)
+            );
+        }
+    }
+    Ok(())
 }
 
 fn find_camera<'a>(cameras: &'a [Camera], name: &str) -> Option<&'a Camera> {
@@ -340,12 +402,12 @@ pub(super) fn is_plate_size(found: [u32; 2], full: [u32; 2], working: [u32; 2]) 
     (width * full_height == height * full_width && width <= full_width) || found == working
 }
 
-/// Looks at everything a view names; with the view, its number of frames.
+/// Looks at everything a view names, in the manifest `path` in `dir`; with the view, its number of frames.
 fn open_view(
     table: &ViewTable,
     camera: &Camera,
     existing: &impl Fn(&str, &Path) -> Result<PathBuf>,
-    dir: &Path,
+    (path, dir): (&Path, &Path),
     scale: f64,
 ) -> Result<(View, usize)> {
     let name = &table.camera;
@@ -353,7 +415,7 @@ fn open_view(
     let source = match LiveSource::of(&table.source, table.input.as_deref(), dir) {
         Some(live) => {
             if table.mask.is_some() {
-                bail!("camera {name:?} is live and has `mask`, expected `background` alone");
+                bail!("{}: camera {name:?} is live and has `mask`, expected `background` alone", path.display());
             }
             let shown = live.address.clone();
             // What it delivers is looked at when it is opened: a camera can be opened once.
@@ -393,14 +455,14 @@ fn open_view(
         None => None,
         Some(mask) => {
             let mask = open_source(&key("mask"), mask, existing, dir)?;
-            check_mask(name, camera.size, source.frame_count, &mask)?;
+            check_mask(name, camera.size, source.frame_count, &mask).with_context(|| path.display().to_string())?;
             Some((mask.source, mask.size))
         }
     };
     let length = Some(source.frame_count).filter(|count| *count != Sequence::NO_END);
     let ignored =
         table.ignore.as_deref().map(|ignore| Ignored::open(&key("ignore"), &dir.join(ignore), camera.size, length));
-    let ignored = ignored.transpose()?;
+    let ignored = ignored.transpose().with_context(|| path.display().to_string())?;
     let view = View {
         camera: name.clone(),
         size: camera.size,

@@ -157,14 +157,52 @@ fn plates_and_masks_come_at_the_working_size() {
 }
 
 #[test]
+fn one_view_is_said() {
+    let scene = Scene::new();
+    assert!(scene.open("").unwrap().remarks().is_empty());
+    scene.manifest("", &[&Scene::view("cam01")]);
+    let remarks = Sequence::open(scene.folder.path()).unwrap().remarks();
+    assert!(remarks.len() == 1 && remarks[0].contains("sequence.toml has one view"), "{remarks:?}");
+}
+
+/// What a manifest names may be anything: nothing is waited for and nothing is read without an end.
+#[cfg(unix)]
+#[test]
+fn pipes_and_devices_are_not_opened() {
+    let scene = Scene::new();
+    assert!(std::process::Command::new("mkfifo").arg(scene.path("pipe")).status().unwrap().success());
+    fs::create_dir(scene.path("numbered")).unwrap();
+    std::os::unix::fs::symlink("/dev/zero", scene.path("numbered/p_1.png")).unwrap();
+    let view = |more: &str| format!("{}\n{more}", Scene::view("cam01"));
+    for (head, view, named) in [
+        ("truth = \"pipe\"", view(""), "truth is \"pipe\""),
+        ("start = \"/dev/zero\"", view(""), "start is \"/dev/zero\""),
+        ("", view("background = \"pipe\""), "the background of camera \"cam01\""),
+        ("", view("mask = \"/dev/zero\""), "the mask of camera \"cam01\""),
+        ("", view("ignore = \"pipe\""), "the ignore of camera \"cam01\""),
+        ("", "camera = \"cam01\"\nsource = \"pipe\"".to_string(), "the source of camera \"cam01\""),
+        ("", "camera = \"cam01\"\nsource = \"numbered/p_%d.png\"".to_string(), "p_1.png"),
+    ] {
+        let error = scene.error(head, &[&view]);
+        assert!(error.contains(named) && error.contains("is a device, a pipe or a socket"), "{error}");
+    }
+    fs::remove_file(scene.path("cameras.toml")).unwrap();
+    fs::rename(scene.path("pipe"), scene.path("cameras.toml")).unwrap();
+    let error = scene.error("", &[&view("")]);
+    assert!(error.contains("cameras is \"cameras.toml\"") && error.contains("is a device, a pipe"), "{error}");
+}
+
+#[test]
 fn bad_manifests_are_sentences() {
     let scene = Scene::new();
     let view = Scene::view("cam01");
     for (head, views, expected) in [
         ("scael = 0.5", vec![view.as_str()], vec!["sequence.toml, line 5", "`scael`", "nearest known key is `scale`"]),
-        ("scale = 0.0", vec![&view], vec!["scale is 0, expected more than 0 and at most 1"]),
+        ("scale = 0.0", vec![&view], vec!["scale is 0, expected 0.01 to 1"]),
         ("scale = 1.5", vec![&view], vec!["scale is 1.5"]),
         ("scale = nan", vec![&view], vec!["scale is NaN"]),
+        ("scale = 1e-9", vec![&view], vec!["scale is 1e-9, expected 0.01 to 1"]),
+        ("scale = 0.011", vec![&view], vec!["scale is 0.011, which leaves", "camera \"cam01\", expected 8 or more"]),
         ("", vec![], vec!["sequence.toml has no views", "[[view]]"]),
         ("", vec![&view, &view], vec!["camera \"cam01\" has two views"]),
         (
@@ -178,7 +216,7 @@ fn bad_manifests_are_sentences() {
             vec!["the source of camera \"cam01\"", "there is no file"],
         ),
         ("", vec!["camera = \"cam01\"\nsource = \"x_%d.png\""], vec!["there are no pictures", "x_%d.png"]),
-        ("", vec!["camera = \"cam01\"\nsource = \"\""], vec!["the source of camera \"cam01\"", "there is no file"]),
+        ("", vec!["camera = \"cam01\"\nsource = \"\""], vec!["the source of camera \"cam01\"", "is a folder"]),
         ("", vec!["camera = \"cam01\"\nsorce = \"x.mp4\""], vec!["line 8", "nearest known key is `source`"]),
         ("start = \"none.csv\"", vec![&view], vec!["start is \"none.csv\"", "there is no file"]),
         ("truth = \"none.trc\"", vec![&view], vec!["truth is \"none.trc\"", "there is no file"]),
@@ -189,13 +227,21 @@ fn bad_manifests_are_sentences() {
             assert!(error.contains(part), "{head:?} {views:?}: {error}");
         }
     }
-    for fps in ["0.0", "-25.0", "nan", "inf"] {
+    for fps in ["0.0", "-25.0", "nan", "inf", "1e308", "1e-300", "0.009"] {
         let text =
             format!("name = \"a\"\nfps = {fps}\ncameras = \"cameras.toml\"\nbody = \"body.toml\"\n[[view]]\n{view}");
         scene.write("sequence.toml", &text);
         let error = format!("{:#}", Sequence::open(scene.folder.path()).unwrap_err());
-        assert!(error.contains("expected a positive number of frames per second"), "{error}");
+        assert!(error.contains("expected 0.01 to 100000 frames per second") && error.len() < 200, "{error}");
     }
+    for (head, key) in [("truth = \".\"", "truth is \".\""), ("start = \"/dev\"", "start is \"/dev\"")] {
+        let error = scene.error(head, &[&view]);
+        assert!(error.contains(key) && error.contains("is a folder, expected a regular file"), "{error}");
+    }
+    let live = "camera = \"cam01\"\nsource = \"rtsp://host/a\"\nmask = \"a_%d.png\"";
+    scene.manifest("", &[live]);
+    let error = format!("{:#}", Sequence::open_live(scene.folder.path()).unwrap_err());
+    assert!(error.contains("sequence.toml: camera \"cam01\" is live and has `mask`"), "{error}");
     fs::remove_file(scene.path("body.toml")).unwrap();
     assert!(scene.error("", &[&view]).contains("body is \"body.toml\", and there is no file"));
     fs::remove_file(scene.path("cameras.toml")).unwrap();
@@ -311,7 +357,7 @@ fn wrong_masks_of_what_is_ignored_are_sentences() {
     scene.write("text.png", "no picture");
     let error = |ignore: &str| scene.error("", &[&format!("{}\nignore = {ignore:?}", Scene::view("cam01"))]);
     for (ignore, parts) in [
-        ("none.png", &["the ignore of camera \"cam01\"", "none.png", "no such file, expected a picture"][..]),
+        ("none.png", &["the ignore of camera \"cam01\"", "there is no file", "none.png: name a picture"][..]),
         ("lying.png", &["the ignore of camera \"cam01\"", "lying.png is 30x40 pixels, expected the shape of 40x30"]),
         ("few_%d.png", &["2 pictures", "few_%d.png", "one for each of the 3 frames, or one picture for all"]),
         ("gap_%d.png", &["gap_%d.png", "number 2 is missing"]),

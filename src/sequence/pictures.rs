@@ -1,10 +1,16 @@
 //! Numbered pictures (`frames/cam01_%04d.png`) and single ones, PNG or JPEG.
 
 use std::fs;
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use image::{DynamicImage, ImageDecoder, ImageReader};
+
+use crate::files::Limit;
+
+/// Pictures are held in memory whole.
+const PICTURE: Limit = Limit { what: "a picture", most: 1 << 30 };
 
 /// A name with a number in it, as printf writes it, and the pictures that are there under it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -126,9 +132,9 @@ pub(super) fn read_picture(path: &Path, sizes: &[[u32; 2]]) -> Result<DynamicIma
 }
 
 fn decoder(path: &Path) -> Result<impl ImageDecoder + use<>> {
-    ImageReader::open(path)
-        .and_then(ImageReader::with_guessed_format)
-        .map_err(anyhow::Error::from)
+    let reader = ImageReader::new(BufReader::new(PICTURE.open(path)?));
+    let reader = reader.with_guessed_format().map_err(anyhow::Error::from);
+    reader
         .and_then(|reader| Ok(reader.into_decoder()?))
         .with_context(|| format!("cannot read the picture {} (PNG and JPEG are read)", path.display()))
 }

@@ -4,10 +4,12 @@ use std::fmt;
 use std::io::{BufRead, BufReader, ErrorKind};
 use std::process::{Child, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
+use std::time::Duration;
 
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow, bail};
 
 /// Ends a decoder from another thread.
 #[derive(Debug)]
@@ -68,6 +70,27 @@ impl Process {
         Stopper(Arc::clone(&self.child))
     }
 
+    /// Ends it when [`Watch::heard`] is not called for so long.
+    ///
+    /// # Errors
+    /// When no thread can be started.
+    pub(super) fn watch(&self, longest_silence: Duration) -> Result<Watch> {
+        let (heard, hears) = channel();
+        let stopper = self.stopper();
+        let watch = move || loop {
+            match hears.recv_timeout(longest_silence) {
+                Ok(()) => {}
+                Err(RecvTimeoutError::Disconnected) => return false,
+                Err(RecvTimeoutError::Timeout) => {
+                    stopper.stop();
+                    return true;
+                }
+            }
+        };
+        let thread = thread::Builder::new().name("watch".into()).spawn(watch).context("cannot start a thread")?;
+        Ok(Watch { heard: Some(heard), thread: Some(thread) })
+    }
+
     /// The number of lines it has complained with so far, to read from another thread.
     pub(super) fn complained(&self) -> Arc<AtomicU64> {
         Arc::clone(&self.complained)
@@ -92,6 +115,29 @@ impl Drop for Process {
         if let Some(thread) = self.complaints.take() {
             let _ = thread.join();
         }
+    }
+}
+
+/// Ends a program that is silent for too long.
+pub(super) struct Watch {
+    /// Closed when the watch is over.
+    heard: Option<Sender<()>>,
+    thread: Option<JoinHandle<bool>>,
+}
+
+impl Watch {
+    /// It has said something.
+    pub(super) fn heard(&self) {
+        if let Some(heard) = &self.heard {
+            // Fails only when the program has been ended.
+            let _ = heard.send(());
+        }
+    }
+
+    /// Ends the watch and says whether it ended the program.
+    pub(super) fn has_stopped_it(mut self) -> bool {
+        drop(self.heard.take());
+        self.thread.take().and_then(|thread| thread.join().ok()).unwrap_or(false)
     }
 }
 

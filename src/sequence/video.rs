@@ -6,9 +6,11 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
+use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow, bail};
 
+use super::playlist::refuse_playlist;
 use super::program::{Process, Stopper, missing_program};
 
 /// What a video file holds.
@@ -24,26 +26,32 @@ pub struct VideoInfo {
     pub fps: Option<f64>,
 }
 
+/// A file of which ffprobe tells nothing for so long is given up: frames are listed as they are come upon.
+const LONGEST_SILENCE: Duration = Duration::from_secs(60);
+
 /// Reads the size and counts the frames of a video without decoding it.
 ///
 /// # Errors
-/// One sentence when ffprobe is missing, or when the file is no video, has no frames or is cut short; the last line
-/// ffprobe wrote is part of it.
+/// One sentence when ffprobe is missing, or when the file is no video but a playlist, say, has no frames or is cut short; the last line
+/// ffprobe wrote is part of it. And when it goes on for a minute without a frame.
 pub fn probe_video(path: &Path) -> Result<VideoInfo> {
     probe_with(&ffmpeg_sidecar::ffprobe::ffprobe_path(), path)
 }
 
 fn probe_with(program: &Path, path: &Path) -> Result<VideoInfo> {
+    refuse_playlist(path)?;
     let mut command = Command::new(program);
     command.args(["-v", "error", "-select_streams", "v:0", "-of", "flat", "-show_entries"]);
     // Packets are listed rather than counted: those an edit list cuts off are marked, and never become frames.
     command.arg("stream=width,height,nb_frames,avg_frame_rate:stream_side_data=rotation:packet=flags");
     command.args(["-protocol_whitelist", "file", "-i"]).arg(file_url(path));
     let mut process = Process::spawn(command)?;
+    let watch = process.watch(LONGEST_SILENCE)?;
     let (mut size, mut promised, mut rotation, mut fps) = ([0_u32; 2], 0_usize, 0, None);
     let (mut packets, mut discarded, mut corrupt) = (0_usize, 0_usize, 0_usize);
     for line in BufReader::new(&mut process.output).lines() {
         let line = line.with_context(|| format!("cannot read what ffprobe says of {}", path.display()))?;
+        watch.heard();
         let Some((key, value)) = line.split_once('=') else { continue };
         let value = value.trim_matches('"');
         match key.rsplit('.').next() {
@@ -59,6 +67,10 @@ fn probe_with(program: &Path, path: &Path) -> Result<VideoInfo> {
             Some("rotation") => rotation = value.parse().unwrap_or(0),
             _ => {}
         }
+    }
+    if watch.has_stopped_it() {
+        let seconds = LONGEST_SILENCE.as_secs();
+        bail!("{} cannot be read as a video: ffprobe read it for {seconds} s and found no frame", path.display());
     }
     let ended = process.finish();
     if !ended.success() || size.contains(&0) {
@@ -89,6 +101,7 @@ fn rate(text: &str) -> Option<f64> {
 /// # Errors
 /// When ffprobe is missing, or the file is no video or tells no rate.
 pub fn probe_rate(path: &Path) -> Result<f64> {
+    refuse_playlist(path)?;
     let mut command = Command::new(ffmpeg_sidecar::ffprobe::ffprobe_path());
     command.args(["-v", "error", "-select_streams", "v:0", "-of", "csv=p=0", "-show_entries", "stream=avg_frame_rate"]);
     command.args(["-protocol_whitelist", "file", "-i"]).arg(file_url(path));

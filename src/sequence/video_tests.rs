@@ -106,12 +106,29 @@ fn broken_videos_are_sentences() {
     assert!(error.contains("half.mp4 is damaged or cut short") && error.contains("promises 40 frames"), "{error}");
     let error = probe("index_cut.mp4", &whole[..200]);
     assert!(error.contains("index_cut.mp4 cannot be read as a video"), "{error}");
+    let error = probe("endless.mp4", b"#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\npart.ts\n");
+    assert!(error.contains("endless.mp4 is an HLS playlist"), "{error}");
     let sound = folder.path().join("sound.wav");
     let made =
         Command::new("ffmpeg").args(["-v", "error", "-f", "lavfi", "-i", "sine=duration=0.1"]).arg(&sound).status();
     assert!(made.unwrap().success());
     let error = format!("{:#}", probe_video(&sound).unwrap_err());
     assert!(error.contains("sound.wav cannot be read as a video"), "{error}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_silent_program_is_ended() {
+    let said = |script: &str| {
+        let mut command = Command::new("sh");
+        command.args(["-c", script]);
+        let mut process = Process::spawn(command).unwrap();
+        let watch = process.watch(Duration::from_millis(800)).unwrap();
+        let lines = BufReader::new(&mut process.output).lines().inspect(|_| watch.heard()).count();
+        (lines, watch.has_stopped_it())
+    };
+    assert_eq!(said("for i in 1 2 3 4 5; do echo $i; sleep 0.3; done"), (5, false));
+    assert_eq!(said("echo 1; exec sleep 60"), (1, true));
 }
 
 #[test]
@@ -163,6 +180,6 @@ fn a_dropped_decoder_ends_its_process() {
 
 #[test]
 fn a_missing_program_says_how_to_install_it() {
-    let error = format!("{:#}", probe_with(Path::new("no-such-ffprobe"), Path::new("x.mp4")).unwrap_err());
+    let error = format!("{:#}", probe_with(Path::new("no-such-ffprobe"), Path::new("Cargo.toml")).unwrap_err());
     assert!(error.contains("`no-such-ffprobe` was not found") && error.contains("apt install ffmpeg"), "{error}");
 }

@@ -3,11 +3,12 @@
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 
-use super::runner::{BEGUN, Watch};
+use super::runner::{BEGUN, RESULT, Watch};
 use crate::files::OutputFolder;
 use crate::sequence::Sequence;
 use crate::track::{TrackSettings, TrackSummary, track_all};
@@ -16,6 +17,8 @@ use crate::track::{TrackSettings, TrackSummary, track_all};
 const MANIFEST: &str = "sequence.toml";
 /// A finished trial's file in its folder of results.
 const DONE: &str = "trial.json";
+/// While trials are tracked the summary is no older than that.
+const BETWEEN_SUMMARIES: Duration = Duration::from_secs(10);
 /// The summary of all.
 const SUMMARY: &str = "summary.csv";
 
@@ -133,6 +136,7 @@ pub fn batch(
     let mut failures = Vec::new();
     let mut busy = Vec::new();
     let mut left = 0;
+    let mut told: Option<Instant> = None;
     let mut take = |trial: &Trial, waits: bool| -> Result<bool> {
         if progress.should_stop() {
             left += 1;
@@ -145,7 +149,11 @@ pub fn batch(
             Ok(Outcome::Done(rows)) => {
                 if !before {
                     progress.tracked(trial, Ok(&rows));
-                    collect(trials, output)?;
+                    // Every trial's file is read for it.
+                    if told.is_none_or(|told| told.elapsed() > BETWEEN_SUMMARIES) {
+                        collect(trials, output)?;
+                        told = Some(Instant::now());
+                    }
                 }
             }
             Err(error) => {
@@ -211,7 +219,7 @@ fn done(trial: &Trial, output: &OutputFolder) -> Result<Option<Done>> {
     if !path.exists() {
         return Ok(None);
     }
-    let text = fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
+    let text = RESULT.read_text(&path)?;
     serde_json::from_str(&text).map(Some).with_context(|| format!("{} is no trial of a batch", path.display()))
 }
 

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
@@ -14,12 +13,14 @@ use super::runs_csv::{write_runs, write_stages};
 use super::scenes::Prepared;
 use super::settings::Study;
 use super::tables::{self, Table};
-use crate::files::OutputFolder;
+use crate::files::{Limit, OutputFolder};
 use crate::search::SearchSettings;
 use crate::track::{self, ObjectiveChoice, Passes, TrackSettings, TrackSummary, track};
 
 /// A finished run's file in its folder.
 const ROW: &str = "row.json";
+/// What is read of a run or trial that is done.
+pub(super) const RESULT: Limit = Limit { what: "the results of a run", most: 64 << 20 };
 /// The journal of a run in work; a folder with one and without a row is gone on with.
 pub(super) const BEGUN: &str = "run.toml";
 
@@ -145,7 +146,7 @@ fn finished(run: &Run, output: &OutputFolder) -> Result<Option<Row>> {
     if !path.exists() {
         return Ok(None);
     }
-    let text = fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
+    let text = RESULT.read_text(&path)?;
     let row: Row = serde_json::from_str(&text).with_context(|| format!("{} is no row of a study", path.display()))?;
     if row.run != *run {
         bail!(

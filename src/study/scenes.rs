@@ -49,7 +49,7 @@ impl Prepared {
                 make(preset, settings.length, &folder, progress).with_context(|| format!("sequence {name:?}"))?;
                 Sequence::open(folder.path())?
             }
-            (None, Some(path)) => Sequence::open(path)?,
+            (None, Some(path)) => Sequence::open(path).with_context(|| format!("sequence {name:?}"))?,
             (None, None) => match &settings.drawn {
                 Some(drawn) => drawn.open(output, progress).with_context(|| format!("sequence {name:?}"))?,
                 None => anyhow::bail!("sequence {name:?} has neither `path` nor `preset`"),
@@ -64,7 +64,8 @@ impl Prepared {
         let truth = path
             .filter(|_| is_paired || is_other || settings.truth_y_up)
             .map(|path| if settings.truth_y_up { read_y_up_points(path) } else { read_points(path) })
-            .transpose()?;
+            .transpose()
+            .with_context(|| format!("the truth of sequence {name:?}"))?;
         let truth = truth.map(|points| if is_other { taken_truth(&points, settings, whole.1) } else { points });
         Ok(Self { settings: settings.clone(), sequence, body, truth })
     }

@@ -10,7 +10,7 @@ use super::axes::{Axis, Value};
 use super::lottery::{Drawn, LotteryTable};
 use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
-use crate::files::{parse_toml, read_toml};
+use crate::files::{parse_toml, read_toml, shortened};
 use crate::search::{SearchKind, SearchSettings};
 use crate::track::{Backend, FrameRange, Passes};
 
@@ -200,6 +200,7 @@ impl SequenceSettings {
         );
         ensure!(self.length != Some(0), "length is 0, expected at least 1 frame");
         self.frames().context("frames")?;
+        self.spread.map_or(Ok(()), check_spread)?;
         self.check_taken()?;
         file_name(&self.name())
     }
@@ -272,6 +273,13 @@ impl Study {
             several("[lottery] manifests", &lottery.manifests)?;
             ensure!(lottery.frames != Some(0), "[lottery] frames is 0, expected at least 1");
         }
+        check_spread(self.spread)?;
+        for (&particles, &iterations) in self.particles.iter().flat_map(|p| self.iterations.iter().map(move |i| (p, i)))
+        {
+            for &kind in &self.searches {
+                SearchSettings { kind, particles, iterations, ..SearchSettings::default() }.check()?;
+            }
+        }
         ensure!(!self.sequences.is_empty(), "there is no [[sequence]] and no [lottery], expected one of them");
         let mut names = HashSet::new();
         for sequence in &self.sequences {
@@ -291,6 +299,9 @@ impl Study {
     }
 
     fn check_pictures(&self) -> Result<()> {
+        let pictures = self.plots.iter().map(|plot| &plot.name).chain(self.shares.iter().map(|shares| &shares.name));
+        own_names("[[table]]", self.tables.iter().map(|table| &table.name))?;
+        own_names("[[plot]] or [[shares]]", pictures)?;
         for table in &self.tables {
             (|| {
                 file_name(&table.name)?;
@@ -321,6 +332,20 @@ impl Study {
     }
 }
 
+fn check_spread(spread: f64) -> Result<()> {
+    ensure!((0.01..=100.0).contains(&spread), "spread is {spread}, expected 0.01 to 100");
+    Ok(())
+}
+
+/// Names that become files of one folder, some of which do not tell capitals apart.
+fn own_names<'a>(what: &str, names: impl Iterator<Item = &'a String>) -> Result<()> {
+    let mut seen = HashSet::new();
+    for name in names {
+        ensure!(seen.insert(name.to_lowercase()), "two {what} are named {name:?}, expected a name of its own for each");
+    }
+    Ok(())
+}
+
 /// Lists make a run for every entry, so each needs one, and none twice.
 fn several<T: std::hash::Hash + Eq + std::fmt::Display>(key: &str, list: &[T]) -> Result<()> {
     ensure!(!list.is_empty(), "{key} is empty, expected at least one");
@@ -332,6 +357,7 @@ fn several<T: std::hash::Hash + Eq + std::fmt::Display>(key: &str, list: &[T]) -
 /// Names become names of files.
 fn file_name(name: &str) -> Result<()> {
     let is_plain = |c: char| c.is_alphanumeric() || "-_.".contains(c);
+    ensure!(name.len() <= 100, "the name `{}` is {} bytes long, expected at most 100", shortened(name), name.len());
     ensure!(
         !name.is_empty() && name.chars().all(is_plain) && !name.starts_with('.'),
         "the name {name:?} cannot be part of a file's name, expected letters, digits, `-`, `_` and `.`"

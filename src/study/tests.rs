@@ -170,6 +170,19 @@ fn what_makes_no_sense_is_named() {
             &["[[plot]] \"errors\"", "expected `particles`, `iterations` or `evaluations`"],
         ),
         ("value = \"error\"\nrows", "value = \"eror\"\nrows", &["`eror`", "`error`"]),
+        ("spread = 0.5", "spread = inf", &["spread is inf, expected 0.01 to 100"]),
+        ("length = 3", "length = 3\nspread = 0.0", &["\"demo\"", "spread is 0, expected 0.01 to 100"]),
+        ("[12, 24]", "[12, 0]", &["particles"]),
+        (
+            "[[plot]]",
+            "[[shares]]\nname = \"Errors\"\nbars = [\"model\"]\n[[plot]]",
+            &["two [[plot]] or [[shares]] are named \"Errors\""],
+        ),
+        (
+            "[[plot]]",
+            "[[table]]\nname = \"errors\"\nvalue = \"error\"\nrows = [\"search\"]\ncolumns = []\n[[plot]]",
+            &["two [[table]] are named \"errors\""],
+        ),
     ] {
         assert!(SMALL.contains(from), "{from}");
         let error = format!("{:#}", Study::parse(&SMALL.replacen(from, to, 1), "small.toml").unwrap_err());

@@ -19,7 +19,7 @@ use super::noise::Sensor;
 use super::performance::Performance;
 use super::render::{Cast, Light, View};
 use super::scene::{CameraSettings, LightSettings, PictureForm, Scene};
-use crate::files::{OutputFolder, shortened};
+use crate::files::{OutputFolder, listed, shortened};
 use crate::geometry::Camera;
 use crate::sequence::VideoEncoder;
 
@@ -55,7 +55,7 @@ pub(super) fn shutters(scene: &Scene, cameras: &[Camera]) -> Result<Vec<Shutter>
     for (index, settings) in scene.camera.iter().enumerate() {
         if !cameras.iter().any(|camera| camera.name == settings.name) {
             let known: Vec<&str> = cameras.iter().map(|camera| camera.name.as_str()).collect();
-            bail!("[[camera]] names `{}`, expected one of {}", shortened(&settings.name), known.join(", "));
+            bail!("[[camera]] names `{}`, expected one of {}", shortened(&settings.name), listed(&known));
         }
         if scene.camera[..index].iter().any(|other| other.name == settings.name) {
             bail!("[[camera]] `{}` is there twice, expected once", settings.name);

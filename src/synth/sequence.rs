@@ -1,7 +1,5 @@
 //! A whole synthetic sequence: made from a scene, written as a folder that can be tracked and scored.
 
-use std::fs;
-
 use anyhow::{Context, Result, bail};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -17,7 +15,7 @@ use super::rig;
 use super::room::Room;
 use super::scene::{PictureForm, Scene, USUAL_SOFTNESS};
 use crate::body::{Body, MeshSource, PoseTable, Skinning};
-use crate::files::{OutputFolder, Overwrite};
+use crate::files::{Limit, OutputFolder, Overwrite};
 use crate::geometry::Camera;
 use crate::gpu::Device;
 use crate::motion::{PointTrajectory, write_points};
@@ -25,6 +23,10 @@ use crate::sequence::write_cameras_toml;
 
 /// The settings a folder was made with, in the folder.
 const RECORD: &str = "scene.toml";
+const SETTINGS: Limit = Limit { what: "a scene", most: 16 << 20 };
+
+/// A skinned person, copied.
+const PERSON: Limit = Limit { what: "a glTF file", most: 1 << 30 };
 
 /// The markers of the smaller set, of the 39 of the Plug-in Gait set.
 const FIFTEEN: [&str; 15] = [
@@ -194,7 +196,7 @@ impl SyntheticSequence {
         let record = toml::to_string(&self.scene).context("cannot write the scene's settings")?;
         if resume {
             let path = folder.path().join(RECORD);
-            let before = fs::read_to_string(&path).with_context(|| {
+            let before = SETTINGS.read_text(&path).with_context(|| {
                 format!("cannot read {}, expected a folder that was begun to be made", path.display())
             })?;
             if before != record {
@@ -235,7 +237,7 @@ impl SyntheticSequence {
         let mut body = self.body.clone();
         if let Some(MeshSource::Skinned { file, .. }) = &mut body.mesh {
             // The folder is complete by itself.
-            let bytes = fs::read(&*file).with_context(|| format!("cannot read {}", file.display()))?;
+            let bytes = PERSON.read(file)?;
             folder.write("person.glb", |writer| Ok(writer.write_all(&bytes)?))?;
             *file = "person.glb".into();
         }
@@ -290,6 +292,8 @@ impl<'a> ManifestView<'a> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     use super::super::render::Cast;

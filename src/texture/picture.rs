@@ -44,7 +44,7 @@ impl View {
     pub fn checked(self) -> Result<Self> {
         check_size(self.size)?;
         if !(1e-3..=1e4).contains(&self.scale) {
-            bail!("a picture of {} units across, expected 0.001 to 10000", self.scale);
+            bail!("the scale makes a picture of {} units across, expected 0.001 to 10000", self.scale);
         }
         if let Some(offset) = self.offset.iter().find(|offset| !(-1e5..=1e5).contains(*offset)) {
             bail!("an offset of {offset} units, expected -1e5 to 1e5");

@@ -58,6 +58,7 @@ impl<'a> Planned<'a> {
             Some(path) => Truth::read(path, &plan.body, sequence.fps)?.map_err(|why| warnings.push(why)).ok(),
             None => None,
         };
+        warnings.extend(truth.as_ref().and_then(Truth::remark));
         let record = RunRecord::new(sequence, settings, &plan)?;
         let outlets = OpenOutlets::of(sequence, settings, &plan.body)?;
         Ok(Self { sequence, settings, output, plan, truth, record, outlets, warnings })

@@ -10,7 +10,7 @@ use image::{ExtendedColorType, ImageEncoder, RgbImage};
 
 use crate::body::{Body, Mesh};
 use crate::evaluate::{CandidateImage, PartQuad, Projector, Reference};
-use crate::files::OutputFolder;
+use crate::files::{OutputFolder, file_stem};
 use crate::geometry::Camera;
 use crate::report::{Canvas, OverlayPolygon, part_colour};
 
@@ -112,11 +112,6 @@ pub(super) fn is_one(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let number = name.strip_suffix(".png").and_then(|stem| stem.rsplit_once('_')).map(|(_, number)| number);
     number.is_some_and(|number| number.len() >= 6 && number.bytes().all(|byte| byte.is_ascii_digit()))
-}
-
-/// A camera's name with what no file name can hold replaced.
-pub(super) fn file_stem(camera: &str) -> String {
-    camera.chars().map(|c| if c.is_control() || "/\\:*?\"<>|".contains(c) { '_' } else { c }).collect()
 }
 
 /// Pairs of joints (indices of [`Body::joint_names`]) that a line is drawn between: a bone and its parent, a free end and

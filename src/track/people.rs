@@ -75,7 +75,7 @@ pub fn track_people(
     let folders = sequence.people.iter().map(|person| OutputFolder::open(&output.path().join(&person.name)));
     let folders = folders.collect::<Result<Vec<_>>>()?;
     let [first_alone, other_alone @ ..] = alone.as_slice() else { bail!("{name} has no [[person]]") };
-    let first = Planned::new(first_alone, settings, &folders[0], plated.remarks())?;
+    let first = Planned::new(first_alone, settings, &folders[0], [sequence.remarks(), plated.remarks()].concat())?;
     // What suits one suits all; it is not measured again.
     let chosen = Backend::from_name(first.plan.backend.evaluator.name())?;
     let others = TrackSettings { backend: chosen, ..settings.clone() };

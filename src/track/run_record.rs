@@ -14,11 +14,14 @@ use super::plan::Plan;
 use super::{Backend, Passes, RealtimeSettings, TrackSettings, Width};
 use crate::body::{MeshSource, Model};
 use crate::evaluate::Objective;
-use crate::files::{OutputFolder, read_toml, table_of};
+use crate::files::{Limit, OutputFolder, read_toml, table_of};
 use crate::sequence::{Ignored, Sequence, Source};
 
 /// Its name in a track's folder.
 pub(super) const NAME: &str = "run.toml";
+
+/// What a run is made from, but for pictures and videos.
+const INPUT: Limit = Limit { what: "an input", most: 2 << 30 };
 
 /// Tables of `run.toml` that a run may only be gone on with when they are the same.
 const DECISIVE: [&str; 2] = ["settings", "inputs"];
@@ -333,7 +336,7 @@ fn sum(bytes: &[u8]) -> String {
 }
 
 fn sum_of(file: &Path) -> Result<String> {
-    Ok(sum(&fs::read(file).with_context(|| format!("cannot read {}", file.display()))?))
+    Ok(sum(&INPUT.read(file)?))
 }
 
 fn yes_or_no(value: bool) -> &'static str {

@@ -8,11 +8,10 @@ use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 
 use super::Backend;
-use super::overlay::file_stem;
 use crate::body::{Body, Model, PoseTable};
 use crate::evaluate::{Components, Evaluator, Objective, Reference, SegmentSums};
 use crate::features::Observation;
-use crate::files::OutputFolder;
+use crate::files::{OutputFolder, file_stem};
 use crate::geometry::Camera;
 use crate::observe::{
     Appearance, Observer, check_background, feature_settings, take_likelihoods, take_observations, with_plates,

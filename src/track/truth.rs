@@ -45,6 +45,11 @@ pub(super) struct Truth {
 }
 
 impl Truth {
+    /// What a user should know of the truth's file.
+    pub(super) fn remark(&self) -> Option<String> {
+        self.points.same_labels().map(|note| format!("{}: {note}", self.path.display()))
+    }
+
     /// Reads the truth and pairs its points with the body's markers or, failing that, joints of equal name.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ use pantin::geometry::{Camera, rodrigues_matrix};
 use pantin::sequence::write_cameras_toml;
 
 use super::scene;
-use super::support::{has_ffmpeg, lay_out_beam, pantin, shared, stderr, stdout};
+use super::support::{has_ffmpeg, lay_out_beam, pantin, refused, shared, stderr, stdout};
 
 const SIZE: [u32; 2] = [320, 400];
 const FRAMES: usize = 20;
@@ -284,6 +284,12 @@ fn a_wrong_lens_and_too_few_frames_are_said() {
     assert!(status == 0 && out.contains("-      timing c1") && out.contains("no three neighbours"), "{out}{error}");
     let (status, _, error) = run(&["--frames", "3..50"]);
     assert!(status == 1 && error.contains("frames 3..50 are no frames of"), "{error}");
+    let (_, _, error) = run(&["--frames", "4..5", "--samples", "1"]);
+    assert!(!error.contains("checks failed") || error.contains(folder.path().to_str().unwrap()), "{error}");
+    refused(
+        &pantin(&["check", "nowhere"]),
+        &["nowhere: 1 of 1 checks failed", "the first is `files`: cannot read nowhere"],
+    );
 }
 
 /// The beam's two calibrations: what came with the recording differs by 0.3 to 0.7 degrees from what was refined on

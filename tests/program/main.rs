@@ -23,6 +23,7 @@ mod evidence;
 mod example_bodies;
 mod features;
 mod first_try;
+mod hostile;
 mod losses;
 mod matrix;
 mod observe;

@@ -74,11 +74,7 @@ fn score_refuses_in_one_sentence() {
         "the truth has `LKnee`, `LHip`, the track has `LKNE`, `RKNE`",
     );
     refused(at, &["score", "out", "--truth", "none.trc"], "cannot read none.trc");
-    refused(
-        at,
-        &["score", "none", "--truth", "joints.csv"],
-        "none: unknown point format ``, the nearest is `c3d` (known: c3d, trc, csv, bvh)",
-    );
+    refused(at, &["score", "none", "--truth", "joints.csv"], "there is no file none");
     fs::create_dir(at.join("empty")).unwrap();
     refused(at, &["score", "empty", "--truth", "joints.csv"], "neither markers.c3d nor joints.csv");
     refused(at, &["score", "out", "--truth", "markers.trc", "--points", "HIP"], "no point `HIP` to compare");
@@ -88,6 +84,32 @@ fn score_refuses_in_one_sentence() {
 
 const BVH: &str = "HIERARCHY\nROOT hip\n{\n OFFSET 0 0 0\n CHANNELS 3 Xposition Yposition Zposition\n End Site\n {\n  OFFSET 0 10 0\n }\n}\n\
     MOTION\nFrames: 2\nFrame Time: 0.01\n1 2 3\n4 5 6\n";
+
+#[test]
+fn what_a_file_leaves_open_is_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let truth = PointTrajectory { first_frame: 100, ..points(&["hip"], 5, DVec3::ZERO) };
+    write_points(&at("truth.trc"), &truth, Overwrite::Refuse).unwrap();
+    let head =
+        "HIERARCHY\nROOT hip\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n}\nMOTION\nFrames: 105\n";
+    fs::write(at("walk.bvh"), format!("{head}Frame Time: 0.04\n{}", "0 0 0\n".repeat(105))).unwrap();
+    let (status, _, error) = pantin(folder.path(), &["score", "walk.bvh", "--truth", "truth.trc"]);
+    let note = "note: walk.bvh is taken to begin at frame 0, and what it is compared with at frame 100\n";
+    assert_eq!((status, error.as_str()), (0, note));
+
+    write_points(&at("m.c3d"), &points(&["LKNE", "RKNE"], 5, DVec3::ZERO), Overwrite::Refuse).unwrap();
+    let mut bytes = fs::read(at("m.c3d")).unwrap();
+    let label = bytes.windows(4).position(|window| window == b"RKNE").unwrap();
+    bytes[label] = b'L';
+    fs::write(at("m.c3d"), bytes).unwrap();
+    let (status, _, error) = pantin(folder.path(), &["convert", "m.c3d", "m.csv"]);
+    assert_eq!(status, 0, "{error}");
+    assert!(
+        error.starts_with("note: m.c3d: labels that stand several times were numbered") && error.lines().count() == 1
+    );
+    assert_eq!(read_points(&at("m.csv")).unwrap().names, ["LKNE", "LKNE#2"]);
+}
 
 #[test]
 fn a_recording_goes_round_all_formats() {
@@ -222,6 +244,8 @@ fn convert_refuses_in_one_sentence() {
     fs::write(at.join("still.csv"), "frame,a.x,a.y,a.z\n0,1,2,3\n").unwrap();
     fs::write(at.join("poses.csv"), "frame,pelvis.tx\n0,1\n").unwrap();
     refused(at, &["convert", "a.bvh", "a.bvh"], "a.bvh exists already");
+    refused(at, &["convert", "still.csv", "b.trc", "--rate", "1e308"], "--rate is 1e308, expected a positive number");
+    refused(at, &["convert", "still.csv", "b.csv", "--scale", "1e-300"], "--scale is 1e-300, expected a positive");
     refused(at, &["convert", "still.csv", "b.bvh"], "which points alone do not give");
     refused(at, &["convert", "still.csv", "b.trc"], "frame rate is unknown");
     refused(at, &["convert", "poses.csv", "b.trc"], "table of poses");
@@ -237,9 +261,9 @@ fn convert_refuses_in_one_sentence() {
         "a.bvh: it says neither its unit nor its axes",
     );
     refused(at, &["convert", "a.bvh", "b.csv", "--scale", "nan"], "--scale is NaN");
-    refused(at, &["convert", "a.bvh", "b.csv", "--scale", "1e300"], "expected coordinates below 1e9 mm");
+    refused(at, &["convert", "a.bvh", "b.csv", "--scale", "1e300"], "--scale is 1e300, expected a positive number");
     refused(at, &["convert", "a.bvh", "b.csv", "--convention", "opensim"], "expected .trc for the convention opensim");
-    refused(at, &["convert", "a.bvh", "b.csv", "--rate", "0"], "--rate is 0");
+    refused(at, &["convert", "a.bvh", "b.csv", "--rate", "0"], "--rate is 0.0");
     let left: Vec<PathBuf> = fs::read_dir(at).unwrap().map(|entry| entry.unwrap().path()).collect();
     assert_eq!(left.len(), 3, "nothing was written: {left:?}");
 }

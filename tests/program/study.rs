@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::Duration;
 
-use super::support::{pantin, program, refused, stdout, succeeded};
+use super::support::{pantin, program, refused, stderr, stdout, succeeded};
 
 const STUDY: &str = r#"
 name = "shared"
@@ -90,6 +90,9 @@ fn a_part_of_a_study_is_collected_and_wrong_numbers_are_said() {
     let one = study(&["--run", "2"]);
     succeeded(&one);
     assert!(stdout(&one).contains("_seed2: "), "{}", stdout(&one));
+    let again = study(&[]);
+    refused(&again, &["is not empty: go on with the study in it by --resume"]);
+    assert!(!stderr(&again).contains("--force"), "it has none: {}", stderr(&again));
     let part = study(&["--collect"]);
     succeeded(&part);
     assert!(stdout(&part).contains("1 runs in"), "{}", stdout(&part));

@@ -124,14 +124,16 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
         ),
         ("frames = 1\n[[actor]]\nmotion = { file = \"stick.bvh\" }", "no joint that is known to be `pelvis`"),
         ("[[actor]]\nmesh = \"nobody.glb\"", "nobody.glb"),
-        ("[[camera]]\nname = \"cam7\"", "`cam7`, expected one of cam1"),
-        ("[rig]\ncameras = \"none.toml\"", "none.toml"),
+        ("[[actor]]\n[[camera]]\nname = \"cam7\"", "`cam7`, expected one of cam1"),
+        ("[[actor]]\n[rig]\ncameras = \"none.toml\"", "none.toml"),
         ("frames = 900\n[[actor]]\nmotion = { gait = \"straight\" }", "in frame 0 he is at"),
         (
             "[[actor]]\n[actor.clothes]\nshirt = { material = \"silk\" }",
             "unknown material `silk`, the nearest is `brick`",
         ),
-        ("[room]\nfloor = { }", "neither a colour nor a material"),
+        ("[[actor]]\n[room]\nfloor = { }", "scene.toml: [room] floor: it names neither a colour nor a material"),
+        ("frames = 3", "scene.toml: there is no [[actor]], expected one to track"),
+        ("[[actor]]\n[features]\nblobz = 1", "unknown key `blobz`"),
     ] {
         fs::write(&scene, text).unwrap();
         let failed = synth(&[scene.to_str().unwrap()], &folder);
@@ -140,6 +142,8 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
         assert!(message.contains(expected) && message.trim().lines().count() == 1, "{text}: {message}");
         assert!(!folder.exists(), "{text} wrote something");
     }
+    let unused = synth(&["--preset", "demo", "--people", "nowhere"], &folder);
+    assert!(message(&unused).contains("--people is for --lottery"), "{}", message(&unused));
     let unknown = synth(&["--preset", "p3s"], &folder);
     assert!(
         message(&unknown)

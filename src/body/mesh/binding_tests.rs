@@ -359,9 +359,9 @@ fn buffers_lie_beside_the_file_and_are_as_long_as_declared() {
         ("/dev/zero", 8, "\"/dev/zero\" lies elsewhere, expected a file in the folder"),
         ("../../etc/passwd", 8, "lies elsewhere"),
         ("folder/../../secret", 8, "lies elsewhere"),
-        ("folder", 8, "is no regular file"),
+        ("folder", 8, "is a folder, expected a buffer, which is a regular file"),
         ("short.bin", 8, "holds 4 bytes, expected 8"),
-        ("none.bin", 8, "cannot be read"),
+        ("none.bin", 8, "its buffer: cannot read"),
         ("short.bin", 1_u64 << 40, "expected at most"),
         ("short.bin", 4, "no mesh with a skin"),
     ] {

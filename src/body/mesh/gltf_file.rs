@@ -5,7 +5,6 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fs;
 use std::io::Read as _;
 use std::path::{Component, Path};
 
@@ -16,10 +15,12 @@ use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
 use gltf::{Accessor, Document, Gltf, Node, Semantic, Skin};
 
-use crate::files::shortened;
+use crate::files::{Limit, shortened};
 
 /// Larger files are no person.
 const LARGEST_FILE: u64 = 1 << 30;
+const PERSON: Limit = Limit { what: "a glTF file", most: LARGEST_FILE };
+const BUFFER: Limit = Limit { what: "a buffer", most: LARGEST_FILE };
 
 /// Nor are nodes that hang deeper than this.
 const DEEPEST_NODE: usize = 1000;
@@ -63,10 +64,7 @@ pub(super) struct BoundVertex {
 /// # Errors
 /// One sentence: it cannot be read, is no glTF, has no skin or no triangles, numbers that are not there or make no sense.
 pub(super) fn read(path: &Path) -> Result<SkinnedFile> {
-    let size = fs::metadata(path).with_context(|| format!("cannot read {}", path.display()))?.len();
-    ensure!(size <= LARGEST_FILE, "{} holds {size} bytes, expected at most {LARGEST_FILE}", path.display());
-    let bytes = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-    parse(&bytes, path.parent()).with_context(|| path.display().to_string())
+    parse(&PERSON.read(path)?, path.parent()).with_context(|| path.display().to_string())
 }
 
 /// [`read`] for bytes already in memory; buffers beside the file lie in `folder`.
@@ -139,14 +137,9 @@ fn beside(uri: &str, length: u64, folder: Option<&Path>) -> Result<Vec<u8>> {
     ensure!(length <= LARGEST_FILE, "its buffer {uri:?} is to hold {length} bytes, expected at most {LARGEST_FILE}");
     let path = folder.map_or_else(|| uri.into(), |folder| folder.join(uri));
     let unreadable = || format!("its buffer {} cannot be read", path.display());
-    // A pipe or a device would wait or never end.
-    ensure!(
-        fs::metadata(&path).with_context(unreadable)?.is_file(),
-        "its buffer {} is no regular file",
-        path.display()
-    );
     let mut bytes = Vec::new();
-    fs::File::open(&path).and_then(|file| file.take(length).read_to_end(&mut bytes)).with_context(unreadable)?;
+    let file = BUFFER.open(&path).context("its buffer")?;
+    file.take(length).read_to_end(&mut bytes).with_context(unreadable)?;
     let found = bytes.len();
     ensure!(found as u64 == length, "its buffer {} holds {found} bytes, expected {length}", path.display());
     Ok(bytes)

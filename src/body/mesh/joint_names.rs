@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::gltf_file::Joint;
 use crate::body::Body;
-use crate::files::expected;
+use crate::files::{expected, listed};
 
 /// Names of joints by bone or free end, both without their side, words run together; the first that a file has counts.
 /// Mixamo and CMU say Shoulder for the clavicle and Arm for the upper arm; SMPL says Collar and Shoulder.
@@ -133,10 +133,11 @@ impl JointMap {
             .map(|bone| format!("`{}`", body.bones[bone].name))
             .collect();
         if !lost.is_empty() {
-            let known = joints.iter().take(40).map(|joint| joint.name.as_str()).collect::<Vec<_>>().join(", ");
+            let free = joints.iter().enumerate().filter(|(at, _)| !self.of_bone.contains(&Some(*at)));
+            let known = listed(free.map(|(_, joint)| &joint.name));
             bail!(
-                "no joint of it is known to be {}, expected [mesh.bones] or --bone to name it (joints: {known})",
-                lost.join(", ")
+                "no joint of it is known to be {}, expected [mesh.bones] or --bone to name it (other joints: {known})",
+                listed(&lost)
             );
         }
         for (index, joint) in self.of_bone.iter().enumerate() {

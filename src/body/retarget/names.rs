@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::body::Body;
 use crate::body::mesh::plain_name;
-use crate::files::expected;
+use crate::files::{expected, listed};
 use crate::motion::SkeletalMotion;
 
 /// Names of joints by bone or free end, without their side, words run together; the first that a recording has counts.
@@ -142,12 +142,13 @@ impl JointNames {
             .map(|(bone, _)| bone.name.as_str())
             .collect();
         if !lost.is_empty() {
-            let known: Vec<&str> =
-                motion.joints.iter().filter(|j| !j.is_end).map(|j| j.name.as_str()).take(40).collect();
+            let is_free = |at: usize| !self.of_bone.contains(&Some(at));
+            let all = motion.joints.iter().enumerate().filter(|(_, joint)| !joint.is_end);
+            let known = all.filter(|(at, _)| is_free(*at)).map(|(_, joint)| &joint.name);
             bail!(
-                "the motion has no joint that is known to be `{}`, expected `joints` to name it (joints: {})",
-                lost.join("`, `"),
-                known.join(", ")
+                "the motion has no joint that is known to be {}, expected `joints` to name it (other joints: {})",
+                listed(lost.iter().map(|name| format!("`{name}`"))),
+                listed(known)
             );
         }
         Ok(())

@@ -4,6 +4,7 @@ use anyhow::{Result, ensure};
 use glam::{DAffine3, DQuat, DVec3};
 
 use crate::body::Body;
+use crate::files::listed;
 
 /// Where a limb points in a T-pose, in our axes (x forward, y left, z up).
 const DOWN: DVec3 = DVec3::NEG_Z;
@@ -97,7 +98,7 @@ impl UnityBones {
             !mapped.is_empty(),
             "the body `{}` has no joint that VMC has a bone for, expected some of {}",
             body.name,
-            known.join(", ")
+            listed(&known)
         );
         Ok(Self { body: body.clone(), mapped })
     }

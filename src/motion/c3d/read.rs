@@ -1,11 +1,11 @@
 //! The reader.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use anyhow::{Context, Result, bail, ensure};
 use glam::DVec3;
 
-use super::super::points::{LARGEST_COORDINATE, PointTrajectory, millimetres_in};
+use super::super::points::{LARGEST_COORDINATE, PointTrajectory, millimetres_in, numbered};
 use super::numbers::Processor;
 use super::parameters::Parameters;
 use super::{BLOCK, NOT_POSITIONS};
@@ -15,7 +15,7 @@ const SATURATED: usize = 65535;
 
 /// Reads the bytes of a C3D file; `name` stands for the file in messages. Positions come in mm whatever the file's
 /// unit; a negative residual or a coordinate that is not a number means missing; points that are angles, forces,
-/// moments or powers are left out. A point without a label (or `*`) is called `point<column>`, columns counted from 1.
+/// moments or powers are left out. Of points with one label the second is called `<label>#2`, and so on. A point without a label (or `*`) is called `point<column>`, columns counted from 1.
 ///
 /// # Errors
 /// One sentence with the file, the byte, frame or parameter, what was found and what was expected. Counts are compared
@@ -164,6 +164,25 @@ impl Layout {
     }
 }
 
+/// Labels that stand several times get a number: `LKNE`, `LKNE#2`, `LKNE#3`.
+fn name_apart(columns: &mut [(usize, String)]) {
+    let mut taken: HashSet<String> = columns.iter().map(|(_, label)| label.clone()).collect();
+    let mut counts: HashMap<String, usize> = HashMap::new();
+    for (_, label) in columns {
+        let count = counts.entry(label.clone()).or_insert(0);
+        *count += 1;
+        if *count == 1 {
+            continue;
+        }
+        let mut name = numbered(label, *count);
+        while !taken.insert(name.clone()) {
+            *count += 1;
+            name = numbered(label, *count);
+        }
+        *label = name;
+    }
+}
+
 /// The columns that are positions, with their names.
 fn columns(parameters: &Parameters<'_>, points: usize) -> Result<Vec<(usize, String)>> {
     let mut labels = parameters.texts("POINT", "LABELS");
@@ -173,7 +192,7 @@ fn columns(parameters: &Parameters<'_>, points: usize) -> Result<Vec<(usize, Str
         .flat_map(|group| parameters.texts("POINT", group))
         .filter(|name| !name.is_empty())
         .collect();
-    let columns: Vec<(usize, String)> = (0..points)
+    let mut columns: Vec<(usize, String)> = (0..points)
         .filter_map(|column| match labels.get(column) {
             Some(label) if others.contains(label) => None,
             Some(label) if !label.is_empty() && label != "*" => Some((column, label.clone())),
@@ -181,6 +200,7 @@ fn columns(parameters: &Parameters<'_>, points: usize) -> Result<Vec<(usize, Str
         })
         .collect();
     ensure!(!columns.is_empty(), "all {points} points are angles, forces, moments or powers, expected a position");
+    name_apart(&mut columns);
     Ok(columns)
 }
 
@@ -220,7 +240,7 @@ mod tests {
     fn each_fault_is_one_sentence() {
         let whole = written(&small());
         type Change = fn(&mut Vec<u8>);
-        let cases: [(&str, Change); 21] = [
+        let cases: [(&str, Change); 20] = [
             ("holds 0 bytes, expected a C3D file", |b| b.clear()),
             ("holds 511 bytes, expected a C3D file", |b| b.truncate(511)),
             ("expected a C3D file, which has 0x50", |b| b[1] = b'P' + 1),
@@ -266,10 +286,6 @@ mod tests {
                 let at = values_of(b, "UNITS");
                 b[at..at + 2].copy_from_slice(b"ft");
             }),
-            ("two points are named `LKNE`", |b| {
-                let at = values_of(b, "LABELS");
-                b[at + 4] = b'L';
-            }),
             ("point `LKNE` in frame 4 is at (inf,", |b| b[1024..1028].copy_from_slice(&f32::INFINITY.to_le_bytes())),
             ("point `LKNE` in frame 4 is at (10000000000,", |b| b[1024..1028].copy_from_slice(&1e10f32.to_le_bytes())),
             ("`USED`: has the type 3, expected -1, 1, 2 or 4", |b| {
@@ -301,6 +317,28 @@ mod tests {
         assert_eq!(points.names, ["point1", "point2"]);
         assert_eq!(points.frames[0], [Some(DVec3::new(1500.0, -2000.0, 3000.0)), None]);
         assert_eq!(points.first_frame, 4);
+    }
+
+    #[test]
+    fn labels_that_stand_twice_are_named_apart() {
+        let mut bytes = written(&small());
+        let at = values_of(&bytes, "LABELS");
+        bytes[at + 4] = b'L';
+        let points = parse_c3d(&bytes, "t.c3d").unwrap();
+        assert_eq!(points.names, ["LKNE", "LKNE#2"]);
+        assert_eq!(points.frames[1][1], Some(DVec3::new(7.0, 8.0, 9.0)));
+        assert_eq!(
+            points.same_labels().unwrap(),
+            "labels that stand several times were numbered, so a point is called LKNE#2"
+        );
+        assert_eq!(small().same_labels(), None);
+        let apart = |labels: &[&str]| {
+            let mut columns: Vec<(usize, String)> = labels.iter().map(|label| (0, (*label).to_string())).collect();
+            name_apart(&mut columns);
+            columns.into_iter().map(|(_, name)| name).collect::<Vec<_>>()
+        };
+        assert_eq!(apart(&["a", "a#2", "a", "a", "b"]), ["a", "a#2", "a#3", "a#4", "b"]);
+        assert_eq!(apart(&["a", "a", "a#2", "a#2"]), ["a", "a#3", "a#2", "a#2#2"]);
     }
 
     #[test]

@@ -3,11 +3,14 @@
 
 use std::collections::HashSet;
 
-use anyhow::{Result, anyhow, bail, ensure};
+use anyhow::{Result, bail, ensure};
 use glam::{DMat3, DQuat, DVec2, DVec3};
-use roxmltree::Document;
 
+use crate::files::shortened;
 use crate::geometry::{BrownConrady, Camera, LARGEST_SIDE, Lens, rodrigues_matrix};
+
+/// Bytes of a camera's name.
+const LONGEST_NAME: usize = 100;
 
 /// A length in the file's own unit beyond which a number is damage, not a place.
 const FARTHEST: f64 = 1e9;
@@ -94,12 +97,6 @@ pub(super) fn translation(vector: [f64; 3]) -> Result<DVec3> {
     Ok(DVec3::from_array(vector))
 }
 
-/// The tree of an XML file.
-pub(super) fn parse_xml<'text>(text: &'text str, name: &str) -> Result<Document<'text>> {
-    // The parser quotes what it met, line ends too.
-    Document::parse(text).map_err(|error| anyhow!("{name} is not XML: {}", error.to_string().replace('\n', "\\n")))
-}
-
 /// The cameras of a file as a whole: at least one, each with a name of its own that can stand in a file's name.
 pub(super) fn names(cameras: &[Camera]) -> Result<()> {
     ensure!(!cameras.is_empty(), "holds no camera, expected at least one");
@@ -108,6 +105,12 @@ pub(super) fn names(cameras: &[Camera]) -> Result<()> {
         if name.is_empty() || name == "." || name == ".." || name.chars().any(|c| c.is_control() || "/\\".contains(c)) {
             bail!("camera name {name:?} cannot be part of a file's name, expected one without slashes");
         }
+        ensure!(
+            name.len() <= LONGEST_NAME,
+            "camera name `{}` is {} bytes long, expected at most {LONGEST_NAME}: files are called after it",
+            shortened(name),
+            name.len()
+        );
         ensure!(
             name != "metadata",
             "a camera is named `metadata`, expected another name: files keep that for themselves"

@@ -9,6 +9,7 @@ mod sizes;
 mod units;
 mod vicon;
 mod writer;
+mod xml;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,11 +23,11 @@ pub use vicon::parse_vicon;
 pub use writer::{cameras_toml, write_cameras_toml};
 
 use self::sizes::{Sizes, unsized_pictures};
-use crate::files::choices;
+use crate::files::{Limit, check_regular, choices};
 use crate::geometry::Camera;
 
 /// Calibrations are small; anything larger is a mistake (a video handed over, say), not worth reading whole.
-const LARGEST_FILE: u64 = 16 << 20;
+const CALIBRATION: Limit = Limit { what: "a calibration file", most: 16 << 20 };
 
 /// No rig has more cameras; a folder of more files was meant for something else.
 const MOST_FILES: usize = 256;
@@ -79,6 +80,10 @@ fn read_file(path: &Path, sizes: Sizes) -> Result<Vec<Camera>> {
         let [lenses_name, places_name] = [&lenses, &places].map(|file| file.display().to_string());
         let (lenses, places) = (read_text(&lenses)?, read_text(&places)?);
         return opencv::parse_easymocap((&lenses, &lenses_name), (&places, &places_name), sizes);
+    }
+    // A name without an ending is more often a wrong one than a file of no known format.
+    if path.extension().is_none() {
+        check_regular(path).map_err(|why| anyhow!(why))?;
     }
     let format = match format_of(path) {
         Some(format) => format,
@@ -137,17 +142,7 @@ fn read_folder(folder: &Path, sizes: Sizes) -> Result<Vec<Camera>> {
 }
 
 fn read_text(path: &Path) -> Result<String> {
-    let name = path.display();
-    let size = fs::metadata(path).with_context(|| format!("cannot read {name}"))?.len();
-    ensure!(size <= LARGEST_FILE, "{name} holds {size} bytes, expected a calibration file of at most {LARGEST_FILE}");
-    let bytes = fs::read(path).with_context(|| format!("cannot read {name}"))?;
-    let text = String::from_utf8(bytes)
-        .map_err(|error| anyhow!("{name} is not text (byte {} is not UTF-8)", error.utf8_error().valid_up_to()))?;
-    // Some editors begin a text file with a byte order mark.
-    Ok(match text.strip_prefix('\u{feff}') {
-        Some(rest) => rest.to_string(),
-        None => text,
-    })
+    CALIBRATION.read_text(path)
 }
 
 #[cfg(test)]

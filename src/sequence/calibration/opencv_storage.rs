@@ -5,7 +5,7 @@ use anyhow::{Result, anyhow, bail, ensure};
 use roxmltree::Node;
 use saphyr_parser::{Event, Parser, Span};
 
-use super::checks::parse_xml;
+use super::xml::parse_xml;
 
 /// Calibrations are three levels deep; a file built to exhaust memory is much deeper.
 const DEEPEST: usize = 16;

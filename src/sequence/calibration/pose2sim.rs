@@ -9,7 +9,7 @@ use toml::Spanned;
 
 use super::checks::{brown_conrady, names, picture_size, rotation_vector, translation};
 use super::units::{Units, to_mm};
-use crate::files::parse_toml;
+use crate::files::{exactly, exactly_if_any, parse_toml};
 use crate::geometry::{Camera, TsaiConstants};
 
 /// Reads the text of a `cameras.toml`; `name` stands for the file in messages. Without `[metadata] units` lengths are
@@ -86,10 +86,14 @@ struct Metadata {
 )]
 struct CameraEntry {
     name: Option<String>,
+    #[serde(deserialize_with = "exactly")]
     size: [f64; 2],
+    #[serde(default, deserialize_with = "exactly_if_any")]
     matrix: Option<[[f64; 3]; 3]>,
     distortions: Option<Vec<f64>>,
+    #[serde(default, deserialize_with = "exactly_if_any")]
     rotation: Option<[f64; 3]>,
+    #[serde(default, deserialize_with = "exactly_if_any")]
     translation: Option<[f64; 3]>,
     #[serde(default)]
     fisheye: bool,

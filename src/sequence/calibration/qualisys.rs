@@ -6,8 +6,9 @@ use anyhow::{Context, Result, anyhow, ensure};
 use glam::{DAffine3, DMat3, DVec3};
 use roxmltree::Node;
 
-use super::checks::{brown_conrady, names, parse_xml, picture_size, rotation_matrix, translation};
+use super::checks::{brown_conrady, names, picture_size, rotation_matrix, translation};
 use super::units::{Units, to_mm};
+use super::xml::parse_xml;
 use crate::geometry::Camera;
 
 /// Intrinsic lengths are written in 1/64 pixel; distortions are plain numbers.

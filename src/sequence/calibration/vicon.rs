@@ -7,8 +7,9 @@ use glam::{DAffine3, DMat3, DQuat, DVec2};
 use nalgebra::{DMatrix, DVector};
 use roxmltree::Node;
 
-use super::checks::{brown_conrady, names, parse_xml, picture_size, translation};
+use super::checks::{brown_conrady, names, picture_size, translation};
 use super::units::{Units, to_mm};
+use super::xml::parse_xml;
 use crate::geometry::{BrownConrady, Camera, Lens};
 
 /// Pixels by which the lens may be missed that stands for Vicon's: a tenth of what a calibration is good to.

@@ -1,9 +1,15 @@
 //! The files a lottery draws from: recorded motions and skinned people under folders.
 
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf, absolute};
 
 use anyhow::{Context, Result, bail};
+
+use crate::files::{Limit, check_regular};
+
+/// A recorded motion or what lies beside it.
+const CLIP: Limit = Limit { what: "a clip", most: u64::MAX };
 
 /// A recorded motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,7 +64,7 @@ fn files_under(folder: &Path) -> Result<Vec<PathBuf>> {
         let path = entry?.path();
         if path.is_dir() {
             files.extend(files_under(&path)?);
-        } else {
+        } else if check_regular(&path).is_ok() {
             files.push(absolute(path)?);
         }
     }
@@ -81,8 +87,10 @@ fn skeleton_of(motion: &Path, files: &[PathBuf]) -> Result<PathBuf> {
 
 /// Whether a text file is a DeepMimic clip, and no licence, description or character.
 fn is_clip(file: &Path) -> Result<bool> {
-    let bytes = fs::read(file).with_context(|| format!("cannot read {}", file.display()))?;
-    let begin = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]).into_owned();
+    let mut bytes = Vec::new();
+    let read = CLIP.open(file)?.take(4096).read_to_end(&mut bytes);
+    read.with_context(|| format!("cannot read {}", file.display()))?;
+    let begin = String::from_utf8_lossy(&bytes);
     Ok(begin.trim_start().starts_with('{') && begin.contains("\"Frames\""))
 }
 

@@ -7,6 +7,7 @@ use super::{
     StationSettings,
 };
 use crate::body::Proportions;
+use crate::features::FeatureSettings;
 
 /// Holds a number to its range; NaN is in none.
 fn within(what: &str, value: f64, low: f64, high: f64, unit: &str) -> Result<()> {
@@ -64,6 +65,9 @@ impl Scene {
         ensure!(self.actor.len() <= 8, "there are {} [[actor]], expected at most 8", self.actor.len());
         for (index, actor) in self.actor.iter().enumerate() {
             actor.check().with_context(|| format!("actor {}", index + 1))?;
+        }
+        if let Some(table) = &self.features {
+            FeatureSettings::from_table(table, "the scene")?;
         }
         for camera in &self.camera {
             camera.check(self.frames).with_context(|| format!("camera `{}`", camera.name))?;
@@ -219,6 +223,10 @@ mod tests {
             (|s| s.markers = 40, "markers is 40, expected 15 or 39"),
             (|s| s.actor.clear(), "there is no [[actor]]"),
             (|s| s.rig.count = 5, "expected the preset `ring`"),
+            (
+                |s| s.features = Some(toml::Table::from_iter([("blobz".to_string(), 1.into())])),
+                "the scene, table [features]: unknown key `blobz`",
+            ),
             (|s| s.sensor.exposure = 50.0, "[sensor]: exposure is 50, expected 0 to 40 ms"),
             (|s| s.output.crf = 60, "crf is 60"),
             (|s| s.light.position = Some([0.0, 0.0, -1.0]), "[light] position"),

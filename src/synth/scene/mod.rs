@@ -38,7 +38,8 @@ pub struct Scene {
     pub sensor: SensorSettings,
     /// What is written.
     pub output: OutputSettings,
-    /// The people, the tracked one first.
+    /// The people, the tracked one first. A file says who.
+    #[serde(default = "Vec::new")]
     pub actor: Vec<ActorSettings>,
     /// What single cameras do otherwise.
     pub camera: Vec<CameraSettings>,
@@ -412,6 +413,9 @@ mod tests {
         let scene = Scene::load(&path).unwrap();
         assert_eq!((scene.frames, scene.rig.size, scene.fps), (7, [320, 240], 25.0));
         assert_eq!(scene.actor[0].motion.file, Some(folder.path().join("walk.bvh")));
+        std::fs::write(&path, "frames = 7\n").unwrap();
+        let error = format!("{:#}", Scene::load(&path).unwrap_err());
+        assert!(error.ends_with("scene.toml: there is no [[actor]], expected one to track"), "{error}");
         std::fs::write(&path, "[[actor]]\nhieght = 1800.0\n").unwrap();
         let error = format!("{:#}", Scene::load(&path).unwrap_err());
         assert!(error.contains("line 2") && error.contains("nearest known key is `height`"), "{error}");

@@ -7,8 +7,8 @@ use image::RgbImage;
 use image::codecs::png::PngEncoder;
 
 use super::super::fit::Fit;
-use super::super::overlay::{Overlay, file_stem};
-use crate::files::OutputFolder;
+use super::super::overlay::Overlay;
+use crate::files::{OutputFolder, file_stem};
 use crate::observe::{Observer, silhouette_settings};
 use crate::report::{Canvas, side_by_side};
 use crate::sequence::Sequence;

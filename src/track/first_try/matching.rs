@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::{Result, bail};
 
+use crate::files::listed;
 use crate::geometry::Camera;
 
 /// The camera of each video, as an index: the one that its file is called after, or whose name its own contains; where that says
@@ -28,12 +29,19 @@ pub(super) fn match_cameras(videos: &[impl AsRef<Path>], cameras: &[Camera]) -> 
             (Named::Several, _) | (_, Named::Several) => "could be of several cameras".to_string(),
             _ => "is of no camera by its name".to_string(),
         };
-        let videos: Vec<String> = videos.iter().map(|video| video.as_ref().display().to_string()).collect();
+        // Their ends: what tells them apart, and long paths are cut.
+        let videos = videos.iter().map(|video| match video.as_ref() {
+            video if video.components().count() <= 2 => video.display().to_string(),
+            video => {
+                let [folder, file] = [video.parent().and_then(Path::file_name), video.file_name()];
+                format!("…/{}", Path::new(folder.unwrap_or_default()).join(file.unwrap_or_default()).display())
+            }
+        });
         bail!(
             "{} {why}: the videos are {}, the cameras {}, expected videos that are called after their cameras",
             video.display(),
-            videos.join(", "),
-            names.join(", ")
+            listed(videos),
+            listed(names)
         );
     }
     Ok(matched)

@@ -18,11 +18,10 @@ use self::matching::match_cameras;
 use self::scale::{ChosenScale, choose_scale};
 use super::filmed_plate::filmed_plate;
 use super::fit::{Coverage, Fit, FitSettings, fit_with};
-use super::overlay::file_stem;
-use crate::files::{OutputFolder, Overwrite, write_atomically};
+use crate::files::{OutputFolder, Overwrite, file_stem, listed, write_atomically};
 use crate::geometry::Camera;
 use crate::observe::{Advance, with_plates};
-use crate::sequence::{Footage, Sequence, read_cameras};
+use crate::sequence::{Footage, Sequence, check_fps, read_cameras};
 
 /// Rates of frames that differ by less than this share are one rate.
 const SAME_RATE: f64 = 1e-3;
@@ -189,7 +188,7 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
 fn unused(cameras: &[Camera], matched: &[usize]) -> Vec<String> {
     let unused = cameras.iter().enumerate().filter(|(at, _)| !matched.contains(at));
     let names: Vec<&str> = unused.map(|(_, camera)| camera.name.as_str()).collect();
-    if names.is_empty() { Vec::new() } else { vec![format!("no video is of camera {}", names.join(", "))] }
+    if names.is_empty() { Vec::new() } else { vec![format!("no video is of camera {}", listed(&names))] }
 }
 
 /// Frames per second: what is asked for, or the first video's.
@@ -198,7 +197,7 @@ fn rate(asked: Option<f64>, footage: &[Footage], remarks: &mut Vec<String>) -> R
     let Some(fps) = asked.or_else(|| said.first().map(|(_, fps)| *fps)) else {
         bail!("numbered pictures do not tell how many frames a second they are, expected --fps");
     };
-    ensure!(fps.is_finite() && fps > 0.0, "fps is {fps}, expected a positive number of frames per second");
+    check_fps(fps)?;
     if let Some((other, rate)) = said.iter().find(|(_, rate)| (rate / fps - 1.0).abs() > SAME_RATE) {
         remarks.push(format!(
             "{other} says {rate:.3} frames a second, and {fps:.3} are taken: frames that were not taken at the same moment cannot be \

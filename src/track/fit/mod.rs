@@ -111,7 +111,7 @@ pub fn fit_with(sequence: &Sequence, settings: &FitSettings, progress: &mut Adva
     let objective = settings.objective.resolve_over(ObjectiveKind::Evidence, sequence.objective.as_ref(), &name)?;
     let weighs_evidence = objective.weighs_evidence();
     let plated = with_plates(sequence, progress)?;
-    let remarks = plated.remarks();
+    let remarks = [sequence.remarks(), plated.remarks()].concat();
     let sequence = plated.sequence.as_ref();
     let frames = sampled(settings.frames.within(sequence.frame_count, &name)?, settings.samples);
     let seen = Seen::look(sequence, &frames, weighs_evidence)?;

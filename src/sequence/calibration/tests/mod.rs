@@ -60,7 +60,7 @@ fn files_that_are_none_say_so() {
         assert!(sentence(read_cameras(&path(name))).contains(name));
     }
     let large = fs::File::create(path("large.toml")).unwrap();
-    large.set_len(LARGEST_FILE + 1).unwrap();
+    large.set_len(CALIBRATION.most + 1).unwrap();
     assert!(sentence(read_cameras(&path("large.toml"))).contains("expected a calibration file of at most"));
 }
 
