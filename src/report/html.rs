@@ -194,17 +194,27 @@ pub(super) const PLAYER: &str = "<section id=\"player\"><h2>Motion in space</h2>
     <label><input type=\"checkbox\" class=\"beside\"> reference beside</label>\
     <label><input type=\"checkbox\" class=\"trails\" checked> trails</label>\
     <label><input type=\"checkbox\" class=\"cameras\" checked> cameras</label></div>\
-    <p class=\"hint\">Drag to turn, scroll to zoom, double-click to reset.</p></section>";
+    <p class=\"hint\">Drag to turn, scroll or pinch to zoom, double-click to reset.</p></section>";
 
 fn overlays(out: &mut String, frames: &[OverlayFrame]) -> Result<()> {
     if frames.is_empty() {
         return Ok(());
     }
     let picked = frames.len() / 2;
-    out.push_str("<section id=\"overlays\"><h2>The model over the pictures</h2>");
+    // Above the pictures: where these are tall, what moves them is still in sight.
+    write!(
+        out,
+        "<section id=\"overlays\"><h2>The model over the pictures</h2>\
+         <div class=\"controls\"><input type=\"range\" min=\"0\" max=\"{}\" value=\"{picked}\" aria-label=\"frame\">\
+         <output>frame {}</output></div>",
+        frames.len() - 1,
+        frames[picked].frame
+    )?;
     for (index, frame) in frames.iter().enumerate() {
         let hidden = if index == picked { "" } else { " hidden" };
-        write!(out, "<div class=\"views\" data-frame=\"{}\"{hidden}>", frame.frame)?;
+        let is_upright = |(_, picture): &(String, RgbImage)| picture.height() > picture.width();
+        let upright = if frame.views.iter().all(is_upright) { " upright" } else { "" };
+        write!(out, "<div class=\"views{upright}\" data-frame=\"{}\"{hidden}>", frame.frame)?;
         for (name, picture) in &frame.views {
             let name = escape(name);
             write!(
@@ -219,13 +229,14 @@ fn overlays(out: &mut String, frames: &[OverlayFrame]) -> Result<()> {
         }
         out.push_str("</div>");
     }
-    write!(
-        out,
-        "<div class=\"controls\"><input type=\"range\" min=\"0\" max=\"{}\" value=\"{picked}\" aria-label=\"frame\">\
-         <output>frame {}</output></div></section>",
-        frames.len() - 1,
-        frames[picked].frame
-    )?;
+    out.push_str("</section>");
+    Ok(())
+}
+
+/// A plot drawn twice: for a window of a desk, and for a phone's, on which the other's letters would be too small to be read. The style
+/// shows one of them.
+fn plot(out: &mut String, drawn: impl Fn(bool) -> Result<String>) -> Result<()> {
+    write!(out, "<div class=\"plot wide\">{}</div><div class=\"plot narrow\">{}</div>", drawn(false)?, drawn(true)?)?;
     Ok(())
 }
 
@@ -235,8 +246,12 @@ fn plots(out: &mut String, data: &ReportData) -> Result<()> {
         ("Fitness over time", "fitness", &data.fitness_per_frame),
     ] {
         if !series.is_empty() {
-            let svg = line_chart(axis, data.first_frame, series, [1080, 240])?;
-            write!(out, "<section><h2>{heading}</h2><div class=\"plot\">{svg}</div></section>")?;
+            write!(out, "<section><h2>{heading}</h2>")?;
+            plot(out, |is_narrow| {
+                let size = if is_narrow { [340, 260] } else { [1080, 240] };
+                line_chart(axis, data.first_frame, series, size)
+            })?;
+            out.push_str("</section>");
         }
     }
     Ok(())
@@ -264,8 +279,9 @@ fn tables(out: &mut String, data: &ReportData) -> Result<()> {
     out.push_str("<div>");
     if !data.stages.is_empty() {
         let bars: Vec<(String, f64)> = data.stages.iter().map(|stage| (stage.name.clone(), stage.ms)).collect();
-        let svg = bar_chart(&bars, "ms", TRACKED, 500)?;
-        write!(out, "<section><h2>Time a frame</h2><div class=\"plot\">{svg}</div></section>")?;
+        out.push_str("<section><h2>Time a frame</h2>");
+        plot(out, |is_narrow| bar_chart(&bars, "ms", TRACKED, if is_narrow { 340 } else { 500 }))?;
+        out.push_str("</section>");
     }
     if !data.settings.is_empty() {
         out.push_str("<section><h2>Settings</h2><table class=\"settings\"><tbody>");
@@ -389,6 +405,25 @@ mod tests {
         let empty = page(&ReportData::default()).unwrap();
         assert!(empty.starts_with("<!DOCTYPE html>") && empty.ends_with("</html>\n"));
         assert!(!empty.contains("<canvas") && !empty.contains("<table"));
+    }
+
+    #[test]
+    fn a_phone_has_plots_of_its_own_and_upright_pictures_stand_side_by_side_under_their_slider() {
+        let mut data = everything();
+        let text = page(&data).unwrap();
+        assert_eq!(
+            [text.matches("class=\"plot wide\"").count(), text.matches("class=\"plot narrow\"").count()],
+            [3; 2]
+        );
+        assert!(
+            text.contains("<svg width=\"340\" height=\"260\"") && text.contains("<svg width=\"1080\" height=\"240\"")
+        );
+        assert!(text.contains("<div class=\"views\" data-frame"), "pictures that lie");
+        data.overlays[0].views[0].1 = RgbImage::new(6, 8);
+        let text = page(&data).unwrap();
+        assert!(text.contains("<div class=\"views upright\" data-frame"));
+        let overlays = &text[text.find("id=\"overlays\"").unwrap()..];
+        assert!(overlays.find("type=\"range\"") < overlays.find("<figure>"), "the slider is above");
     }
 
     #[test]

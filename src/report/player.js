@@ -159,17 +159,35 @@ function makePlayer(section, firstFrame, data) {
   }
   play.addEventListener("click", () => { playing = !playing; });
   slider.addEventListener("input", () => { playing = false; frame = +slider.value; });
-  canvas.addEventListener("pointerdown", e => canvas.setPointerCapture(e.pointerId));
-  canvas.addEventListener("pointermove", e => {
-    if (!e.buttons) return;
+  // Fingers and buttons that are down, and where they were last.
+  const touching = new Map();
+  function zoom(factor) {
     isMoved = true;
-    eye.turn -= e.movementX * 0.008;
-    eye.lift = Math.max(-0.2, Math.min(1.55, eye.lift + e.movementY * 0.006));
+    eye.far = Math.max(600, Math.min(start.far * 4, eye.far * factor));
+  }
+  const spread = ([a, b]) => Math.hypot(a[0] - b[0], a[1] - b[1]);
+  canvas.addEventListener("pointerdown", e => {
+    canvas.setPointerCapture(e.pointerId);
+    touching.set(e.pointerId, [e.clientX, e.clientY]);
   });
+  canvas.addEventListener("pointermove", e => {
+    const before = touching.get(e.pointerId);
+    if (!before) return;
+    const apart = touching.size === 2 ? spread([...touching.values()]) : 0;
+    touching.set(e.pointerId, [e.clientX, e.clientY]);
+    if (touching.size === 2) {
+      zoom(Math.max(apart, 1) / Math.max(spread([...touching.values()]), 1));
+    } else if (touching.size === 1) {
+      isMoved = true;
+      eye.turn -= (e.clientX - before[0]) * 0.008;
+      eye.lift = Math.max(-0.2, Math.min(1.55, eye.lift + (e.clientY - before[1]) * 0.006));
+    }
+  });
+  for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
+    canvas.addEventListener(end, e => touching.delete(e.pointerId));
   canvas.addEventListener("wheel", e => {
     e.preventDefault();
-    isMoved = true;
-    eye.far = Math.max(600, Math.min(start.far * 4, eye.far * Math.exp(e.deltaY * 0.001)));
+    zoom(Math.exp(e.deltaY * 0.001));
   }, { passive: false });
   canvas.addEventListener("dblclick", () => { isMoved = false; eye = { ...start }; });
   requestAnimationFrame(tick);

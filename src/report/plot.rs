@@ -50,7 +50,7 @@ pub fn line_chart(label: &str, first_frame: usize, series: &[Series], size: [u32
             .axis_style(RULE)
             .label_style((FONT, 12, &INK))
             .axis_desc_style((FONT, 12, &INK))
-            .x_labels(8)
+            .x_labels((size[0] as usize / 80).clamp(3, 8))
             .y_labels(5)
             .x_label_formatter(&|v| format!("{v:.0}"))
             .y_label_formatter(&|v| short(*v, top))
