@@ -24,6 +24,11 @@ rm -rf "$folder"
 mkdir -p "$folder/completions" target/dist
 install -m 755 "$program" "$folder/pantin"
 strip "$folder/pantin"
+# It writes no recordings (`make test` has the build that does), and says so before anything is written.
+unwritten=target/dist/unwritten
+said=$("$folder/pantin" demo --rerun -o $unwritten 2>&1) && { echo "demo --rerun succeeds, expected a program without recordings"; exit 1; }
+case $said in *"cargo build --release --features rerun"*) ;; *) echo "demo --rerun said: $said"; exit 1 ;; esac
+[ ! -e $unwritten ] || { echo "demo --rerun wrote $unwritten"; exit 1; }
 cp README.md LICENSE-MIT LICENSE-APACHE "$folder/"
 $cargo metadata --locked --format-version 1 --filter-platform "$target" | "$python" tests/dist/licences.py > "$folder/LICENSES-OF-CRATES.txt"
 "$folder/pantin" man -o "$folder/man"
