@@ -317,7 +317,7 @@ pub mod compare_subgroup_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/compare_subgroup.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<2258, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<2327, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/compare_subgroup.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -333,6 +333,7 @@ pub mod compare_subgroup_comp {
         constants: &[
             crate::gpu::SpecConstant { name: "EDGE_BIT", id: 0, default: 0 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 3, default: 0 },
+            crate::gpu::SpecConstant { name: "FULL_SUBGROUP", id: 31, default: 0 },
         ],
     };
     /// Specialisation constants.
@@ -342,13 +343,15 @@ pub mod compare_subgroup_comp {
         pub edge_bit: u32,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `FULL_SUBGROUP`, 0 by default.
+        pub full_subgroup: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { edge_bit: 0, ignores: false, } }
+        fn default() -> Self { Self { edge_bit: 0, ignores: false, full_subgroup: 0, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (3, u32::from(constants.ignores)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (3, u32::from(constants.ignores)), (31, constants.full_subgroup), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -400,7 +403,7 @@ pub mod compare_subgroup_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/compare_subgroup_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4517, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<4595, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/compare_subgroup_segments.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -422,6 +425,7 @@ pub mod compare_subgroup_segments_comp {
             crate::gpu::SpecConstant { name: "CODES", id: 1, default: 128 },
             crate::gpu::SpecConstant { name: "SEGMENTS", id: 2, default: 8 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 3, default: 0 },
+            crate::gpu::SpecConstant { name: "FULL_SUBGROUP", id: 31, default: 0 },
         ],
     };
     /// Specialisation constants.
@@ -435,13 +439,15 @@ pub mod compare_subgroup_segments_comp {
         pub segments: u32,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `FULL_SUBGROUP`, 0 by default.
+        pub full_subgroup: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, } }
+        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, full_subgroup: 0, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), (31, constants.full_subgroup), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;

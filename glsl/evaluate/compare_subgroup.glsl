@@ -9,6 +9,9 @@
 
 layout(local_size_x = COMPARE_GROUP) in;
 
+// Invocations of every subgroup, all of which are full, where the pipeline holds them to that; else 0.
+layout(constant_id = 31) const uint FULL_SUBGROUP = 0u;
+
 // Places of the workgroup that subgroups have taken.
 shared uint taken;
 
@@ -28,12 +31,19 @@ uvec4 over_channel(uvec4 counted) {
 void main() {
     Tile tile = own_tile();
     uint rows = own_rows(tile);
-    if (gl_LocalInvocationID.x == 0u) taken = 0u;
-    barrier();
-    lanes = subgroupAdd(1u);
+    uint full = FULL_SUBGROUP;
     uint first = 0u;
-    if (gl_SubgroupInvocationID == 0u) first = atomicAdd(taken, lanes);
-    uint unit = subgroupShuffle(first, 0u) + gl_SubgroupInvocationID;
+    if (full > 0u) {
+        lanes = full;
+        first = gl_SubgroupID * lanes;
+    } else {
+        if (gl_LocalInvocationID.x == 0u) taken = 0u;
+        barrier();
+        lanes = subgroupAdd(1u);
+        if (gl_SubgroupInvocationID == 0u) first = atomicAdd(taken, lanes);
+        first = subgroupShuffle(first, 0u);
+    }
+    uint unit = first + gl_SubgroupInvocationID;
     uint channel = gl_SubgroupInvocationID & 3u;
     uint texels = rows * tile.width;
     uint steps = (texels + COMPARE_GROUP - 1u) / COMPARE_GROUP;

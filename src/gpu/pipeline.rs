@@ -116,8 +116,12 @@ impl Pipeline {
         let most = device.facts.capabilities.max_workgroup;
         ensure!(shader.kind == ShaderKind::Compute, "{} is not a compute stage", shader.name);
         ensure!(group <= most, "{} wants workgroups of {group}, and this device allows {most}", shader.name);
-        Self::new(device, shader.name, std::slice::from_ref(stage), |device, layout, stages| {
-            let pinned = pinned_subgroup(stage.shader, &device.facts.capabilities);
+        let pinned = pinned_subgroup(shader, &device.facts.capabilities);
+        let mut stage = stage.clone();
+        // A stage that asks is told how many invocations each of its subgroups has.
+        let asked = shader.constants.iter().find(|constant| constant.name == FULL_SUBGROUP);
+        stage.constants.extend(asked.zip(pinned).map(|(constant, size)| (constant.id, size)));
+        Self::new(device, shader.name, std::slice::from_ref(&stage), |device, layout, stages| {
             let mut size = vk::PipelineShaderStageRequiredSubgroupSizeCreateInfo::default()
                 .required_subgroup_size(pinned.unwrap_or_default());
             let mut stage = stages[0];
@@ -370,6 +374,9 @@ fn code(device: &DeviceShared, shader: &Shader) -> Vec<u32> {
     }
     controlled(shader.spirv, capabilities)
 }
+
+/// The specialisation constant of a stage that asks for the size of its subgroups: 0 where they are not held to one.
+const FULL_SUBGROUP: &str = "FULL_SUBGROUP";
 
 /// The subgroup size that a compute stage is held to, with all of its subgroups full: the device's own where the workgroup is a
 /// whole number of such, else the largest that fits. None for stages that use no subgroups, and where the device does not let one.
