@@ -11,6 +11,10 @@ pub(super) struct Ground {
     folder: TempDir,
 }
 
+/// As little of a track as there is that goes from a frame to the next.
+pub(super) const TRACK: &[&str] =
+    &["track", "made", "-o", "out", "--particles", "4", "--iterations", "1", "--backend", "cpu", "--frames", "0..2"];
+
 /// A command that a case spoils, as it goes well.
 pub(super) struct Sound {
     /// The arguments, of which `OUT` stands for what is written.
@@ -107,23 +111,7 @@ impl Ground {
                 Some("out"),
             ),
             sound(&["features", "made", "-o", "out", "--frames", "0..1"], Some("out")),
-            sound(
-                &[
-                    "track",
-                    "made",
-                    "-o",
-                    "out",
-                    "--particles",
-                    "4",
-                    "--iterations",
-                    "1",
-                    "--backend",
-                    "cpu",
-                    "--frames",
-                    "0..2",
-                ],
-                Some("out"),
-            ),
+            sound(TRACK, Some("out")),
             sound(&["synth", "scene.toml", "-o", "out", "--frames", "1"], Some("out")),
             sound(&["synth", "recorded.toml", "-o", "out", "--frames", "1"], Some("out")),
             sound(&["study", "study.toml", "-o", "out"], Some("out")),

@@ -3,7 +3,7 @@
 use toml::{Table, Value};
 
 use super::case::{Case, Spoilt};
-use super::ground::{Ground, Sound};
+use super::ground::{Ground, Sound, TRACK};
 
 /// A step into a file: a key, or a place in a list.
 #[derive(Clone, Debug)]
@@ -26,24 +26,10 @@ const OF_EACH: usize = 120;
 
 pub(super) fn cases(ground: &Ground) -> Vec<Case> {
     let check = &["check", "made", "--samples", "1"][..];
-    let track = &[
-        "track",
-        "made",
-        "-o",
-        "out",
-        "--particles",
-        "4",
-        "--iterations",
-        "1",
-        "--backend",
-        "cpu",
-        "--frames",
-        "0..1",
-    ][..];
     let files: [(&'static str, &str, Sound); 6] = [
-        ("key of a manifest", "made/sequence.toml", Sound { arguments: track, output: Some("out") }),
+        ("key of a manifest", "made/sequence.toml", Sound { arguments: TRACK, output: Some("out") }),
         ("key of a calibration", "made/cameras.toml", Sound { arguments: check, output: None }),
-        ("key of a body", "made/body.toml", Sound { arguments: track, output: Some("out") }),
+        ("key of a body", "made/body.toml", Sound { arguments: TRACK, output: Some("out") }),
         (
             "key of a scene",
             "scene.toml",
