@@ -65,7 +65,7 @@ impl Limit {
 /// Whether something that can be read whole stands at a path.
 ///
 /// # Errors
-/// With what stands there instead, in words: `there is no file at all`, `it is a folder`.
+/// With the path and what stands there instead, in words: `there is no file p`, `p is a folder, expected a regular file`.
 pub fn check_regular(path: &Path) -> Result<(), String> {
     match fs::metadata(path) {
         Ok(metadata) => no_regular_file(metadata.file_type())
