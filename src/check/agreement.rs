@@ -19,6 +19,10 @@ const FINE: f64 = 2.5;
 pub(super) const FEWER_RAYS: usize = 60;
 /// A border ray that misses the other silhouettes by more than this many pixels is not explained by them.
 pub(super) const EXPLAINED: f64 = 1.5;
+/// What share of the border rays the other views explain where silhouettes are whole, and where calibration and pictures belong together
+/// at all, %: what lies between is silhouettes that lose parts.
+pub(super) const WELL_EXPLAINED: f64 = 80.0;
+pub(super) const HARDLY_EXPLAINED: f64 = 40.0;
 /// A ray's excess counts up to this many pixels.
 pub(super) const CAP: f64 = 4.0;
 
@@ -103,20 +107,29 @@ fn best(
     [mut around, mut reach, mut step]: [f64; 3],
 ) -> Option<(f64, f64)> {
     let others = partners(view, cameras.len());
-    let miss = |along: f64| {
+    // The largest miss, or any that is no less than `bound`.
+    let miss = |along: f64, bound: f64| {
         let point = origin + direction * along;
-        // A view whose picture ends before the point says nothing about it.
-        let said = others.iter().filter_map(|&other| moment[other]?.at(cameras[other].project(point)?));
-        said.reduce(f64::max)
+        let mut largest: Option<f64> = None;
+        for &other in &others {
+            // A view whose picture ends before the point says nothing about it.
+            let said = moment[other].and_then(|silhouette| silhouette.at(cameras[other].project(point)?));
+            largest = said.map_or(largest, |said| Some(largest.map_or(said, |largest| largest.max(said))));
+            if largest.is_some_and(|largest| largest >= bound) {
+                break;
+            }
+        }
+        largest
     };
     let mut found: Option<(f64, f64)> = None;
     loop {
         let steps = (reach / step).ceil() as i32;
         for at in -steps..=steps {
             let along = around + f64::from(at) * step;
+            let least = found.map_or(f64::INFINITY, |(_, least)| least);
             if along > 0.0
-                && let Some(miss) = miss(along)
-                && found.is_none_or(|(_, least)| miss < least)
+                && let Some(miss) = miss(along, least)
+                && miss < least
             {
                 found = Some((along, miss));
             }
@@ -144,6 +157,23 @@ fn crossing(cameras: &[Camera], moment: &Moment) -> Option<DVec3> {
     }
     let point = matrix.inverse() * vector;
     (count >= 2 && point.is_finite()).then_some(point)
+}
+
+/// The share of rays that the other views explain, %.
+pub(super) fn percent_explained<'a>(rays: impl IntoIterator<Item = &'a Ray>) -> f64 {
+    let (good, count) =
+        rays.into_iter().fold((0, 0), |(good, count), ray| (good + u32::from(ray.excess() <= EXPLAINED), count + 1));
+    100.0 * f64::from(good) / f64::from(count.max(1))
+}
+
+/// How much the views disagree at each of `moments` moments, in pixels; None where a moment has no ray.
+pub(super) fn disagreements(rays: &[Ray], moments: usize, cap: f64) -> Vec<Option<f64>> {
+    let mut sums = vec![(0.0, 0_u32); moments];
+    for ray in rays {
+        let sum = &mut sums[ray.moment];
+        *sum = (sum.0 + ray.excess().min(cap), sum.1 + 1);
+    }
+    sums.into_iter().map(|(sum, count)| (count > 0).then(|| sum / f64::from(count))).collect()
 }
 
 /// How much the views disagree, in pixels: the mean excess, each ray's cut at `cap` so that a missing hand weighs no more

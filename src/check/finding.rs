@@ -8,6 +8,8 @@ use serde::Serialize;
 pub enum Status {
     /// Within its limit.
     Ok,
+    /// Beyond its limit, where silhouettes that lose parts of the person would do as much: look at it, nothing is held against the sequence.
+    Doubtful,
     /// Beyond its limit.
     Failed,
     /// There was nothing to measure it on.
@@ -25,13 +27,15 @@ pub struct Finding {
     pub status: Status,
     /// The number it is based on; None where there is none.
     pub value: Option<f64>,
+    /// One standard deviation of the number, where it was judged against the scatter of the silhouettes.
+    pub scatter: Option<f64>,
     /// The number's unit.
     pub unit: &'static str,
     /// What the number may be.
     pub limit: String,
     /// What was found, in words.
     pub found: String,
-    /// What to do; empty where nothing is to be done.
+    /// What to do; empty where the check came out well.
     pub advice: String,
 }
 
@@ -46,7 +50,17 @@ impl Finding {
         // What is not a number lies nowhere.
         let status = if (low..=high).contains(&value) { Status::Ok } else { Status::Failed };
         let value = value.is_finite().then_some(value);
-        Self { check, camera: None, status, value, unit, limit, found: String::new(), advice: String::new() }
+        Self {
+            check,
+            camera: None,
+            status,
+            value,
+            scatter: None,
+            unit,
+            limit,
+            found: String::new(),
+            advice: String::new(),
+        }
     }
 
     /// A check that could not be made.
@@ -66,9 +80,23 @@ impl Finding {
         self
     }
 
-    /// With what to do should it have failed.
+    /// Give or take one standard deviation.
+    pub(super) fn give_or_take(mut self, scatter: f64) -> Self {
+        self.scatter = scatter.is_finite().then_some(scatter);
+        self
+    }
+
+    /// A number that is beyond its limit but still from `low` to `high` is doubtful.
+    pub(super) fn doubtful_within(mut self, [low, high]: [f64; 2]) -> Self {
+        if self.status == Status::Failed && self.value.is_some_and(|value| (low..=high).contains(&value)) {
+            self.status = Status::Doubtful;
+        }
+        self
+    }
+
+    /// With what to do should it not have come out well.
     pub(super) fn or(mut self, advice: impl Into<String>) -> Self {
-        if self.status == Status::Failed {
+        if matches!(self.status, Status::Doubtful | Status::Failed) {
             self.advice = advice.into();
         }
         self

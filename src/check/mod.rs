@@ -1,11 +1,13 @@
 //! Is a sequence sane? Every check is a number, its limit, what was found and what to do (docs/CALIBRATION.md).
 //!
 //! `view` looks at the calibration alone; `silhouettes` reads what the cameras saw; `agreement` measures how well they
-//! agree, without any model of the person; `turns`, `exchanges` and `timing` ask which small change makes them agree
-//! better; `person` looks at the surface that they agree on.
+//! agree, without any model of the person; `exchanges` asks whether two cameras or left and right are exchanged, `faults` which cameras'
+//! `turns` and delays (`timing`) make them agree better, and by how much (`betterment`); `person` looks at the surface that they agree on.
 
 mod agreement;
+mod betterment;
 mod exchanges;
+mod faults;
 mod finding;
 mod partners;
 mod person;
@@ -23,7 +25,8 @@ use serde::Serialize;
 
 pub use finding::{Finding, Status};
 
-use agreement::{EXPLAINED, Ray, rays};
+use agreement::{EXPLAINED, HARDLY_EXPLAINED, Ray, WELL_EXPLAINED, percent_explained, rays};
+use faults::Faults;
 use silhouettes::Silhouettes;
 
 use crate::geometry::Camera;
@@ -35,7 +38,7 @@ const FRAMES: usize = 100;
 /// Rays a silhouette for a number.
 const RAYS: usize = 150;
 /// What takes long once the silhouettes are there.
-const COMPARISONS: usize = 4;
+const COMPARISONS: usize = 3;
 /// A learnt plate may be doubtful in this share of the picture, %.
 const DOUBTFUL: f64 = 1.0;
 /// Fewer rays say nothing.
@@ -136,14 +139,20 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
     } else {
         let middle = found.iter().map(|ray| ray.point).sum::<DVec3>() / found.len() as f64;
         checks.extend(view::volume(&sequence.cameras, middle));
-        checks.extend(explained(&sequence.cameras, &found));
         compare();
-        checks.extend(exchanges::exchanges(&sequence.cameras, &silhouettes, &found));
+        let exchanges = exchanges::exchanges(&sequence.cameras, &silhouettes, &found);
         compare();
-        checks.extend(turns::turns(&sequence.cameras, &silhouettes.moments()));
-        compare();
-        checks.extend(timing::timing(&sequence.cameras, &silhouettes));
-        checks.extend(person::person(&found, sequence.body.is_file().then_some(sequence.body.as_path()))?);
+        let faults = if exchanges.iter().any(|finding| finding.status == Status::Failed) {
+            let why = "put right what is exchanged first";
+            let findings = ["direction", "roll", "timing"].map(|check| Finding::not_measured(check, why)).to_vec();
+            Faults { findings, rays: found }
+        } else {
+            faults::faults(&sequence.cameras, &silhouettes, RAYS)
+        };
+        checks.extend(explained(&sequence.cameras, &faults.rays));
+        checks.extend(exchanges);
+        checks.extend(faults.findings);
+        checks.extend(person::person(&faults.rays, sequence.body.is_file().then_some(sequence.body.as_path()))?);
     }
     Ok(CheckReport::new(sequence.name.clone(), silhouettes.samples.clone(), checks))
 }
@@ -159,6 +168,7 @@ fn plates(plated: &Plated<'_>) -> Vec<Finding> {
             remarks.join("; ")
         };
         Finding::number("learnt background", "% of the picture doubtful", doubtful, [0.0, DOUBTFUL])
+            .doubtful_within([0.0, f64::MAX])
             .of(&view.camera)
             .found(found)
             .or("film the empty scene and give it as `background`, or film on until the person has left that place")
@@ -186,12 +196,15 @@ fn seen(sequence: &Sequence, silhouettes: &Silhouettes) -> Vec<Finding> {
 fn explained(cameras: &[Camera], rays: &[Ray]) -> Vec<Finding> {
     let finding = |(view, camera): (usize, &Camera)| {
         let own: Vec<&Ray> = rays.iter().filter(|ray| ray.view == view).collect();
-        let good = own.iter().filter(|ray| ray.excess() <= EXPLAINED).count();
-        let percent = 100.0 * good as f64 / own.len().max(1) as f64;
-        Finding::number("hull coverage", "% of the border", percent, [80.0, 100.0])
+        Finding::number("hull coverage", "% of the border", percent_explained(own.iter().copied()), [WELL_EXPLAINED, 100.0])
+            .doubtful_within([HARDLY_EXPLAINED, 100.0])
             .of(&camera.name)
-            .found(format!("of {} rays within {EXPLAINED} px of the visual hull of the other views", own.len()))
-            .or("calibration, timing and silhouettes of this camera do not fit the others: see the checks that follow")
+            .found(format!(
+                "of {} rays within {EXPLAINED} px of the visual hull of the other views, all that follows put right",
+                own.len()
+            ))
+            .or("other views' silhouettes lose parts of the person that this one shows, or this one shows more than the person: look at \
+                 them with `pantin features`; where they are good, calibration or lens do not fit the pictures")
     };
     cameras.iter().enumerate().map(finding).collect()
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Result;
 use glam::DVec3;
 
-use super::agreement::{EXPLAINED, Ray};
+use super::agreement::{EXPLAINED, Ray, WELL_EXPLAINED, percent_explained};
 use super::finding::Finding;
 use crate::body::Body;
 
@@ -40,30 +40,33 @@ pub(super) fn person(rays: &[Ray], body: Option<&Path>) -> Result<Vec<Finding>> 
     let (Some(feet), Some(height), Some(shape)) = (median(feet), median(heights), median(shapes)) else {
         return Ok(vec![Finding::not_measured("feet", "the views agree on too little of the person")]);
     };
+    // Silhouettes that lose legs make a person short and let it hang in the air, whatever the calibration.
+    let is_whole = percent_explained(rays) >= WELL_EXPLAINED;
+    let doubtful = |finding: Finding, range: [f64; 2]| if is_whole { finding } else { finding.doubtful_within(range) };
+    let feet_found =
+        Finding::number("feet", "mm above z = 0", feet, [-150.0, 200.0]).found("median of the lowest points");
+    let height_found =
+        Finding::number("height", "mm", height, [1000.0, 2300.0]).found("median from the lowest to the highest point");
+    let shape_found = Finding::number("upright", "of the breadth", shape, [0.6, f64::INFINITY])
+        .found("height over the larger horizontal extent of the middle four fifths");
     let mut checks = vec![
-        Finding::number("feet", "mm above z = 0", feet, [-150.0, 200.0]).found("median of the lowest points").or(
-            if feet < -600.0 {
-                "the person hangs below the floor: z points down, turn the calibration's world over"
-            } else {
-                "z = 0 is not the floor the person stands on: move the calibration's world there, or check its units"
-            },
-        ),
-        Finding::number("height", "mm", height, [1000.0, 2300.0])
-            .found("median from the lowest to the highest point")
-            .or(unit_advice(height)),
-        Finding::number("upright", "of the breadth", shape, [0.6, f64::INFINITY])
-            .found("height over the larger horizontal extent of the middle four fifths")
-            .or("the person lies on the side: is z the axis upwards?"),
+        doubtful(feet_found, [-600.0, 1200.0]).or(if feet < -600.0 {
+            "the person hangs below the floor: z points down, turn the calibration's world over"
+        } else {
+            "z = 0 is not the floor the person stands on: move the calibration's world there, or check its units"
+        }),
+        doubtful(height_found, [500.0, 4600.0]).or(unit_advice(height)),
+        doubtful(shape_found, [0.3, f64::INFINITY]).or("the person lies on the side: is z the axis upwards?"),
     ];
     if let Some(path) = body {
         let body = Body::load(path)?;
         let joints = body.joint_positions(&body.world_from_bones(&body.standing_pose())?);
         let levels = joints.iter().map(|joint| joint.z);
         let (low, high) = levels.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
+        let found = Finding::number("body", "of the person's height", (high - low) / height, [0.75, 1.35])
+            .found(format!("the joints of {} span {:.0} mm", path.display(), high - low));
         checks.push(
-            Finding::number("body", "of the person's height", (high - low) / height, [0.75, 1.35])
-                .found(format!("the joints of {} span {:.0} mm", path.display(), high - low))
-                .or("measure the person with `pantin fit`, and check the units of body.toml"),
+            doubtful(found, [0.37, 2.7]).or("measure the person with `pantin fit`, and check the units of body.toml"),
         );
     }
     Ok(checks)

@@ -9,6 +9,8 @@ use crate::geometry::{Camera, Lens};
 const CELL: f64 = 100.0;
 const HALF: i32 = 40;
 const HIGH: i32 = 22;
+/// Lenses of 85 degrees and more move the picture's rim by half of its half diagonal, %; few by more.
+const WIDE: f64 = 60.0;
 
 /// Distortion, branch, field of view and pixel shape of every camera.
 pub(super) fn lenses(cameras: &[Camera]) -> Vec<Finding> {
@@ -37,9 +39,11 @@ fn distortion(camera: &Camera) -> Finding {
     } else {
         "part of the picture lies past the end of the distortion's branch, where no point has an image".to_string()
     };
-    Finding::number("distortion", "% of the half diagonal", percent, [0.0, 30.0]).of(&camera.name).found(found).or(
-        "check the order k1 k2 p1 p2 (k3), and whether coefficients in another program's scale were copied; calibrate anew",
-    )
+    Finding::number("distortion", "% of the half diagonal", percent, [0.0, WIDE])
+        .doubtful_within([0.0, f64::MAX])
+        .of(&camera.name)
+        .found(found)
+        .or("check the order k1 k2 p1 p2 (k3), and whether coefficients in another program's scale were copied; calibrate anew")
 }
 
 fn field_of_view(camera: &Camera) -> Finding {

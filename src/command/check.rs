@@ -71,14 +71,15 @@ fn print(report: &CheckReport) {
     for finding in &report.checks {
         let status = match finding.status {
             Status::Ok => "ok    ",
+            Status::Doubtful => "doubt ",
             Status::Failed => "FAILED",
             Status::NotMeasured => "-     ",
         };
         let camera = finding.camera.as_deref().map(|camera| format!(" {camera}")).unwrap_or_default();
-        let number = finding
-            .value
-            .filter(|_| finding.status != Status::NotMeasured)
-            .map_or(String::new(), |value| format!(" {} {} ({})", rounded(value), finding.unit, finding.limit));
+        let number = finding.value.filter(|_| finding.status != Status::NotMeasured).map_or(String::new(), |value| {
+            let scatter = finding.scatter.map_or(String::new(), |scatter| format!(" ± {scatter:.2}"));
+            format!(" {}{scatter} {} ({})", rounded(value), finding.unit, finding.limit)
+        });
         let found = if finding.found.is_empty() { String::new() } else { format!("; {}", finding.found) };
         say!("{status} {}{camera}:{number}{found}", finding.check);
         if !finding.advice.is_empty() {

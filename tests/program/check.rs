@@ -97,7 +97,7 @@ fn sequence(cameras: &[Camera], late: Option<&str>) -> tempfile::TempDir {
 }
 
 /// Exit status, the report, and what stood on standard error.
-fn check(sequence: &Path) -> (i32, serde_json::Value, String) {
+pub(super) fn check(sequence: &Path) -> (i32, serde_json::Value, String) {
     let output = pantin(&["check", "--json", sequence.to_str().unwrap()]);
     let error = stderr(&output);
     let report = serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{error}"));
@@ -105,7 +105,7 @@ fn check(sequence: &Path) -> (i32, serde_json::Value, String) {
 }
 
 /// The failed checks, as `check` or `check camera`.
-fn failed(report: &serde_json::Value) -> Vec<String> {
+pub(super) fn failed(report: &serde_json::Value) -> Vec<String> {
     let checks = report["checks"].as_array().unwrap();
     let name = |finding: &&serde_json::Value| match finding["camera"].as_str() {
         Some(camera) => format!("{} {camera}", finding["check"].as_str().unwrap()),
@@ -114,7 +114,7 @@ fn failed(report: &serde_json::Value) -> Vec<String> {
     checks.iter().filter(|finding| finding["status"] == "failed").map(|finding| name(&finding)).collect()
 }
 
-fn finding<'a>(report: &'a serde_json::Value, check: &str, camera: &str) -> &'a serde_json::Value {
+pub(super) fn finding<'a>(report: &'a serde_json::Value, check: &str, camera: &str) -> &'a serde_json::Value {
     let checks = report["checks"].as_array().unwrap();
     checks
         .iter()
@@ -130,13 +130,14 @@ fn fails(cameras: &[Camera], late: Option<&str>) -> (Vec<String>, serde_json::Va
     assert_eq!(status, i32::from(!failed.is_empty()), "{error}");
     assert_eq!(report["sane"], failed.is_empty());
     for finding in report["checks"].as_array().unwrap() {
-        assert_eq!(finding["status"] == "failed", finding["advice"] != "", "{finding}");
+        let is_well = finding["status"] == "ok" || finding["status"] == "not_measured";
+        assert_eq!(is_well, finding["advice"] == "", "{finding}");
     }
     (failed, report)
 }
 
 /// The camera turned about its own centre by a Rodrigues vector in its own axes.
-fn turned(camera: &Camera, degrees: DVec3) -> Camera {
+pub(super) fn turned(camera: &Camera, degrees: DVec3) -> Camera {
     let turn = DAffine3::from_mat3(rodrigues_matrix(degrees * 1.0_f64.to_radians()));
     Camera { camera_from_world: turn * camera.camera_from_world, ..camera.clone() }
 }

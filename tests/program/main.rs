@@ -15,6 +15,7 @@ mod body_import;
 mod calibrate;
 mod calibrated;
 mod check;
+mod check_rigs;
 mod demo;
 mod devices_and_bench;
 mod drawn;

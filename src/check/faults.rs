@@ -1,0 +1,250 @@
+//! Which cameras look beside where their calibration says, and whose pictures come early or late. One fault makes others look at fault that
+//! share much of its view, and a late camera of a person who walks by looks like a turned one: so the one change of one camera that
+//! betters the agreement most is believed, if it counts, and the rest is measured again with it put right, until no change counts.
+
+use rayon::prelude::*;
+
+use super::agreement::{Moment, Ray, rays};
+use super::betterment::{Betterment, COUNTS, SURE};
+use super::finding::Finding;
+use super::silhouettes::Silhouettes;
+use super::timing::{Delay, delay};
+use super::turns::{Turn, all_turned, best_turns, rays_that_show};
+use crate::geometry::Camera;
+
+/// Cameras that look farther beside than this, degrees, spoil a track: a person 4 m away is then off by 14 mm.
+const BESIDE: f64 = 0.2;
+/// Turns about the view's own axis move a person in the middle of the picture hardly at all, and show as little.
+const ROLLED: f64 = 0.6;
+/// More than this many frames is late.
+const LATE: f64 = 0.6;
+
+/// All cameras are believed to be turned where that takes away this part of the disagreement that single ones leave.
+const TOGETHER: f64 = 0.3;
+
+/// What is believed of the cameras.
+struct Belief<'a> {
+    cameras: &'a [Camera],
+    silhouettes: &'a Silhouettes,
+    turns: Vec<Turn>,
+    delays: Vec<isize>,
+    is_turned: Vec<bool>,
+    is_late: Vec<bool>,
+}
+
+/// What is measured of one camera, the others being as is believed.
+#[derive(Clone)]
+struct Measured {
+    turn: Turn,
+    turning: Betterment,
+    delay: Delay,
+}
+
+/// A change of a camera that counts.
+enum Change {
+    Turned(Turn),
+    Late(isize),
+}
+
+/// What is at fault, and what is left when that is put right.
+pub(super) struct Faults {
+    /// Direction, roll and timing of every camera.
+    pub(super) findings: Vec<Finding>,
+    /// The rays of the samples with every fault put right.
+    pub(super) rays: Vec<Ray>,
+}
+
+/// Looks for faults until no change of a camera counts; then `count` rays a silhouette.
+pub(super) fn faults(cameras: &[Camera], silhouettes: &Silhouettes, count: usize) -> Faults {
+    let views = cameras.len();
+    let mut belief = Belief {
+        cameras,
+        silhouettes,
+        turns: vec![Turn::default(); views],
+        delays: vec![0; views],
+        is_turned: vec![false; views],
+        is_late: vec![false; views],
+    };
+    let mut is_tried_together = false;
+    // Ends: a camera is turned once and late once, and all are turned together once.
+    loop {
+        let measured: Vec<Measured> = (0..views).into_par_iter().map(|view| belief.measure(view)).collect();
+        let changes = measured.iter().enumerate().flat_map(|(view, measured)| belief.changes(view, measured));
+        let Some((view, change, _)) = changes.max_by(|a, b| a.2.total_cmp(&b.2)) else {
+            let is_suspected = measured.iter().any(|measured| Direction::of(&measured.turn).is_beside());
+            if is_suspected && !is_tried_together {
+                is_tried_together = true;
+                if belief.turn_all() {
+                    continue;
+                }
+            }
+            let findings =
+                measured.iter().enumerate().flat_map(|(view, measured)| belief.findings(view, measured)).collect();
+            return Faults { findings, rays: rays(&all_turned(cameras, &belief.turns), &belief.moments(), count) };
+        };
+        match change {
+            Change::Turned(turn) => {
+                belief.turns[view] = turn;
+                belief.is_turned[view] = true;
+            }
+            Change::Late(shift) => {
+                belief.delays[view] = shift;
+                belief.is_late[view] = true;
+            }
+        }
+        belief.turn_together();
+    }
+}
+
+impl<'a> Belief<'a> {
+    /// The samples as the views saw them, late ones put right.
+    fn moments(&self) -> Vec<Moment<'a>> {
+        let samples = self.silhouettes.samples.iter();
+        samples.filter_map(|&sample| self.silhouettes.moment(sample, |view| self.delays[view])).collect()
+    }
+
+    /// What a camera's best turn betters, and its delay. One that is believed to be turned is measured against itself unturned, one
+    /// that is late against itself as it comes.
+    fn measure(&self, view: usize) -> Measured {
+        let moments = self.moments();
+        let turns = if self.is_turned[view] {
+            self.turns.clone()
+        } else {
+            best_turns(self.cameras, &moments, &self.turns, &[view])
+        };
+        let rays = |turns: &[Turn]| rays_that_show(&all_turned(self.cameras, turns), &moments, &[view]);
+        let mut unturned = turns.clone();
+        unturned[view] = Turn::default();
+        let turning = Betterment::of(&rays(&unturned), &rays(&turns), moments.len());
+        let delay = delay(&all_turned(self.cameras, &self.turns), self.silhouettes, &self.delays, view);
+        Measured { turn: turns[view], turning, delay }
+    }
+
+    /// The changes of a camera that count and are not believed yet, and what they take away.
+    fn changes(&self, view: usize, measured: &Measured) -> Vec<(usize, Change, f64)> {
+        let mut changes = Vec::new();
+        let turned = Direction::of(&measured.turn);
+        if !self.is_turned[view] && (turned.is_beside() || turned.is_rolled()) && measured.turning.counts() {
+            changes.push((view, Change::Turned(measured.turn), measured.turning.gain()));
+        }
+        if let Delay::Late { shift, late, scatter, betterment } = measured.delay
+            && !self.is_late[view]
+            && late.abs() > f64::max(LATE, SURE * scatter)
+            && betterment.counts()
+        {
+            changes.push((view, Change::Late(shift), betterment.gain()));
+        }
+        changes
+    }
+
+    /// All cameras that are believed to be turned, once more together.
+    fn turn_together(&mut self) {
+        let free: Vec<usize> = (0..self.cameras.len()).filter(|&view| self.is_turned[view]).collect();
+        if !free.is_empty() {
+            self.turns = best_turns(self.cameras, &self.moments(), &self.turns, &free);
+        }
+    }
+
+    /// Where no camera alone betters much since all are wrong: all turned together. Whether that takes away a good part of what is left,
+    /// and is believed.
+    fn turn_all(&mut self) -> bool {
+        let views = self.cameras.len();
+        let (moments, all): (_, Vec<usize>) = (self.moments(), (0..views).collect());
+        let together = best_turns(self.cameras, &moments, &vec![Turn::default(); views], &all);
+        let rays = |turns: &[Turn]| rays_that_show(&all_turned(self.cameras, turns), &moments, &all);
+        if Betterment::of(&rays(&self.turns), &rays(&together), moments.len()).part() < TOGETHER {
+            return false;
+        }
+        for (view, turn) in together.into_iter().enumerate() {
+            let direction = Direction::of(&turn);
+            self.is_turned[view] = direction.is_beside() || direction.is_rolled();
+            self.turns[view] = if self.is_turned[view] { turn } else { Turn::default() };
+        }
+        self.turn_together();
+        true
+    }
+
+    fn findings(&self, view: usize, measured: &Measured) -> [Finding; 3] {
+        let turned = Direction::of(&measured.turn);
+        let direction = Finding::number("direction", "degrees", turned.beside, [0.0, BESIDE])
+            .give_or_take(turned.beside_scatter)
+            .found(format!(
+                "turned by {:.2} about its x (to the right) and {:.2} about its y (down) {}",
+                turned.right,
+                turned.down,
+                measured.turning.words()
+            ));
+        let roll = Finding::number("roll", "degrees", turned.roll, [-ROLLED, ROLLED])
+            .give_or_take(turned.roll_scatter)
+            .found("about the view, clockwise");
+        let advice = "the camera was moved since its calibration, or that is not exact: calibrate it anew, or refine it on points that \
+                      several cameras see";
+        let believed = |is_sure| self.is_turned[view] && is_sure;
+        let [direction, roll] = [(direction, believed(turned.is_beside())), (roll, believed(turned.is_rolled()))]
+            .map(|(finding, is_believed)| believed_or_not(finding, is_believed, advice).of(&self.cameras[view].name));
+        [direction, roll, self.timing(view, &measured.delay)]
+    }
+
+    fn timing(&self, view: usize, delay: &Delay) -> Finding {
+        let finding = match delay {
+            Delay::NoNeighbours => {
+                Finding::not_measured("timing", "the frames looked at have no three neighbours to either side")
+            }
+            Delay::NobodyMoves => {
+                Finding::not_measured("timing", "nobody moves enough in the frames looked at to tell")
+            }
+            Delay::Late { shift, late, scatter, betterment } => {
+                let finding = Finding::number("timing", "frames late", *late, [-LATE, LATE])
+                    .give_or_take(*scatter)
+                    .found(format!("with this camera moved by {shift} frames {}", betterment.words()));
+                let advice = format!(
+                    "cut {} frames from the beginning of this camera's video, or of all others where it is negative",
+                    shift.abs()
+                );
+                believed_or_not(finding, self.is_late[view], &advice)
+            }
+        };
+        finding.of(&self.cameras[view].name)
+    }
+}
+
+/// A number beyond its limit fails where it is believed, and else is doubtful.
+fn believed_or_not(finding: Finding, is_believed: bool, advice: &str) -> Finding {
+    if is_believed {
+        return finding.or(advice);
+    }
+    let needed = format!(
+        "too little to tell from the silhouettes' own faults (what is {SURE:.0} times its scatter and takes away {:.0} % of the \
+         disagreement is held against the camera): better silhouettes, or more frames (`--samples`), tell",
+        100.0 * COUNTS
+    );
+    finding.doubtful_within([f64::NEG_INFINITY, f64::INFINITY]).or(needed)
+}
+
+/// A turn in degrees.
+struct Direction {
+    right: f64,
+    down: f64,
+    beside: f64,
+    beside_scatter: f64,
+    roll: f64,
+    roll_scatter: f64,
+}
+
+impl Direction {
+    fn of(turn: &Turn) -> Self {
+        let [right, down, roll] = turn.by.to_array().map(f64::to_degrees);
+        let [right_scatter, down_scatter, roll_scatter] = turn.scatter.to_array().map(f64::to_degrees);
+        let beside = right.hypot(down);
+        let beside_scatter = (right * right_scatter).hypot(down * down_scatter) / beside.max(f64::MIN_POSITIVE);
+        Self { right, down, beside, beside_scatter, roll, roll_scatter }
+    }
+
+    fn is_beside(&self) -> bool {
+        self.beside > BESIDE && self.beside > SURE * self.beside_scatter
+    }
+
+    fn is_rolled(&self) -> bool {
+        self.roll.abs() > ROLLED && self.roll.abs() > SURE * self.roll_scatter
+    }
+}
