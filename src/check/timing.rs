@@ -106,7 +106,7 @@ fn finding(curve: &[(isize, f64)], camera: &Camera) -> Finding {
             "the views disagree by {now:.3} px as they are, by {least:.3} px with this camera moved by {shift}"
         ))
         .or(format!(
-            "cut {} frames from the beginning of this camera's video, or of all others where it is negative",
-            shift.abs()
+            "write `delay = {shift}` into the [[view]] of this camera (added to one that is there): frames by which its pictures come too \
+             late"
         ))
 }

@@ -15,7 +15,7 @@ use super::{Backend, Passes, RealtimeSettings, TrackSettings, Width};
 use crate::body::{MeshSource, Model};
 use crate::evaluate::Objective;
 use crate::files::{Limit, OutputFolder, read_toml, table_of};
-use crate::sequence::{Ignored, Sequence, Source};
+use crate::sequence::{Ignored, Sequence, Source, Turn, Video, View};
 
 /// Its name in a track's folder.
 pub(super) const NAME: &str = "run.toml";
@@ -274,6 +274,7 @@ impl<'a> Inputs<'a> {
             if let Some((first, count)) = view.ignored.as_ref().map(Ignored::first) {
                 files.push(count.map_or_else(|| sum_of(&first), |count| described_pictures(&first, count))?);
             }
+            files.extend(changed(view));
             views.insert(format!("view {}", view.camera), files);
         }
         Ok(Self {
@@ -295,13 +296,26 @@ impl<'a> Inputs<'a> {
 fn described(source: &Source) -> Result<String> {
     match source {
         Source::Live(live) => Ok(live.address.clone()),
-        Source::Video(path) => {
+        Source::Video(Video { path, .. }) => {
             let size = fs::metadata(path).with_context(|| format!("cannot read {}", path.display()))?.len();
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             Ok(format!("{name}, {size} bytes"))
         }
         Source::Pictures(pattern) => described_pictures(&pattern.file(0), pattern.frame_count()),
     }
+}
+
+/// What is made of a view's pictures before they are frames, where it is something: which they are, and how they are turned.
+fn changed(view: &View) -> Vec<String> {
+    let turned = match &view.source {
+        Source::Video(Video { turn, .. }) if *turn != Turn::None => Some(turn.said().to_string()),
+        _ => None,
+    };
+    let picked = view.picks.as_deref().map(|picks| {
+        let bytes: Vec<u8> = picks.iter().flat_map(|pick| pick.to_le_bytes()).collect();
+        format!("pictures {} and on for frames, {}", picks.first().copied().unwrap_or(0), sum(&bytes))
+    });
+    turned.into_iter().chain(picked).collect()
 }
 
 /// Numbered pictures by the name of the first and their number.
