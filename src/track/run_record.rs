@@ -128,7 +128,7 @@ impl Run {
         let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
         let command = format!(
             "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-             --refine {} --predict {}{}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}{}",
+             --refine {} --predict {}{}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}{}{}",
             sequence.path.display(),
             plan.range.start,
             plan.range.end,
@@ -146,6 +146,7 @@ impl Run {
             plan.backend.evaluator.name(),
             settings.model.name(),
             settings.overlay_every,
+            settings.smooth.map(|cutoff| format!(" --smooth {cutoff}")).unwrap_or_default(),
             if settings.recording { " --rerun" } else { "" },
             settings.realtime.as_ref().map(|realtime| realtime.flags()).unwrap_or_default(),
         );
@@ -195,6 +196,9 @@ struct Settings<'a> {
     backend: &'static str,
     model: &'static str,
     overlay_every: usize,
+    /// Cut-off, Hz.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    smooth: Option<f64>,
     #[serde(flatten)]
     realtime: Option<Realtime>,
     features: Cow<'a, Table>,
@@ -238,6 +242,7 @@ impl<'a> Settings<'a> {
             backend: plan.backend.evaluator.name(),
             model: settings.model.name(),
             overlay_every: settings.overlay_every,
+            smooth: settings.smooth,
             realtime: settings.realtime.as_ref().map(realtime),
             features: sequence.features.as_ref().map_or_else(Cow::default, Cow::Borrowed),
         })
