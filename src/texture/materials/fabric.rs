@@ -1,13 +1,13 @@
 //! Woven cloth: warp and weft over and under each other.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::space::lit;
 use super::{Solid, Space, Texel};
 use crate::texture::shaders::MATERIAL_FABRIC;
 
 /// Parameters.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Fabric {
     /// Colour of the threads along y, sRGB 0..1.

@@ -1,12 +1,12 @@
 //! Granite: the highest octave alone, as grey grains.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Solid, Space, Texel};
 use crate::texture::shaders::MATERIAL_GRANITE;
 
 /// Parameters; the thesis's values by default.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Granite {
     /// Colour of the light grains, sRGB 0..1.
