@@ -584,6 +584,11 @@ fn dropped_frames_are_made_up_for_and_cameras_stay_together() {
     let error = scene.error("timestamps = \"nearest\"", &views);
     assert!(error.contains("unknown use of timestamps `nearest`") && error.contains("resample, ignore"), "{error}");
     // Another rate in the manifest: times are not believed unless told so.
+    scene.manifest("", &views);
+    let text = fs::read_to_string(scene.path("sequence.toml")).unwrap();
+    scene.write("sequence.toml", &text.replace("fps = 25.0", "fps = 12.5"));
+    let error = format!("{:#}", Sequence::open(scene.folder.path()).unwrap_err());
+    assert!(error.contains("4 missing; every picture is taken as a frame, since `fps` is another rate"), "{error}");
     scene.manifest("timestamps = \"resample\"", &views);
     let text = fs::read_to_string(scene.path("sequence.toml")).unwrap();
     scene.write("sequence.toml", &text.replace("fps = 25.0", "fps = 12.5"));

@@ -75,7 +75,8 @@ pub(super) fn synchronise(views: &[Recorded], fps: f64, stamps: Option<Stamps>) 
         let pictures = view.footage.frame_count as u32;
         picks.push(match times {
             Some(times) => Some(times.nearest(fps, late / fps)?),
-            None if late.round() > 0.0 => Some((late.round() as u32..pictures).collect()),
+            // The nearest picture, of two as near the earlier, as where times are known.
+            None if late > 0.5 => Some(((late - 0.5).ceil() as u32..pictures).collect()),
             None => None,
         });
     }
@@ -165,15 +166,17 @@ fn common_length(views: &[Recorded], lengths: &[usize], may_differ: bool, remark
         return Ok(shortest);
     }
     let (first, second) = (&views[0], &views[other]);
-    let rates = match (first.footage.fps, second.footage.fps) {
+    let hint = match (first.footage.fps, second.footage.fps) {
+        // What was found of the videos is the likelier reason.
+        _ if !remarks.is_empty() => remarks.join("; "),
         (Some(a), Some(b)) if (a / b - 1.0).abs() > SAME_RATE => format!(
-            " (their files have {a:.3} and {b:.3} frames a second: `timestamps = \"resample\"` takes the pictures nearest in time)"
+            "their files have {a:.3} and {b:.3} frames a second: `timestamps = \"resample\"` takes the pictures nearest in time"
         ),
-        _ => " (or `delay` in the [[view]] of a camera that was started early or late: frames by which its pictures come too late)"
+        _ => "or `delay` in the [[view]] of a camera that was started early or late: frames by which its pictures come too late"
             .to_string(),
     };
     bail!(
-        "camera {:?} has {} frames and camera {:?} has {}, expected views of the same length{rates}",
+        "camera {:?} has {} frames and camera {:?} has {}, expected views of the same length ({hint})",
         first.camera,
         lengths[0],
         second.camera,
