@@ -65,6 +65,11 @@ impl Solid for Fabric {
         Texel { colour: lit(colour, shade).map(|c| c.clamp(0.0, 1.0)), height: height.clamp(0.0, 1.0) }
     }
 
+    fn finest(&self) -> f32 {
+        // Light and dark of a thread.
+        2.0 * self.threads
+    }
+
     fn numbers(&self) -> Option<(u32, Vec<f32>)> {
         let over = self.over.clamp(1, 16) as f32;
         Some((MATERIAL_FABRIC, [&self.warp[..], &self.weft, &[self.threads, over, self.irregularity]].concat()))

@@ -29,6 +29,10 @@ impl Solid for Granite {
         Texel { colour: self.colour.map(|c| c * height), height }
     }
 
+    fn finest(&self) -> f32 {
+        8.0 * self.scale
+    }
+
     fn numbers(&self) -> Option<(u32, Vec<f32>)> {
         Some((MATERIAL_GRANITE, [&self.colour[..], &[self.contrast, self.scale]].concat()))
     }

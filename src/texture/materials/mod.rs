@@ -202,6 +202,12 @@ impl Material {
         Texel { colour: texel.colour.map(|c| c.clamp(0.0, 1.0)), height: texel.height.clamp(0.0, 1.0) }
     }
 
+    /// Samples along each axis that a pixel of `pixel` units needs, so that detail finer than it is its mean instead of noise or moire: two
+    /// for each cell, `least` at least and 16 at most.
+    pub fn samples(&self, pixel: f32, least: u32) -> u32 {
+        ((2.0 * self.solid.finest().abs() * pixel).min(16.0).ceil() as u32).max(least)
+    }
+
     /// The material for stages, within 1e-3 of [`Self::at`] but beside edges; none where stages do not have it.
     pub fn for_stages(&self) -> Option<StageMaterial> {
         let (kind, row) = self.solid.numbers()?;
