@@ -18,7 +18,7 @@ use pantin::live::Scheme;
 use pantin::matrix::{Arrangement, Multiplier, UnitKind};
 use pantin::motion::{Convention, MotionFormat, PointFormat, UpAxis};
 use pantin::search::SearchKind;
-use pantin::sequence::CalibrationFormat;
+use pantin::sequence::{CalibrationFormat, Orientation, Stamps};
 use pantin::study::{Axis, Value};
 use pantin::synth::{Gait, Garment, LensKind, MotionUnit, PictureForm, RigKind, ScenePreset};
 use pantin::texture::materials::MaterialKind;
@@ -54,6 +54,8 @@ fn lists() -> Vec<List> {
         list::<Convention>(),
         list::<MotionFormat>(),
         list::<CalibrationFormat>(),
+        list::<Stamps>(),
+        list::<Orientation>(),
         list::<ScenePreset>(),
         list::<Gait>(),
         list::<RigKind>(),

@@ -1,13 +1,16 @@
 //! Poses: state vectors checked against their body, and the table of them that files hold (`poses.csv`, FORMATS).
 
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 use std::io::{BufReader, Read, Write};
+use std::ops::Range;
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 
 use super::{Body, DofAxis};
 use crate::files::{Limit, Overwrite, expected, shortened, write_atomically};
+use crate::motion::{LeftAsIs, LowPass, unwrap_angles};
 
 /// Largest value a cell may hold, mm or degrees; single precision resolves less than a millimetre up to there.
 const LARGEST: f64 = 1e7;
@@ -131,6 +134,43 @@ impl PoseTable {
         }
         ensure!(!table.poses.is_empty(), "{name} holds no poses, expected at least one row after the header");
         Ok(table)
+    }
+
+    /// Smooths the poses, each run of consecutive frames by itself, angles as the continuous motion that they are; a row for which `is_gap`
+    /// says so is passed over and parts its neighbours. Angles come back within half a turn of what they were. Says what was too short.
+    ///
+    /// # Errors
+    /// When no run is as long as smoothing takes.
+    pub fn smooth(&mut self, body: &Body, low_pass: &LowPass, is_gap: &dyn Fn(usize) -> bool) -> Result<LeftAsIs> {
+        let mut runs: Vec<Range<usize>> = Vec::new();
+        for row in (0..self.frames.len()).filter(|&row| !is_gap(row)) {
+            match runs.last_mut() {
+                Some(run) if run.end == row && self.frames[row - 1].checked_add(1) == Some(self.frames[row]) => {
+                    run.end = row + 1;
+                }
+                _ => runs.push(row..row + 1),
+            }
+        }
+        ensure!(
+            runs.iter().any(|run| run.len() >= LowPass::FEWEST),
+            "there are no {} consecutive frames, which smoothing takes at least",
+            LowPass::FEWEST
+        );
+        for (column, (_, dof)) in body.dofs().enumerate() {
+            let before: Vec<f64> = self.poses.iter().map(|pose| pose[column]).collect();
+            let mut samples = before.clone();
+            if dof.axis.is_rotation() {
+                runs.iter().for_each(|run| unwrap_angles(&mut samples[run.clone()]));
+            }
+            low_pass.smooth_runs(&mut samples, &runs);
+            for ((pose, value), before) in self.poses.iter_mut().zip(samples).zip(before) {
+                let turns = if dof.axis.is_rotation() { ((value - before) / TAU).round() } else { 0.0 };
+                pose[column] = value - TAU * turns;
+            }
+        }
+        let mut left = LeftAsIs::default();
+        left.add(&runs);
+        Ok(left)
     }
 
     /// Writes `poses.csv`, atomically.

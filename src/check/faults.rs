@@ -198,8 +198,8 @@ impl<'a> Belief<'a> {
                     .give_or_take(*scatter)
                     .found(format!("with this camera moved by {shift} frames {}", betterment.words()));
                 let advice = format!(
-                    "cut {} frames from the beginning of this camera's video, or of all others where it is negative",
-                    shift.abs()
+                    "write `delay = {shift}` into the [[view]] of this camera (added to one that is there): frames by which its pictures \
+                     come too late"
                 );
                 believed_or_not(finding, self.is_late[view], &advice)
             }

@@ -126,6 +126,7 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
             .found(opened)
             .or("give the sequence a second camera: one alone cannot be checked"),
     ];
+    checks.extend(sequence.remarks().iter().map(|remark| Finding::not_measured("recordings", remark)));
     checks.extend(view::lenses(&sequence.cameras));
     checks.push(view::up_axis(&sequence.cameras));
     checks.extend(plates(&plated));

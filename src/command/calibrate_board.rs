@@ -12,7 +12,7 @@ use super::progress::ProgressBar;
 use crate::calibrate::{
     Board, BoardCalibration, BoardDetector, BoardKind, BoardMoment, BoardSettings, Floor, SeenCorner, calibrate_board,
 };
-use crate::sequence::{Footage, SpreadFrames};
+use crate::sequence::{Footage, SAME_RATE, SpreadFrames};
 
 /// A camera fitted with the others may have this many times the noise it has alone, and this much more, pixels, before the
 /// videos are suspected.
@@ -131,6 +131,10 @@ impl BoardFlags {
         let detector = BoardDetector::new(&board)?;
         let names = names(videos)?;
         let mut footage = videos.iter().map(|video| Footage::open(video)).collect::<Result<Vec<_>>>()?;
+        for turned in footage.iter().filter_map(Footage::turned) {
+            tell!("note: {turned}");
+        }
+        tell_of_times(&footage);
         let shortest = footage.iter().map(|footage| footage.frame_count).min().unwrap_or(0);
         if let Some(longer) = footage.iter().find(|footage| footage.frame_count > shortest) {
             tell!(
@@ -148,6 +152,28 @@ impl BoardFlags {
         let floor = self.floor.map_or(Floor::Lowest, Floor::Frame);
         let settings = BoardSettings { floor, thickness: self.thickness, ..settings };
         calibrate_board(&board, &names, &sizes, &moments, &settings)
+    }
+}
+
+/// Says which videos lack pictures: frames of one number are taken for one moment.
+fn tell_of_times(footage: &[Footage]) {
+    for one in footage {
+        if let Some(times) = one.times.as_ref().filter(|times| !times.is_regular()) {
+            tell!(
+                "note: the pictures of {} did not come at a constant rate, {} are missing: frames of one number are taken for one moment, so \
+                 move the board slowly or re-encode it (ffmpeg -i IN -vf fps={:.3} OUT)",
+                one.shown,
+                times.missing(),
+                times.usual_rate()
+            );
+        }
+    }
+    let rates: Vec<(&str, f64)> = footage.iter().filter_map(|one| Some((one.shown.as_str(), one.fps?))).collect();
+    let Some((first, rate)) = rates.first() else { return };
+    if let Some((other, another)) = rates.iter().find(|(_, other)| (other / rate - 1.0).abs() > SAME_RATE) {
+        tell!(
+            "note: {first} has {rate:.3} frames a second and {other} {another:.3}: frames of one number are taken for one moment, expected one rate"
+        );
     }
 }
 

@@ -5,12 +5,14 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 
-use super::convert_poses::PoseFlags;
+use super::convert_poses::{PoseFlags, tell_smoothed};
 use super::name_pair::name_pair;
 use super::output::{say, tell};
 use crate::body::{ADULT_HEIGHT, Body};
 use crate::files::{Overwrite, write_atomically};
-use crate::motion::{Convention, PointFormat, read_bvh, read_points, read_y_up_points, write_bvh, write_points_by};
+use crate::motion::{
+    Convention, LowPass, PointFormat, read_bvh, read_points, read_y_up_points, write_bvh, write_points_by,
+};
 
 /// Converts a recording between C3D, TRC, BVH and CSV, each known by its extension. Lengths become millimetres (BVH has
 /// no unit: but for a file that pantin wrote, its numbers are taken as millimetres, see --scale). A BVH becomes the points of its joints and free ends;
@@ -45,6 +47,10 @@ pub(super) struct ConvertArgs {
     bone: Vec<(String, String)>,
     #[command(flatten)]
     poses: PoseFlags,
+    /// Smooth points, or poses with --body: a low-pass without delay, Butterworth, of the fourth order in all, with this cut-off (-3 dB) in
+    /// Hz. Each stretch between gaps by itself.
+    #[arg(long, value_name = "HZ")]
+    smooth: Option<f64>,
     /// Replace OUT when it is there.
     #[arg(long)]
     force: bool,
@@ -70,11 +76,15 @@ pub(super) fn run(args: &ConvertArgs) -> Result<()> {
         is_plain || !args.poses.is_asked(),
         "--scale and --y-up are for recordings, expected neither beside --body"
     );
-    if args.poses.convert(&args.input, &args.output, args.rate, args.convention, overwrite)? {
+    if args.poses.convert(&args.input, &args.output, args.rate, args.smooth, args.convention, overwrite)? {
         return Ok(());
     }
     let formats = (PointFormat::of_input(&args.input)?, PointFormat::of(&args.output)?);
     let (points, frames, what) = if formats == (PointFormat::Bvh, PointFormat::Bvh) {
+        ensure!(
+            args.smooth.is_none(),
+            "--smooth is for points and poses, expected another ending than .bvh, or poses.csv with --body"
+        );
         ensure!(!args.y_up, "--y-up turns points, but a BVH stays a skeleton here: write .c3d, .trc or .csv instead");
         let mut motion = read_bvh(&args.input)?.scaled(args.scale);
         if motion.statement.is_some() || args.convention != Convention::Pantin {
@@ -91,6 +101,11 @@ pub(super) fn run(args: &ConvertArgs) -> Result<()> {
         }
         let mut points = points.scaled(args.scale);
         points.rate = args.rate.unwrap_or(points.rate);
+        if let Some(cutoff) = args.smooth {
+            let low_pass = LowPass::new(cutoff, points.rate).with_context(|| args.input.display().to_string())?;
+            let left = low_pass.smooth_points(&mut points).with_context(|| args.input.display().to_string())?;
+            tell_smoothed(&low_pass, left);
+        }
         let counts = (points.names.len(), points.frames.len(), "points");
         write_points_by(&args.output, points, args.convention, overwrite)?;
         counts
@@ -105,8 +120,8 @@ fn is_skinned_file(path: &Path) -> bool {
 
 fn import(args: &ConvertArgs, overwrite: Overwrite) -> Result<()> {
     ensure!(
-        args.scale == 1.0 && args.rate.is_none() && !args.y_up,
-        "--scale, --rate and --y-up are for recordings, expected --height to give the size of a skinned person"
+        args.scale == 1.0 && args.rate.is_none() && args.smooth.is_none() && !args.y_up,
+        "--scale, --rate, --smooth and --y-up are for recordings, expected --height to give the size of a skinned person"
     );
     ensure!(
         args.output.extension().is_some_and(|end| end == "toml"),

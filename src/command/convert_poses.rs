@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 
-use super::output::say;
+use super::output::{say, tell};
 use crate::body::{Body, Coordinates, PoseTable};
 use crate::files::{Overwrite, write_atomically};
-use crate::motion::{Convention, PointFormat, write_bvh, write_mot, write_points_by};
+use crate::motion::{Convention, LeftAsIs, LowPass, PointFormat, write_bvh, write_mot, write_points_by};
 
 /// How poses become other files.
 #[derive(clap::Args, Debug)]
@@ -18,6 +18,14 @@ pub(super) struct PoseFlags {
     /// What a .mot calls the body's degrees of freedom, where not as usual: a mapping file.
     #[arg(long, value_name = "FILE.toml", requires = "body")]
     coordinates: Option<PathBuf>,
+}
+
+/// Says how a motion was smoothed.
+pub(super) fn tell_smoothed(low_pass: &LowPass, left: LeftAsIs) {
+    tell!("smoothed at {}", low_pass.told());
+    if let Some(left) = left.told() {
+        tell!("note: {left}");
+    }
 }
 
 /// Endings of files that points alone do not make.
@@ -43,6 +51,7 @@ impl PoseFlags {
         input: &Path,
         output: &Path,
         rate: Option<f64>,
+        smooth: Option<f64>,
         convention: Convention,
         overwrite: Overwrite,
     ) -> Result<bool> {
@@ -56,8 +65,13 @@ impl PoseFlags {
             return Ok(false);
         };
         let body = Body::load(body)?;
-        let poses = PoseTable::read(input, &body)?;
+        let mut poses = PoseTable::read(input, &body)?;
         let rate = rate.with_context(|| format!("{} has no times, expected --rate HZ", input.display()))?;
+        if let Some(cutoff) = smooth {
+            let low_pass = LowPass::new(cutoff, rate).with_context(|| input.display().to_string())?;
+            let left = poses.smooth(&body, &low_pass, &|_| false).with_context(|| input.display().to_string())?;
+            tell_smoothed(&low_pass, left);
+        }
         let frames = poses.frames.len();
         let name = output.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let coordinates = self.coordinates.as_deref();

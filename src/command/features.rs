@@ -58,7 +58,7 @@ pub(super) fn run(args: &FeaturesArgs) -> Result<()> {
     let mut bar = WorkBar::default();
     let plated = with_plates(&sequence, &mut |what, done, total| bar.show(what, done, total))?;
     drop(bar);
-    for remark in plated.remarks() {
+    for remark in sequence.remarks().into_iter().chain(plated.remarks()) {
         tell!("note: {remark}");
     }
     let sequence = plated.sequence.as_ref();

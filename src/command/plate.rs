@@ -48,6 +48,9 @@ pub(super) fn run(args: &PlateArgs) -> Result<()> {
         overwrite.check(file)?;
     }
     let footage = Footage::open(&args.video)?;
+    if let Some(turned) = footage.turned() {
+        tell!("note: {turned}");
+    }
     let lesson = PlateLesson { pictures: args.samples, ..PlateLesson::default() };
     let mut bar = WorkBar::default();
     let plate = learn_plate(&footage, &lesson, &mut |done, total| bar.show("learning the background", done, total))?;

@@ -116,8 +116,10 @@ fn told(made: &FirstTry, args: &StartArgs) -> Result<()> {
         say!("look at {folder}/look/body.png: the body should lie on the person in every view");
     } else {
         say!(
-            "look at {folder}/look/body.png: the body and the outline differ by more than a third in a view. Is the outline the person's? Are \
-             arms and legs apart in that frame? Else measure another one: pantin start ... --frames A..B --force, with --heading if back and front are exchanged"
+            "look at {folder}/look/body.png: the body and the outline differ by more than a third in a view. Is the outline the person's? Where \
+             bare skin is missing before a light wall, write [features.shadow] with chroma = 5 into the manifest, then pantin fit. Are arms and \
+             legs apart in that frame? Else measure another one: pantin start ... --frames A..B --force, with --heading if back and front are \
+             exchanged"
         );
     }
     say!("then: pantin check {folder}");

@@ -8,9 +8,9 @@ use image::codecs::png::PngEncoder;
 use image::{DynamicImage, RgbImage};
 
 use super::draws::Draws;
-use super::output::say;
+use super::output::{put, say};
 use super::progress::ProgressBar;
-use crate::files::{Choice as _, Limit, Overwrite, choices, png_name, write_atomically};
+use crate::files::{Choice as _, Limit, Overwrite, PICTURE_FORMATS, choices, png_name, write_atomically};
 use crate::synth::portrait;
 use crate::texture::example::{Settings, patch_count, synthesise};
 use crate::texture::materials::{Material, MaterialKind, Parameters};
@@ -55,7 +55,10 @@ pub(super) struct TextureArgs {
     /// Write heights (grey) instead of colours
     #[arg(long, conflicts_with = "preview")]
     height_map: bool,
-    /// Parameters of the material, instead of its defaults
+    /// Print the material's parameters with their defaults, as --params reads them, and draw nothing
+    #[arg(long, requires = "material", conflicts_with_all = ["params", "output"])]
+    defaults: bool,
+    /// Parameters of the material, instead of its defaults (see --defaults)
     #[arg(long, value_name = "FILE.toml")]
     params: Option<PathBuf>,
     /// Show the material on an object under a light
@@ -128,6 +131,10 @@ fn parse_offset(text: &str) -> Result<[f32; 3], String> {
 /// # Errors
 /// When the material or a parameter is unknown, a size makes no sense, or a file cannot be read or written.
 pub(super) fn run(args: &TextureArgs) -> Result<()> {
+    if let Some(name) = args.material.as_ref().filter(|_| args.defaults) {
+        put!("{}", MaterialKind::of(name)?.defaults()?);
+        return Ok(());
+    }
     match (&args.example, &args.material, &args.output) {
         (None, None, output) => list(args, output.as_deref()),
         (_, _, None) => bail!("the PNG to write is not given, expected -o FILE"),
@@ -224,7 +231,7 @@ fn of_material(args: &TextureArgs, name: &str) -> Result<DynamicImage> {
 
 fn read(path: &Path) -> Result<RgbImage> {
     const EXAMPLE: Limit = Limit { what: "a picture", most: 1 << 30 };
-    let context = || format!("cannot read the picture {}", path.display());
+    let context = || format!("cannot read the picture {} ({PICTURE_FORMATS} are read)", path.display());
     let file = BufReader::new(EXAMPLE.open(path)?);
     let picture = image::ImageReader::new(file).with_guessed_format().with_context(context)?;
     Ok(picture.decode().with_context(context)?.into_rgb8())

@@ -90,6 +90,10 @@ pub(super) struct TrackOptions {
     /// A poses.csv to start from instead of the sequence's: one row, or one whose frame is the first.
     #[arg(long, value_name = "FILE")]
     start: Option<PathBuf>,
+    /// Smooth the results too, into smoothed/ beside them: a low-pass without delay, Butterworth, of the fourth order in all, with this
+    /// cut-off (-3 dB) in Hz; 6 suits walking.
+    #[arg(long, value_name = "HZ")]
+    smooth: Option<f64>,
     /// Draw the model over the pictures every N frames; 0 for never. Without: 10, and 0 in real time, which drawing disturbs.
     #[arg(long, value_name = "N")]
     overlay_every: Option<usize>,
@@ -144,6 +148,7 @@ impl TrackOptions {
             recover: self.recover,
             frames: self.frames,
             start: self.start.clone(),
+            smooth: self.smooth,
             overlay_every: self.overlay_every.unwrap_or(default_overlay),
             trace: self.trace,
             recording: self.rerun,

@@ -21,3 +21,9 @@ pub use output::{Occupied, OutputFolder, Overwrite, write_atomically};
 pub use shortened::{one_line, shortened};
 pub use stem::file_stem;
 pub use toml_file::{parse_table, parse_toml, read_toml, table_of};
+
+/// The formats of pictures that are read.
+pub const PICTURE_FORMATS: &str = "PNG, JPEG, GIF, TIFF, WebP and BMP";
+
+/// How the names of their files end, in small letters.
+pub const PICTURE_ENDINGS: [&str; 8] = ["png", "jpg", "jpeg", "tif", "tiff", "bmp", "webp", "gif"];

@@ -5,6 +5,7 @@ mod c3d;
 mod convention;
 mod error;
 mod gaps;
+mod low_pass;
 mod mot;
 mod number;
 mod pairing;
@@ -27,6 +28,7 @@ pub use bvh::{BvhChannel, BvhJoint, BvhMotion, BvhStatement, parse_bvh, write_bv
 pub use c3d::{parse_c3d, write_c3d};
 pub use convention::Convention;
 pub use error::{FrameError, Matching, PointError, TrajectoryError, write_frame_errors};
+pub use low_pass::{LeftAsIs, LowPass, runs_of, unwrap_angles};
 pub use mot::{CoordinateTable, write_mot};
 pub use pairing::PointPairs;
 pub use points::{LARGEST_COORDINATE, PointTrajectory};

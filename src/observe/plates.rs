@@ -124,7 +124,7 @@ pub fn with_plates<'a>(sequence: &'a Sequence, progress: &mut Advance<'_>) -> Re
         let view = &sequence.views[at];
         let lesson = PlateLesson { size: Some(sequence.sizes[at]), ..PlateLesson::default() };
         let mut one = |done: usize, total: usize| progress(WORK, turn * total + done, wanting.len() * total);
-        let plate = learn_plate(&view.footage(sequence.frame_count), &lesson, &mut one)
+        let plate = learn_plate(&view.footage(), &lesson, &mut one)
             .with_context(|| format!("{}: the background of camera {:?}", sequence.path.display(), view.camera))?;
         plated.sequence.to_mut().views[at].learnt = Some(Arc::new(plate.picture.clone()));
         plated.learnt.push(ViewPlate { camera: view.camera.clone(), plate });

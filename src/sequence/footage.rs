@@ -5,9 +5,10 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use image::RgbImage;
 
-use super::pictures::{PicturePattern, picture_size, read_picture};
+use super::pictures::{PicturePattern, picture_size, read_picture, shown as shown_size};
 use super::resample::area_average;
-use super::source::Source;
+use super::source::{Source, Turn, Video};
+use super::timestamps::Timestamps;
 use super::video::{VideoDecoder, VideoInfo, probe_video};
 use crate::files::check_regular;
 
@@ -18,18 +19,28 @@ pub struct Footage {
     pub shown: String,
     /// Where its pictures come from.
     pub source: Source,
-    /// Size of its pictures as they are stored, pixels, width then height.
+    /// Size of its pictures as they are read, pixels, width then height.
     pub size: [u32; 2],
-    /// Number of frames.
+    /// Number of stored pictures.
     pub frame_count: usize,
-    /// What a player would turn the pictures by, degrees; ignored when reading.
-    pub rotation: i32,
+    /// How a player turns the stored pictures before it shows them; `source` says how they are turned when they are read.
+    pub marked: Turn,
     /// Frames per second, where a video tells.
     pub fps: Option<f64>,
+    /// When each picture is to be shown, where a video tells.
+    pub times: Option<Timestamps>,
+    /// When it was made by the camera's own clock, as a video writes it.
+    pub made: Option<String>,
 }
 
 impl Footage {
-    /// Looks at a file that ffmpeg reads, or at numbered pictures; videos are counted, not decoded.
+    /// Of a source of which nothing but size and length is known.
+    pub(super) fn plain(shown: String, source: Source, size: [u32; 2], frame_count: usize) -> Self {
+        Self { shown, source, size, frame_count, marked: Turn::None, fps: None, times: None, made: None }
+    }
+
+    /// Looks at a file that ffmpeg reads, or at numbered pictures; videos are counted, not decoded. A video that is marked to be turned for
+    /// display is upright, as players show it.
     ///
     /// # Errors
     /// As [`probe_video`] and [`PicturePattern::open`].
@@ -38,13 +49,42 @@ impl Footage {
         if is_pattern(file) {
             let pattern = PicturePattern::open(file)?;
             let (size, frame_count) = (picture_size(&pattern.file(0))?, pattern.frame_count());
-            return Ok(Self { shown, source: Source::Pictures(pattern), size, frame_count, rotation: 0, fps: None });
+            return Ok(Self::plain(shown, Source::Pictures(pattern), size, frame_count));
         }
         if let Err(why) = check_regular(file) {
             bail!("{why}: name a video or numbered pictures (frames/cam01_%04d.png)");
         }
-        let VideoInfo { size, frame_count, rotation, fps } = probe_video(file)?;
-        Ok(Self { shown, source: Source::Video(file.to_path_buf()), size, frame_count, rotation, fps })
+        let VideoInfo { size, frame_count, turn, fps, times, made } = probe_video(file)?;
+        let source = Source::Video(Video { path: file.to_path_buf(), turn });
+        Ok(Self { shown, source, size: turn.turned(size), frame_count, marked: turn, fps, times, made })
+    }
+
+    /// The same footage with its pictures as they are stored.
+    #[must_use]
+    pub fn as_stored(mut self) -> Self {
+        if let Source::Video(video) = &mut self.source {
+            // Turned back, a quarter turn changes the sides again.
+            self.size = video.turn.turned(self.size);
+            video.turn = Turn::None;
+        }
+        self
+    }
+
+    /// The same footage upright, or as it is stored where that alone has the size that a camera is calibrated for.
+    #[must_use]
+    pub fn fitting(self, size: [u32; 2]) -> Self {
+        if self.size != size && self.marked.turned(self.size) == size { self.as_stored() } else { self }
+    }
+
+    /// A sentence about a video that is marked to be turned for display.
+    pub fn turned(&self) -> Option<String> {
+        let Source::Video(video) = &self.source else { return None };
+        let how = match (self.marked, video.turn) {
+            (Turn::None, _) => return None,
+            (marked, Turn::None) => format!("would be {} by a player, and is read as it is stored", marked.said()),
+            (marked, _) => format!("is {} when it is read, as players do", marked.said()),
+        };
+        Some(format!("{} {how}: {}", self.shown, shown_size(self.size)))
     }
 
     /// `count` of its frames at `size`, evenly spread over all; all frames where there are fewer.
@@ -54,7 +94,7 @@ impl Footage {
     pub fn spread(&self, count: usize, size: [u32; 2]) -> Result<SpreadFrames> {
         let count = count.min(self.frame_count);
         let frames = match &self.source {
-            Source::Video(path) => Frames::Video(VideoDecoder::open_spread(path, self.frame_count, count, size)?),
+            Source::Video(video) => Frames::Video(VideoDecoder::open_spread(video, self.frame_count, count, size)?),
             Source::Pictures(pattern) => Frames::Pictures(pattern.clone()),
             Source::Live(live) => bail!("{} is live, expected a recording", live.address),
         };

@@ -186,6 +186,7 @@ struct ViewStream {
     size: [u32; 2],
     frames: Range<usize>,
     pictures: Stream,
+    picks: Option<Arc<[u32]>>,
     picture_size: [u32; 2],
     masks: Option<(Stream, [u32; 2])>,
     ignored: Option<IgnoredFrames>,
@@ -197,25 +198,32 @@ enum Stream {
 }
 
 impl Stream {
-    fn open(source: &Source, frames: Range<usize>, size: [u32; 2], format: PixelFormat) -> Result<Self> {
+    fn open(view: &View, source: &Source, frames: Range<usize>, size: [u32; 2], format: PixelFormat) -> Result<Self> {
         Ok(match source {
-            Source::Video(path) => Self::Video(VideoDecoder::open(path, frames, size, format)?),
+            Source::Video(video) => Self::Video(VideoDecoder::open(video, view.picks.as_ref(), frames, size, format)?),
             Source::Pictures(pattern) => Self::Pictures(pattern.clone()),
             Source::Live(live) => bail!("{} is live, which only `track --realtime` reads", live.address),
         })
     }
 }
 
+/// The number of a frame's stored picture.
+fn picked(picks: Option<&[u32]>, frame: usize) -> usize {
+    picks.and_then(|picks| picks.get(frame)).map_or(frame, |pick| *pick as usize)
+}
+
 impl ViewStream {
     fn open(view: &View, frames: Range<usize>, size: [u32; 2]) -> Result<Self> {
-        let pictures = Stream::open(&view.source, frames.clone(), size, PixelFormat::Rgb)?;
+        let pictures = Stream::open(view, &view.source, frames.clone(), size, PixelFormat::Rgb)?;
         let masks = match &view.mask {
             // At the stored size: a silhouette is thinned out by us, never averaged.
-            Some((mask, stored)) => Some((Stream::open(mask, frames.clone(), *stored, PixelFormat::Grey)?, *stored)),
+            Some((mask, stored)) => {
+                Some((Stream::open(view, mask, frames.clone(), *stored, PixelFormat::Grey)?, *stored))
+            }
             None => None,
         };
         let ignored = view.ignored.as_ref().map(|ignored| ignored.frames(size)).transpose()?;
-        Ok(Self { size, frames, pictures, picture_size: view.size, masks, ignored })
+        Ok(Self { size, frames, pictures, picks: view.picks.clone(), picture_size: view.size, masks, ignored })
     }
 
     fn stoppers(&self) -> Vec<Stopper> {
@@ -239,16 +247,17 @@ impl ViewStream {
 
     fn read(&mut self, frame: usize) -> Result<ViewFrame> {
         let [width, height] = self.size;
+        let number = picked(self.picks.as_deref(), frame);
         let picture = match &mut self.pictures {
             Stream::Video(decoder) => {
                 let bytes = decoder.next_frame()?.unwrap_or_default();
                 RgbImage::from_raw(width, height, bytes).with_context(|| format!("frame {frame} has too few bytes"))?
             }
             Stream::Pictures(pattern) => {
-                area_average(read_picture(&pattern.file(frame), &[self.picture_size])?.into_rgb8(), self.size)
+                area_average(read_picture(&pattern.file(number), &[self.picture_size])?.into_rgb8(), self.size)
             }
         };
-        let ignored = self.ignored.as_ref().map(|ignored| ignored.of_frame(frame, self.size)).transpose()?;
+        let ignored = self.ignored.as_ref().map(|ignored| ignored.of_frame(number, self.size)).transpose()?;
         let Some((masks, stored)) = &mut self.masks else { return Ok((picture, None, ignored)) };
         let mask = match masks {
             Stream::Video(decoder) => {
@@ -256,7 +265,7 @@ impl ViewStream {
                 GrayImage::from_raw(stored[0], stored[1], bytes)
                     .with_context(|| format!("the mask of frame {frame} has too few bytes"))?
             }
-            Stream::Pictures(pattern) => read_picture(&pattern.file(frame), &[*stored])?.into_luma8(),
+            Stream::Pictures(pattern) => read_picture(&pattern.file(number), &[*stored])?.into_luma8(),
         };
         Ok((picture, Some(nearest_mask(&mask, self.size)), ignored))
     }

@@ -14,7 +14,8 @@ use super::live_options;
 use super::person::{Person, PersonTable, check_names};
 use super::pictures::{picture_size, shown};
 use super::source::{LiveSource, Source};
-use crate::files::{check_regular, nearest, parse_toml, read_toml};
+use super::synchrony::{MOST_DELAY, Recorded, Stamps, synchronise};
+use crate::files::{check_regular, choices, nearest, parse_toml, read_toml};
 use crate::geometry::Camera;
 
 /// A sequence: synchronised pictures of calibrated cameras, and what belongs to them (METHOD A2, FORMATS).
@@ -49,6 +50,8 @@ pub struct Sequence {
     pub views: Vec<View>,
     /// Frames in every view; [`Sequence::NO_END`] where they are live.
     pub frame_count: usize,
+    /// What a user should know of how the videos were recorded, a sentence each.
+    notes: Vec<String>,
     /// The `[objective]` table as written, for the search to read.
     pub objective: Option<toml::Table>,
     /// The `[features]` table as written, for the features to read.
@@ -60,10 +63,14 @@ pub struct Sequence {
 pub struct View {
     /// The camera's name.
     pub camera: String,
-    /// The size of its pictures as they are stored, pixels, width then height: that of the calibration.
+    /// The size of its pictures as they are read, pixels, width then height: that of the calibration.
     pub size: [u32; 2],
     /// Its pictures.
     pub source: Source,
+    /// How many there are.
+    pub stored: usize,
+    /// The number of each frame's picture, ascending; none where frames and pictures are the same.
+    pub picks: Option<Arc<[u32]>>,
     /// A picture of the empty scene.
     pub background: Option<PathBuf>,
     /// Ready silhouettes and the size they are stored at.
@@ -80,10 +87,10 @@ impl View {
         self.mask.is_none() && self.background.is_none() && self.learnt.is_none()
     }
 
-    /// Its pictures by themselves, of which there are `frame_count`.
-    pub fn footage(&self, frame_count: usize) -> Footage {
+    /// Its pictures by themselves, all that there are.
+    pub fn footage(&self) -> Footage {
         let shown = format!("the pictures of camera {:?}", self.camera);
-        Footage { shown, source: self.source.clone(), size: self.size, frame_count, rotation: 0, fps: None }
+        Footage::plain(shown, self.source.clone(), self.size, self.stored)
     }
 }
 
@@ -99,6 +106,7 @@ struct ManifestFile {
     truth: Option<PathBuf>,
     #[serde(default = "full_size")]
     scale: f64,
+    timestamps: Option<Stamps>,
     #[serde(default)]
     view: Vec<ViewTable>,
     #[serde(default)]
@@ -116,6 +124,29 @@ struct ViewTable {
     background: Option<PathBuf>,
     mask: Option<PathBuf>,
     ignore: Option<PathBuf>,
+    delay: Option<f64>,
+    orientation: Option<Orientation>,
+}
+
+choices! {
+    /// How the pictures of a video are taken that is marked to be turned for display.
+    "orientation" pub enum Orientation {
+        /// Turned, as players and OpenCV show them.
+        "upright" Upright,
+        /// As they are stored.
+        "stored" Stored,
+    }
+}
+
+impl ViewTable {
+    /// Footage as this view wants it: as the manifest says, else as it fits the size that a camera is calibrated for, else upright.
+    fn oriented(&self, footage: Footage, size: Option<[u32; 2]>) -> Footage {
+        match (self.orientation, size) {
+            (Some(Orientation::Stored), _) => footage.as_stored(),
+            (None, Some(size)) => footage.fitting(size),
+            _ => footage,
+        }
+    }
 }
 
 /// The smallest working scale.
@@ -154,6 +185,13 @@ impl ManifestFile {
             let options = view.input.as_deref().unwrap_or_default();
             let checked = live_options::check(&view.source.to_string_lossy(), options);
             checked.with_context(|| format!("{name}: the source of camera {:?}", view.camera))?;
+            if let Some(delay) = view.delay.filter(|delay| delay.is_nan() || delay.abs() > MOST_DELAY) {
+                bail!(
+                    "{name}: the delay of camera {:?} is {}, expected at most {MOST_DELAY} frames, whole or not",
+                    view.camera,
+                    shown_number(delay)
+                );
+            }
         }
         Ok(())
     }
@@ -201,13 +239,13 @@ impl Sequence {
 
     /// What whoever tracks it should know of its views, a sentence each.
     pub fn remarks(&self) -> Vec<String> {
-        if self.views.len() > 1 {
-            return Vec::new();
-        }
         let path = self.path.display();
-        vec![format!(
-            "{path} has one view, in which near and far look alike: depth is a guess, expected two views or more"
-        )]
+        let one = (self.views.len() == 1).then(|| {
+            format!(
+                "{path} has one view, in which near and far look alike: depth is a guess, expected two views or more"
+            )
+        });
+        one.into_iter().chain(self.notes.iter().cloned()).collect()
     }
 
     fn refuse_live(&self) -> Result<()> {
@@ -289,25 +327,28 @@ impl Sequence {
                 return Ok(None);
             }
             let source = open_source(&format!("the source of camera {camera:?}"), &view.source, &existing, &dir)?;
-            Ok(Some(source.size))
+            Ok(Some(view.oriented(source, None).size))
         };
         let calibrated = read_cameras_sized(&cameras_path, &size_of)?;
 
-        let mut opened = Vec::new();
-        let mut cameras = Vec::new();
+        let (mut opened, mut recorded, mut cameras) = (Vec::new(), Vec::new(), Vec::new());
         for (index, table) in file.view.iter().enumerate() {
             if file.view[..index].iter().any(|earlier| earlier.camera == table.camera) {
                 bail!("{shown_path}: camera {:?} has two views, expected one", table.camera);
             }
             let camera = find_camera(&calibrated, &table.camera)
                 .ok_or_else(|| unknown_camera(&path, &cameras_path, &calibrated, &table.camera))?;
-            opened.push(open_view(table, camera, &existing, (&path, &dir), file.scale)?);
+            let (view, footage) = open_view(table, camera, &existing, (&path, &dir), file.scale)?;
+            opened.push(view);
+            recorded.push(Recorded { camera: table.camera.clone(), footage, delay: table.delay });
             cameras.push(camera.clone());
         }
-        let frame_count = common_length(&path, &opened)?;
+        let together = synchronise(&recorded, file.fps, file.timestamps).with_context(|| shown_path.to_string())?;
         check_coverage(&path, &cameras)?;
 
-        let views: Vec<View> = opened.into_iter().map(|(view, _)| view).collect();
+        let notes = recorded.iter().filter_map(|view| view.footage.turned()).chain(together.remarks).collect();
+        let views: Vec<View> =
+            opened.into_iter().zip(together.picks).map(|(view, picks)| View { picks, ..view }).collect();
         check_sizes(&views, file.scale).with_context(|| path.display().to_string())?;
         let sizes: Vec<[u32; 2]> = views.iter().map(|view| working_size(view.size, file.scale)).collect();
         let cameras = cameras.iter().zip(&sizes).map(|(camera, &size)| camera.scaled(size)).collect();
@@ -324,7 +365,8 @@ impl Sequence {
             start,
             truth,
             views,
-            frame_count,
+            frame_count: together.frame_count,
+            notes,
             objective: file.objective,
             features: file.features,
             dir,
@@ -402,14 +444,14 @@ pub(super) fn is_plate_size(found: [u32; 2], full: [u32; 2], working: [u32; 2]) 
     (width * full_height == height * full_width && width <= full_width) || found == working
 }
 
-/// Looks at everything a view names, in the manifest `path` in `dir`; with the view, its number of frames.
+/// Looks at everything a view names, in the manifest `path` in `dir`; with the view, its pictures by themselves.
 fn open_view(
     table: &ViewTable,
     camera: &Camera,
     existing: &impl Fn(&str, &Path) -> Result<PathBuf>,
     (path, dir): (&Path, &Path),
     scale: f64,
-) -> Result<(View, usize)> {
+) -> Result<(View, Footage)> {
     let name = &table.camera;
     let key = |part: &str| format!("the {part} of camera {name:?}");
     let source = match LiveSource::of(&table.source, table.input.as_deref(), dir) {
@@ -420,16 +462,12 @@ fn open_view(
             let shown = live.address.clone();
             // What it delivers is looked at when it is opened: a camera can be opened once.
             let (size, frame_count) = (camera.size, Sequence::NO_END);
-            Footage { shown, source: Source::Live(live), size, frame_count, rotation: 0, fps: None }
+            Footage::plain(shown, Source::Live(live), size, frame_count)
         }
-        None => open_source(&key("source"), &table.source, existing, dir)?,
+        None => table.oriented(open_source(&key("source"), &table.source, existing, dir)?, Some(camera.size)),
     };
     if source.size != camera.size {
-        let turned = if source.rotation % 180 != 0 && source.size == [camera.size[1], camera.size[0]] {
-            ", which are stored lying and marked to be turned for display: re-encode them upright"
-        } else {
-            ""
-        };
+        let turned = source.turned().map_or_else(String::new, |turned| format!(" ({turned})"));
         bail!(
             "{} has pictures of {} pixels, but camera {name:?} is calibrated for {}{turned}",
             source.shown,
@@ -454,7 +492,7 @@ fn open_view(
     let mask = match &table.mask {
         None => None,
         Some(mask) => {
-            let mask = open_source(&key("mask"), mask, existing, dir)?;
+            let mask = table.oriented(open_source(&key("mask"), mask, existing, dir)?, None);
             check_mask(name, camera.size, source.frame_count, &mask).with_context(|| path.display().to_string())?;
             Some((mask.source, mask.size))
         }
@@ -466,13 +504,15 @@ fn open_view(
     let view = View {
         camera: name.clone(),
         size: camera.size,
-        source: source.source,
+        source: source.source.clone(),
+        stored: source.frame_count,
+        picks: None,
         background,
         mask,
         ignored,
         learnt: None,
     };
-    Ok((view, source.frame_count))
+    Ok((view, source))
 }
 
 /// Masks may be smaller or larger than the pictures, but of the same shape, to a pixel, and as many.
@@ -499,28 +539,6 @@ fn open_source(
 ) -> Result<Footage> {
     let file = dir.join(relative);
     Footage::open(&if is_pattern(&file) { file } else { existing(key, relative)? })
-}
-
-/// The number of frames all views have.
-fn common_length(path: &Path, views: &[(View, usize)]) -> Result<usize> {
-    let Some((first, length)) = views.first() else { return Ok(0) };
-    if let Some((other, other_length)) = views.iter().find(|(_, other)| other != length) {
-        if [*length, *other_length].contains(&Sequence::NO_END) {
-            bail!(
-                "{}: one of the cameras {:?} and {:?} is live and one is recorded, expected the same of all",
-                path.display(),
-                first.camera,
-                other.camera
-            );
-        }
-        bail!(
-            "{}: camera {:?} has {length} frames and camera {:?} has {other_length}, expected views of the same length",
-            path.display(),
-            first.camera,
-            other.camera
-        );
-    }
-    Ok(*length)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Numbered pictures (`frames/cam01_%04d.png`) and single ones, PNG or JPEG.
+//! Numbered pictures (`frames/cam01_%04d.png`) and single ones, in any of the formats that are read; of several in a file the first.
 
 use std::fs;
 use std::io::BufReader;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use image::{DynamicImage, ImageDecoder, ImageReader};
 
-use crate::files::Limit;
+use crate::files::{Limit, PICTURE_FORMATS};
 
 /// Pictures are held in memory whole.
 const PICTURE: Limit = Limit { what: "a picture", most: 1 << 30 };
@@ -111,7 +111,7 @@ fn number_of(text: &str, digits: usize) -> Option<u64> {
 /// The size of a picture, from its header.
 ///
 /// # Errors
-/// When the file is missing or neither PNG nor JPEG.
+/// When the file is missing or of none of the formats that are read.
 pub(super) fn picture_size(path: &Path) -> Result<[u32; 2]> {
     Ok(decoder(path)?.dimensions().into())
 }
@@ -136,7 +136,7 @@ fn decoder(path: &Path) -> Result<impl ImageDecoder + use<>> {
     let reader = reader.with_guessed_format().map_err(anyhow::Error::from);
     reader
         .and_then(|reader| Ok(reader.into_decoder()?))
-        .with_context(|| format!("cannot read the picture {} (PNG and JPEG are read)", path.display()))
+        .with_context(|| format!("cannot read the picture {} ({PICTURE_FORMATS} are read)", path.display()))
 }
 
 /// A size as messages show it.
@@ -197,6 +197,55 @@ mod tests {
         assert!(error.contains("cannot read the picture") && error.contains("p.png"), "{error}");
         fs::write(&path, b"no picture").unwrap();
         let error = format!("{:#}", picture_size(&path).unwrap_err());
-        assert!(error.contains("p.png (PNG and JPEG are read)"), "{error}");
+        assert!(error.contains("p.png (PNG, JPEG, GIF, TIFF, WebP and BMP are read)"), "{error}");
+    }
+
+    #[test]
+    fn every_format_is_read_and_held_to_its_size_before_it_is_decoded() {
+        let folder = tempfile::tempdir().unwrap();
+        let picture = image::RgbImage::from_fn(40, 30, |x, y| image::Rgb([(6 * x) as u8, (8 * y) as u8, 90]));
+        for (end, off) in [("png", 0), ("bmp", 0), ("tiff", 0), ("webp", 0), ("gif", 40), ("jpg", 40)] {
+            let path = folder.path().join(format!("p_1.{end}"));
+            picture.save(&path).unwrap();
+            let pattern = PicturePattern::open(&folder.path().join(format!("p_%d.{end}"))).unwrap();
+            assert_eq!((pattern.frame_count(), picture_size(&pattern.file(0)).unwrap()), (1, [40, 30]), "{end}");
+            let read = read_picture(&path, &[[40, 30]]).unwrap().into_rgb8();
+            let worst = read.as_raw().iter().zip(picture.as_raw()).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
+            assert!(worst <= off, "{end}: {worst}");
+            let error = format!("{:#}", read_picture(&path, &[[41, 30]]).unwrap_err());
+            assert!(error.contains(&format!("p_1.{end} is 40x30 pixels, expected 41x30")), "{error}");
+            let whole = fs::read(&path).unwrap();
+            fs::write(&path, &whole[..whole.len() / 3]).unwrap();
+            let error = format!("{:#}", read_picture(&path, &[[40, 30]]).unwrap_err());
+            assert!(error.contains("cannot read the picture") && error.contains(&format!("p_1.{end}")), "{error}");
+        }
+        // Of pictures that follow each other in a file, the first.
+        let path = folder.path().join("moving.gif");
+        let frames = [20, 220]
+            .map(|grey| image::Frame::new(image::RgbaImage::from_pixel(8, 6, image::Rgba([grey, grey, grey, 255]))));
+        image::codecs::gif::GifEncoder::new(fs::File::create(&path).unwrap()).encode_frames(frames).unwrap();
+        let first = read_picture(&path, &[[8, 6]]).unwrap().into_luma8();
+        assert!(first.pixels().all(|pixel| pixel[0].abs_diff(20) < 4), "{:?}", first.get_pixel(0, 0));
+    }
+
+    /// A header may promise more than there is memory; nothing of it is taken before the size is known to be right.
+    #[test]
+    fn headers_that_promise_too_much_are_sentences() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut gif = Vec::new();
+        let small = image::RgbImage::new(8, 6);
+        small.write_to(&mut std::io::Cursor::new(&mut gif), image::ImageFormat::Gif).unwrap();
+        gif[6..10].fill(255);
+        let mut bmp = b"BM".to_vec();
+        bmp.extend([0_u8; 8].iter().chain(&54_u32.to_le_bytes()).chain(&40_u32.to_le_bytes()));
+        bmp.extend(
+            60_000_u32.to_le_bytes().iter().chain(&60_000_u32.to_le_bytes()).chain(&[1, 0, 24, 0]).chain(&[0; 24]),
+        );
+        for (name, bytes, size) in [("large.gif", gif, "65535x65535"), ("large.bmp", bmp, "60000x60000")] {
+            let path = folder.path().join(name);
+            fs::write(&path, bytes).unwrap();
+            let error = format!("{:#}", read_picture(&path, &[[40, 30]]).unwrap_err());
+            assert!(error.contains(&format!("{name} is {size} pixels, expected 40x30")), "{error}");
+        }
     }
 }

@@ -1,29 +1,35 @@
-//! Video files, read through the `ffmpeg` and `ffprobe` programs: every stored frame once, in decoding order, in the
-//! orientation it is stored in (a calibration is made for the file as it is, not for how a player would turn it).
+//! Video files, read through the `ffmpeg` and `ffprobe` programs: every stored picture once, in the order they are shown, or those that
+//! a list picks; as they are stored, or turned as players turn them.
 
 use std::io::{BufRead, BufReader, ErrorKind, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow, bail};
 
 use super::playlist::refuse_playlist;
 use super::program::{Process, Stopper, missing_program};
+use super::source::{Turn, Video};
+use super::timestamps::Timestamps;
 
 /// What a video file holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct VideoInfo {
     /// Size of its pictures as they are stored, pixels, width then height.
     pub size: [u32; 2],
     /// Number of frames.
     pub frame_count: usize,
-    /// What a player would turn the pictures by, degrees; ignored when reading.
-    pub rotation: i32,
-    /// Frames per second on average, where the file tells.
+    /// How a player turns the pictures before it shows them.
+    pub turn: Turn,
+    /// Frames per second, where the file tells: on average where they came at a constant rate, else where none is missing.
     pub fps: Option<f64>,
+    /// When each picture is to be shown, where the file tells.
+    pub times: Option<Timestamps>,
+    /// When the recording was made by the camera's own clock, to a second: as it is written, `2024-05-01T10:00:00.000000Z`.
+    pub made: Option<String>,
 }
 
 /// A file of which ffprobe tells nothing for so long is given up: frames are listed as they are come upon.
@@ -43,11 +49,15 @@ fn probe_with(program: &Path, path: &Path) -> Result<VideoInfo> {
     let mut command = Command::new(program);
     command.args(["-v", "error", "-select_streams", "v:0", "-of", "flat", "-show_entries"]);
     // Packets are listed rather than counted: those an edit list cuts off are marked, and never become frames.
-    command.arg("stream=width,height,nb_frames,avg_frame_rate:stream_side_data=rotation:packet=flags");
+    command.arg(
+        "stream=width,height,nb_frames,avg_frame_rate,time_base:stream_side_data=rotation:stream_tags=creation_time:\
+         packet=pts_time,flags",
+    );
     command.args(["-protocol_whitelist", "file", "-i"]).arg(file_url(path));
     let mut process = Process::spawn(command)?;
     let watch = process.watch(LONGEST_SILENCE)?;
-    let (mut size, mut promised, mut rotation, mut fps) = ([0_u32; 2], 0_usize, 0, None);
+    let (mut size, mut promised, mut turn, mut fps) = ([0_u32; 2], 0_usize, Turn::None, None);
+    let (mut times, mut time, mut tick, mut made) = (Vec::new(), f64::NAN, 0.0, None);
     let (mut packets, mut discarded, mut corrupt) = (0_usize, 0_usize, 0_usize);
     for line in BufReader::new(&mut process.output).lines() {
         let line = line.with_context(|| format!("cannot read what ffprobe says of {}", path.display()))?;
@@ -55,16 +65,25 @@ fn probe_with(program: &Path, path: &Path) -> Result<VideoInfo> {
         let Some((key, value)) = line.split_once('=') else { continue };
         let value = value.trim_matches('"');
         match key.rsplit('.').next() {
+            // Written before the flags of the same packet.
+            Some("pts_time") => time = value.parse().unwrap_or(f64::NAN),
             Some("flags") => {
                 packets += 1;
-                discarded += usize::from(value.contains('D'));
                 corrupt += usize::from(value.contains('C'));
+                if value.contains('D') {
+                    discarded += 1;
+                } else {
+                    times.push(time);
+                }
+                time = f64::NAN;
             }
             Some("width") => size[0] = value.parse().unwrap_or(0),
             Some("height") => size[1] = value.parse().unwrap_or(0),
             Some("nb_frames") => promised = value.parse().unwrap_or(0),
             Some("avg_frame_rate") => fps = rate(value),
-            Some("rotation") => rotation = value.parse().unwrap_or(0),
+            Some("time_base") => tick = rate(value).unwrap_or(0.0),
+            Some("rotation") => turn = Turn::marked(value.parse().unwrap_or(0)),
+            Some("creation_time") => made = Some(value.to_string()),
             _ => {}
         }
     }
@@ -86,7 +105,10 @@ fn probe_with(program: &Path, path: &Path) -> Result<VideoInfo> {
     if packets == discarded {
         bail!("{} holds a video of no frames", path.display());
     }
-    Ok(VideoInfo { size, frame_count: packets - discarded, rotation, fps })
+    let times = Timestamps::of(times, tick);
+    // Where pictures are missing the mean is the rate of no camera.
+    let fps = times.as_ref().filter(|times| !times.is_regular()).map(Timestamps::usual_rate).or(fps);
+    Ok(VideoInfo { size, frame_count: packets - discarded, turn, fps, times, made })
 }
 
 /// A rate as ffprobe writes it, `30000/1001`.
@@ -115,11 +137,7 @@ pub fn probe_rate(path: &Path) -> Result<f64> {
     if !ended.success() {
         bail!("{} cannot be read as a video: {ended}", path.display());
     }
-    let rate = text.trim().split_once('/').and_then(|(frames, seconds)| {
-        let [frames, seconds]: [f64; 2] = [frames.parse().ok()?, seconds.parse().ok()?];
-        Some(frames / seconds).filter(|rate| rate.is_finite() && *rate > 0.0)
-    });
-    rate.with_context(|| format!("{} tells no frame rate, expected a video that does", path.display()))
+    rate(text.trim()).with_context(|| format!("{} tells no frame rate, expected a video that does", path.display()))
 }
 
 /// What each pixel of a decoded picture holds.
@@ -139,33 +157,71 @@ pub(super) struct VideoDecoder {
     next: usize,
     end: usize,
     frame_bytes: usize,
+    /// Which picture each frame is; none: its own.
+    picks: Option<Picked>,
+}
+
+/// Frames that are picked out of the pictures that come.
+#[derive(Debug)]
+struct Picked {
+    /// The number of each frame's picture, ascending.
+    picks: Arc<[u32]>,
+    /// The number of the picture that comes next.
+    coming: u32,
+    /// The picture that came last.
+    last: Vec<u8>,
 }
 
 impl VideoDecoder {
-    /// Starts decoding the frames of `range`, each delivered at `size` (width, height).
+    /// Starts decoding the frames of `range`, each delivered at `size` (width, height). `picks` holds the number of each frame's picture,
+    /// ascending; without it they are the same.
     ///
     /// Everything before the range is decoded and dropped: seeking by time lands on the wrong frame in files whose time
     /// stamps are not regular, and here frame A has to be the A-th picture of the file in every view.
     ///
     /// # Errors
     /// When ffmpeg is missing or cannot be started.
-    pub(super) fn open(path: &Path, range: Range<usize>, size: [u32; 2], format: PixelFormat) -> Result<Self> {
-        let select = format!("gte(n\\,{})", range.start);
-        Self::select(path, &select, range, size, format)
+    pub(super) fn open(
+        video: &Video,
+        picks: Option<&Arc<[u32]>>,
+        range: Range<usize>,
+        size: [u32; 2],
+        format: PixelFormat,
+    ) -> Result<Self> {
+        let Some(picks) = picks else {
+            let (first, count) = (range.start, range.len());
+            return Self::select(video, &format!("gte(n\\,{first})"), count, range, size, format);
+        };
+        let picked = picks.get(range.clone()).unwrap_or_default();
+        let (Some(&first), Some(&last)) = (picked.first(), picked.last()) else {
+            bail!("{} has no frames {}..{}", video.path.display(), range.start, range.end);
+        };
+        let count = (last - first) as usize + 1;
+        let picks = Picked { picks: Arc::clone(picks), coming: first, last: Vec::new() };
+        let decoder = Self::select(video, &format!("gte(n\\,{first})"), count, range, size, format)?;
+        Ok(Self { picks: Some(picks), ..decoder })
     }
 
     /// Starts decoding `count` frames of a file that has `total`, evenly spread, each delivered at `size`.
     ///
     /// # Errors
     /// As [`Self::open`].
-    pub(super) fn open_spread(path: &Path, total: usize, count: usize, size: [u32; 2]) -> Result<Self> {
+    pub(super) fn open_spread(video: &Video, total: usize, count: usize, size: [u32; 2]) -> Result<Self> {
         // Frame n is one of them where n count / total passes a whole number before the next frame.
         let select = format!("gt(floor((n+1)*{count}/{total})\\,floor(n*{count}/{total}))");
-        Self::select(path, &select, 0..count, size, PixelFormat::Rgb)
+        Self::select(video, &select, count, 0..count, size, PixelFormat::Rgb)
     }
 
-    /// Starts decoding the frames that `select` lets through, which are counted by `range`.
-    fn select(path: &Path, select: &str, range: Range<usize>, size: [u32; 2], format: PixelFormat) -> Result<Self> {
+    /// Starts decoding the first `count` pictures that `select` lets through, for the frames of `range`.
+    fn select(
+        video: &Video,
+        select: &str,
+        count: usize,
+        range: Range<usize>,
+        size: [u32; 2],
+        format: PixelFormat,
+    ) -> Result<Self> {
+        let path = video.path.as_path();
         let program = ffmpeg_sidecar::paths::ffmpeg_path();
         let [width, height] = size;
         let (pixels, channels) = match format {
@@ -180,15 +236,17 @@ impl VideoDecoder {
         command.args(["-map", "0:v:0", "-an", "-sn", "-dn"]).args(passthrough_option(&program)?);
         // One conversion with rounding that does not depend on the processor's instruction set.
         command.arg("-vf").arg(format!(
-            "select={select},scale={width}:{height}:flags=area+accurate_rnd+full_chroma_int+bitexact,format={pixels}"
+            "select={select},{}scale={width}:{height}:flags=area+accurate_rnd+full_chroma_int+bitexact,format={pixels}",
+            video.turn.filter()
         ));
-        command.arg("-frames:v").arg(range.len().to_string()).args(["-bitexact", "-f", "rawvideo", "pipe:1"]);
+        command.arg("-frames:v").arg(count.to_string()).args(["-bitexact", "-f", "rawvideo", "pipe:1"]);
         Ok(Self {
             path: path.to_path_buf(),
             process: Process::spawn(command)?,
             next: range.start,
             end: range.end,
             frame_bytes: width as usize * height as usize * channels,
+            picks: None,
         })
     }
 
@@ -205,24 +263,42 @@ impl VideoDecoder {
         if self.next >= self.end {
             return Ok(None);
         }
+        let bytes = match &self.picks {
+            None => self.next_picture(self.next)?,
+            Some(picked) => {
+                let wanted = picked.picks[self.next];
+                self.picked(wanted)?
+            }
+        };
+        self.next += 1;
+        Ok(Some(bytes))
+    }
+
+    /// The picture of that number, which is the one that came last or one to come.
+    fn picked(&mut self, wanted: u32) -> Result<Vec<u8>> {
+        while let Some(coming) = self.picks.as_ref().map(|picked| picked.coming).filter(|coming| *coming <= wanted) {
+            let bytes = self.next_picture(coming as usize)?;
+            if let Some(picked) = &mut self.picks {
+                (picked.coming, picked.last) = (coming + 1, bytes);
+            }
+        }
+        Ok(self.picks.as_ref().map(|picked| picked.last.clone()).unwrap_or_default())
+    }
+
+    /// The picture that comes next, called `number` in messages.
+    fn next_picture(&mut self, number: usize) -> Result<Vec<u8>> {
         let mut bytes = vec![0; self.frame_bytes];
         match self.process.output.read_exact(&mut bytes) {
-            Ok(()) => {
-                self.next += 1;
-                Ok(Some(bytes))
-            }
+            Ok(()) => Ok(bytes),
             Err(error) if error.kind() == ErrorKind::UnexpectedEof => {
                 let ended = self.process.finish();
+                let last = self.picks.as_ref().map_or(self.end - 1, |picked| picked.picks[self.end - 1] as usize);
                 Err(anyhow!(
-                    "{}: decoding stopped before frame {}, expected frames up to {} (re-encoding the file may help): {ended}",
+                    "{}: decoding stopped before frame {number}, expected frames up to {last} (re-encoding the file may help): {ended}",
                     self.path.display(),
-                    self.next,
-                    self.end - 1
                 ))
             }
-            Err(error) => {
-                Err(error).with_context(|| format!("cannot read frame {} of {}", self.next, self.path.display()))
-            }
+            Err(error) => Err(error).with_context(|| format!("cannot read frame {number} of {}", self.path.display())),
         }
     }
 }

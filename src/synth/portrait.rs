@@ -11,7 +11,7 @@ use super::render::{Candidate, Cast};
 use super::solid::Ray;
 use crate::body::{Body, MeshSource, Skinning};
 use crate::texture::materials::Material;
-use crate::texture::picture::{Picture, shaded, shown};
+use crate::texture::picture::{Picture, SAMPLES, shaded, shown};
 
 /// Height of the person, mm.
 const HEIGHT: f64 = 1750.0;
@@ -49,7 +49,8 @@ pub fn portrait(
     // Half of the picture's shorter side shows a little more than half of the person.
     let reach = 1.08 * unit;
     let cells = Cells::new(&cast, middle, reach);
-    Ok(shown(size, |u, v| {
+    let pixel = scale * 2.0 * (reach / unit) as f32 / size[0].min(size[1]) as f32;
+    Ok(shown(size, material.samples(pixel, SAMPLES), |u, v| {
         let at = DVec2::new(f64::from(u), f64::from(v)) * reach;
         let ray = Ray { origin: middle + DVec3::new(at.x, -2.0 * HEIGHT, at.y), direction: DVec3::Y };
         let meeting = cast.first_meeting(&ray, cells.at(at))?;

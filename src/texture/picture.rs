@@ -57,10 +57,27 @@ impl View {
         [self.scale, self.scale * self.size[1] as f32 / self.size[0] as f32]
     }
 
-    fn point(&self, x: u32, y: u32) -> [f32; 3] {
-        let pixel = self.scale / self.size[0] as f32;
+    /// Side of a pixel, object units.
+    fn pixel(&self) -> f32 {
+        self.scale / self.size[0] as f32
+    }
+
+    /// The point at (u, v) of a pixel, each from 0 to 1.
+    fn point(&self, x: u32, y: u32, [u, v]: [f32; 2]) -> [f32; 3] {
+        let pixel = self.pixel();
         let up = self.size[1] - 1 - y;
-        [self.offset[0] + (x as f32 + 0.5) * pixel, self.offset[1] + (up as f32 + 0.5) * pixel, self.offset[2]]
+        [self.offset[0] + (x as f32 + u) * pixel, self.offset[1] + (up as f32 + v) * pixel, self.offset[2]]
+    }
+
+    /// The mean over a pixel, of so many samples along each axis.
+    fn mean<const N: usize>(&self, samples: u32, x: u32, y: u32, at: impl Fn([f32; 3]) -> [f32; N]) -> [f32; N] {
+        let place = |sample: u32| (sample as f32 + 0.5) / samples as f32;
+        let mut sum = [0.0; N];
+        for sample in 0..samples * samples {
+            let values = at(self.point(x, y, [place(sample % samples), place(sample / samples)]));
+            sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+        }
+        sum.map(|sum| sum / (samples * samples) as f32)
     }
 }
 
@@ -97,14 +114,24 @@ fn picture(size: [u32; 2], pixel: impl Fn(u32, u32) -> [f32; 3] + Sync) -> Pictu
     Picture::from_raw(size[0], size[1], draw(size, pixel)).unwrap_or_default()
 }
 
-/// The material, flat. `view` is a checked one.
+/// Linear light as a screen shows it, sRGB.
+fn encoded(x: f32) -> f32 {
+    if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// The material, flat; where pixels are coarser than its detail, its mean over each. `view` is a checked one.
 pub fn flat(material: &Material, view: &View) -> Picture {
-    picture(view.size, |x, y| material.at(view.point(x, y)).colour)
+    let samples = material.samples(view.pixel(), 1);
+    if samples == 1 {
+        return picture(view.size, |x, y| material.at(view.point(x, y, [0.5; 2])).colour);
+    }
+    picture(view.size, |x, y| view.mean(samples, x, y, |p| material.at(p).linear()).map(encoded))
 }
 
 /// Its heights.
 pub fn heights(material: &Material, view: &View) -> Heights {
-    let words = draw(view.size, |x, y| [material.at(view.point(x, y)).height]);
+    let samples = material.samples(view.pixel(), 1);
+    let words = draw(view.size, |x, y| view.mean(samples, x, y, |p| [material.at(p).height]));
     Heights::from_raw(view.size[0], view.size[1], words).unwrap_or_default()
 }
 
@@ -120,8 +147,10 @@ fn normalised(v: [f32; 3]) -> [f32; 3] {
 /// Towards the one light: from the upper left, before the object.
 const LIGHT: [f32; 3] = [-0.45, 0.6, 0.66];
 const BACKGROUND: f32 = 0.05;
-/// Samples a pixel along each axis: edges of the objects are smooth.
-const SAMPLES: u32 = 2;
+/// Samples a pixel along each axis at least: edges of the objects are smooth.
+pub const SAMPLES: u32 = 2;
+/// Half of what the view of a solid is wide, units of the object: a little more than any of them takes.
+const HALF_VIEW: f32 = 1.45;
 
 /// Where the ray through (u, v) in [-1, 1]^2 along -z meets the object: point and normal in object space, and the normal
 /// as the light sees it.
@@ -177,7 +206,8 @@ fn hit(solid: Solid, u: f32, v: f32) -> Option<([f32; 3], [f32; 3])> {
 /// The material on an object under one diffuse light; `scale` is units of the material a unit of the object.
 pub fn lit(material: &Material, solid: Solid, size: [u32; 2], offset: [f32; 3], scale: f32) -> Picture {
     let light = normalised(LIGHT);
-    shown(size, |u, v| {
+    let pixel = scale * 2.0 * HALF_VIEW / size[0].min(size[1]) as f32;
+    shown(size, material.samples(pixel, SAMPLES), |u, v| {
         hit(solid, u, v).map(|(p, normal)| {
             let texel = material.at(std::array::from_fn(|axis| p[axis] * scale + offset[axis]));
             shaded(texel, dot(normal, light))
@@ -192,18 +222,17 @@ pub fn shaded(texel: Texel, cosine: f32) -> [f32; 3] {
 }
 
 /// A picture of an object from the linear light along rays, none where they miss it. A ray's u and v are from -1 to 1 over the
-/// shorter side, to the right and up.
-pub fn shown(size: [u32; 2], ray: impl Fn(f32, f32) -> Option<[f32; 3]> + Sync) -> Picture {
+/// shorter side, to the right and up. `samples` rays a pixel along each axis.
+pub fn shown(size: [u32; 2], samples: u32, ray: impl Fn(f32, f32) -> Option<[f32; 3]> + Sync) -> Picture {
     let smaller = size[0].min(size[1]) as f32;
-    let encoded = |x: f32| if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
     picture(size, |x, y| {
         let mut sum = [0.0; 3];
-        for sample in 0..SAMPLES * SAMPLES {
-            let place = |pixel: u32, s: u32| pixel as f32 + (s as f32 + 0.5) / SAMPLES as f32;
-            let u = (2.0 * place(x, sample % SAMPLES) - size[0] as f32) / smaller;
-            let v = (size[1] as f32 - 2.0 * place(y, sample / SAMPLES)) / smaller;
+        for sample in 0..samples * samples {
+            let place = |pixel: u32, s: u32| pixel as f32 + (s as f32 + 0.5) / samples as f32;
+            let u = (2.0 * place(x, sample % samples) - size[0] as f32) / smaller;
+            let v = (size[1] as f32 - 2.0 * place(y, sample / samples)) / smaller;
             for (sum, c) in sum.iter_mut().zip(ray(u, v).unwrap_or([BACKGROUND; 3])) {
-                *sum += c / (SAMPLES * SAMPLES) as f32;
+                *sum += c / (samples * samples) as f32;
             }
         }
         sum.map(encoded)
@@ -229,4 +258,29 @@ pub fn contact_sheet(cell: u32, seed: u64) -> Result<Picture> {
         image::imageops::replace(&mut sheet, &ball, i64::from(left), i64::from(top + cell));
     }
     Ok(sheet)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// From far away grains and threads are their mean, neither noise nor moire; from near nothing changes.
+    #[test]
+    fn detail_finer_than_a_pixel_is_its_mean() {
+        for (name, least) in [("granite", 4.0), ("fabric", 1.5)] {
+            let material = Material::new(name, Parameters::Defaults, 1, None).unwrap();
+            let grey = |picture: &Picture| -> Vec<f64> { picture.pixels().map(|pixel| f64::from(pixel[1])).collect() };
+            let spread = |values: &[f64]| {
+                let mean = values.iter().sum::<f64>() / values.len() as f64;
+                (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len() as f64).sqrt()
+            };
+            let far = View { size: [64, 64], offset: [0.0; 3], scale: 24.0 };
+            let alone = picture(far.size, |x, y| material.at(far.point(x, y, [0.5; 2])).colour);
+            let (sampled, single) = (spread(&grey(&flat(&material, &far))), spread(&grey(&alone)));
+            assert!(sampled * least < single, "{name}: {sampled} of {single}");
+            let near = View { scale: 1.0, ..far };
+            let alone = picture(near.size, |x, y| material.at(near.point(x, y, [0.5; 2])).colour);
+            assert!(flat(&material, &near) == alone, "{name}: from near it is the formula at each pixel");
+        }
+    }
 }

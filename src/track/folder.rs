@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 use super::journal::Journal;
-use super::{motion_files, overlay, page, realtime, run_record};
+use super::{motion_files, overlay, page, realtime, run_record, smoothed};
 use crate::files::OutputFolder;
 
 /// Everything a run writes but its overlays.
@@ -30,10 +30,11 @@ const FILES: [&str; 14] = [
 /// Removes what an earlier run left in the folder, so that a new one never stands beside old results; files that no run writes stay.
 pub(super) fn clear(output: &OutputFolder) -> Result<()> {
     let remove = |path: &Path| fs::remove_file(path).with_context(|| format!("cannot replace {}", path.display()));
-    for name in FILES.into_iter().chain(motion_files::FILES) {
-        let path = output.path().join(name);
-        if path.is_file() {
-            remove(&path)?;
+    for name in FILES.into_iter().chain(motion_files::FILES).chain([smoothed::NOTE]) {
+        for path in [output.path().join(name), output.path().join(smoothed::FOLDER).join(name)] {
+            if path.is_file() {
+                remove(&path)?;
+            }
         }
     }
     let overlays = output.path().join(overlay::FOLDER);

@@ -41,6 +41,7 @@ mod run_record;
 mod scoring;
 mod searcher;
 mod settings;
+mod smoothed;
 mod summary;
 mod timings;
 mod tracked_points;

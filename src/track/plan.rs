@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 
 use super::searcher::Searcher;
+use super::smoothed::smoothing;
 use super::{Backend, BuiltBackend, TrackSettings};
 use crate::body::{Body, Mesh, PoseTable};
 use crate::evaluate::Objective;
@@ -47,6 +48,9 @@ impl Plan {
         let range = settings.frames.within(sequence.frame_count, &name)?;
         // Frames are counters of the random numbers.
         u32::try_from(range.end).map_err(|_| anyhow::anyhow!("{name} has {} frames, too many", range.end))?;
+        if let Some(cutoff) = settings.smooth {
+            smoothing(cutoff, sequence.fps, range.len())?;
+        }
         let body = Body::load(&sequence.body)?;
         let mut features = feature_settings(sequence)?;
         let usual = settings.usual_objective(!features.segment.is_empty());

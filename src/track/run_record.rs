@@ -15,7 +15,7 @@ use super::{Backend, Passes, RealtimeSettings, TrackSettings, Width};
 use crate::body::{MeshSource, Model};
 use crate::evaluate::Objective;
 use crate::files::{Limit, OutputFolder, read_toml, table_of};
-use crate::sequence::{Ignored, Sequence, Source};
+use crate::sequence::{Ignored, Sequence, Source, Turn, Video, View};
 
 /// Its name in a track's folder.
 pub(super) const NAME: &str = "run.toml";
@@ -128,7 +128,7 @@ impl Run {
         let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
         let command = format!(
             "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-             --refine {} --predict {}{}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}{}",
+             --refine {} --predict {}{}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}{}{}",
             sequence.path.display(),
             plan.range.start,
             plan.range.end,
@@ -146,6 +146,7 @@ impl Run {
             plan.backend.evaluator.name(),
             settings.model.name(),
             settings.overlay_every,
+            settings.smooth.map(|cutoff| format!(" --smooth {cutoff}")).unwrap_or_default(),
             if settings.recording { " --rerun" } else { "" },
             settings.realtime.as_ref().map(|realtime| realtime.flags()).unwrap_or_default(),
         );
@@ -195,6 +196,9 @@ struct Settings<'a> {
     backend: &'static str,
     model: &'static str,
     overlay_every: usize,
+    /// Cut-off, Hz.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    smooth: Option<f64>,
     #[serde(flatten)]
     realtime: Option<Realtime>,
     features: Cow<'a, Table>,
@@ -238,6 +242,7 @@ impl<'a> Settings<'a> {
             backend: plan.backend.evaluator.name(),
             model: settings.model.name(),
             overlay_every: settings.overlay_every,
+            smooth: settings.smooth,
             realtime: settings.realtime.as_ref().map(realtime),
             features: sequence.features.as_ref().map_or_else(Cow::default, Cow::Borrowed),
         })
@@ -274,6 +279,7 @@ impl<'a> Inputs<'a> {
             if let Some((first, count)) = view.ignored.as_ref().map(Ignored::first) {
                 files.push(count.map_or_else(|| sum_of(&first), |count| described_pictures(&first, count))?);
             }
+            files.extend(changed(view));
             views.insert(format!("view {}", view.camera), files);
         }
         Ok(Self {
@@ -295,13 +301,26 @@ impl<'a> Inputs<'a> {
 fn described(source: &Source) -> Result<String> {
     match source {
         Source::Live(live) => Ok(live.address.clone()),
-        Source::Video(path) => {
+        Source::Video(Video { path, .. }) => {
             let size = fs::metadata(path).with_context(|| format!("cannot read {}", path.display()))?.len();
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             Ok(format!("{name}, {size} bytes"))
         }
         Source::Pictures(pattern) => described_pictures(&pattern.file(0), pattern.frame_count()),
     }
+}
+
+/// What is made of a view's pictures before they are frames, where it is something: which they are, and how they are turned.
+fn changed(view: &View) -> Vec<String> {
+    let turned = match &view.source {
+        Source::Video(Video { turn, .. }) if *turn != Turn::None => Some(turn.said().to_string()),
+        _ => None,
+    };
+    let picked = view.picks.as_deref().map(|picks| {
+        let bytes: Vec<u8> = picks.iter().flat_map(|pick| pick.to_le_bytes()).collect();
+        format!("pictures {} and on for frames, {}", picks.first().copied().unwrap_or(0), sum(&bytes))
+    });
+    turned.into_iter().chain(picked).collect()
 }
 
 /// Numbered pictures by the name of the first and their number.

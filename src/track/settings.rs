@@ -40,6 +40,8 @@ pub struct TrackSettings {
     pub frames: FrameRange,
     /// A poses.csv to start from instead of the sequence's: one row, or one whose frame is the first to be tracked.
     pub start: Option<PathBuf>,
+    /// Cut-off of a low-pass, Hz, by which the results are smoothed that are written beside them, into `smoothed/`; none without.
+    pub smooth: Option<f64>,
     /// Every how many frames the model is drawn over the pictures; 0 for never.
     pub overlay_every: usize,
     /// Measure every pass on the device, for the trace and the timings; it costs time of its own.
@@ -68,6 +70,7 @@ impl Default for TrackSettings {
             recover: true,
             frames: FrameRange::default(),
             start: None,
+            smooth: None,
             overlay_every: 10,
             trace: false,
             recording: false,
@@ -133,6 +136,11 @@ impl TrackSettings {
         if let Some(realtime) = &self.realtime {
             realtime.check()?;
             ensure!(
+                self.smooth.is_none(),
+                "smoothing without delay takes the frames that are yet to come, and a run in real time has none: leave out --smooth, or \
+                 smooth its poses.csv afterwards (pantin convert --smooth)"
+            );
+            ensure!(
                 self.passes() == Passes::Forward,
                 "a run in real time goes over its frames once, expected --passes forward"
             );
@@ -174,6 +182,9 @@ mod tests {
         settings.passes = Some(Passes::Both);
         let error = settings.check().unwrap_err().to_string();
         assert!(error.contains("expected --passes forward"), "{error}");
+        settings = TrackSettings { smooth: Some(6.0), passes: None, ..settings };
+        let error = settings.check().unwrap_err().to_string();
+        assert!(error.contains("leave out --smooth"), "{error}");
         let mut settings = TrackSettings::default();
         settings.search.particles = 0;
         let error = settings.check().unwrap_err().to_string();

@@ -29,6 +29,7 @@ fn a_walk_is_made_tracked_and_scored() {
     let report = std::fs::read_to_string(folder.join("report.html")).unwrap();
     assert!(report.contains("data:image/jpeg;base64,") && report.contains("<canvas") && report.contains("left_wrist"));
 
+    smoothed_results_lie_beside_those_found(&folder.join("sequence"), &temporary.path().join("track"));
     let poses = std::fs::read(folder.join("poses.csv")).unwrap();
     let refused = demo(&folder, &[]);
     let message = stderr(&refused);
@@ -37,6 +38,51 @@ fn a_walk_is_made_tracked_and_scored() {
     let again = demo(&folder, &["--force", "--particles", "300", "--iterations", "12"]);
     assert!(again.status.success());
     assert_eq!(std::fs::read(folder.join("poses.csv")).unwrap(), poses, "the same seed gives the same bytes");
+}
+
+/// `track --smooth`: the results as they were found stay, the smoothed ones are beside them, and the cut-off is said everywhere.
+fn smoothed_results_lie_beside_those_found(sequence: &Path, output: &Path) {
+    let track = |more: &[&str]| {
+        let mut command = program();
+        command.arg("track").arg(sequence).arg("-o").arg(output).args(["--particles", "60", "--iterations", "6"]);
+        command.args(["--overlay-every", "0", "--force"]).args(more).output().unwrap()
+    };
+    let plain = track(&[]);
+    assert!(plain.status.success(), "{}", stderr(&plain));
+    let found = std::fs::read(output.join("poses.csv")).unwrap();
+    assert!(!output.join("smoothed").exists());
+    let done = track(&["--smooth", "6"]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    assert!(
+        stderr(&done).contains("smoothed/ holds the results smoothed at 6 Hz (-3 dB after both passes)"),
+        "{}",
+        stderr(&done)
+    );
+    assert_eq!(std::fs::read(output.join("poses.csv")).unwrap(), found, "what was found stays");
+    let read = |name: &str| std::fs::read_to_string(output.join(name)).unwrap();
+    assert!(read("run.toml").contains("smooth = 6.0") && read("run.toml").contains(" --smooth 6"));
+    assert!(read("smoothed/smoothing.toml").contains("cut_off = 6.0 # Hz"), "{}", read("smoothed/smoothing.toml"));
+    assert!(read("report.html").contains("results smoothed at 6 Hz"));
+    // The steps from step to step tremble less.
+    let body = pantin::body::Body::load(&sequence.join("body.toml")).unwrap();
+    let trembling = |name: &str| {
+        let poses = pantin::body::PoseTable::read(&output.join(name), &body).unwrap().poses;
+        let bend = |at: usize, dof: usize| (poses[at - 1][dof] - 2.0 * poses[at][dof] + poses[at + 1][dof]).abs();
+        (1..poses.len() - 1).flat_map(|at| (3..6).map(move |dof| (at, dof))).map(|(at, dof)| bend(at, dof)).sum::<f64>()
+    };
+    let (rough, smooth) = (trembling("poses.csv"), trembling("smoothed/poses.csv"));
+    assert!(smooth > 0.0 && smooth < 0.8 * rough, "{smooth} of {rough}");
+    for name in ["joints.csv", "joints.trc", "markers.c3d", "motion.bvh", "motion.mot"] {
+        assert!(output.join("smoothed").join(name).is_file(), "{name}");
+    }
+    for (more, expected) in [
+        (&["--smooth", "6", "--frames", "0..9"][..], "--smooth takes 10 frames or more, and 9 are to be tracked"),
+        (&["--smooth", "40"], "the cut-off is 40 Hz"),
+        (&["--smooth", "6", "--realtime"], "leave out --smooth"),
+    ] {
+        let refused = track(more);
+        assert!(refused.status.code() == Some(1) && stderr(&refused).contains(expected), "{}", stderr(&refused));
+    }
 }
 
 #[test]

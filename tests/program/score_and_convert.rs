@@ -236,6 +236,70 @@ fn poses_become_every_file_of_motion() {
     );
 }
 
+/// A trembling of 10 Hz on a steady walk of 50 frames a second goes at 3 Hz, in points and in poses; the cut-off is said.
+#[test]
+fn smoothing_takes_the_trembling_away_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let body = Body::adult(1750.0).unwrap();
+    body.save(&at.join("body.toml"), Overwrite::Refuse).unwrap();
+    let knee = body.dof_names().iter().position(|name| name == "left_knee.ry").unwrap();
+    let pose = |frame: usize, trembling: f64| {
+        let phase = std::f64::consts::TAU * frame as f64 / 5.0;
+        let mut pose = body.standing_pose();
+        pose[0] += 10.0 * frame as f64 + 20.0 * trembling * phase.sin();
+        pose[knee] += 0.4 + 0.1 * trembling * phase.cos();
+        pose
+    };
+    let write = |name: &str, trembling: f64| {
+        let poses = (0..100).map(|frame| pose(frame, trembling)).collect();
+        let table = PoseTable { poses, frames: (0..100).collect() };
+        table.write(&at.join(name), Overwrite::Refuse, &body).unwrap();
+    };
+    write("trembling.csv", 1.0);
+    write("steady.csv", 0.0);
+    let convert = |arguments: &[&str]| {
+        let (status, out, error) = pantin(at, &[&["convert"], arguments].concat());
+        assert_eq!(status, 0, "{out}{error}");
+        error
+    };
+    let of_poses = ["--body", "body.toml", "--rate", "50"];
+    for (from, to, smooth) in
+        [("steady", "s.csv", &[][..]), ("trembling", "t.csv", &[]), ("trembling", "p.csv", &["--smooth", "3"])]
+    {
+        convert(&[&[&format!("{from}.csv"), to], &of_poses[..], smooth].concat());
+    }
+    let told = convert(&["t.csv", "q.csv", "--smooth", "3"]);
+    assert!(told.contains("smoothed at 3 Hz (-3 dB after both passes): Butterworth low-pass without delay"), "{told}");
+    let read = |name: &str| read_points(&at.join(name)).unwrap();
+    let steady = read("s.csv");
+    let off = |name: &str| {
+        let points = read(name);
+        // The ends are guessed at on one side.
+        let far = |frame: usize| {
+            points.frames[frame].iter().zip(&steady.frames[frame]).map(|(a, b)| a.unwrap().distance(b.unwrap()))
+        };
+        (10..90).flat_map(far).fold(0.0, f64::max)
+    };
+    let [trembling, poses, points] = ["t.csv", "p.csv", "q.csv"].map(off);
+    // A knee that swings moves the mean of the ankle's arc by a millimetre too.
+    assert!(trembling > 20.0 && poses < 2.0 && points < 2.0, "{trembling}, {poses} and {points} mm");
+
+    refused(
+        at,
+        &["convert", "t.csv", "x.csv", "--smooth", "25"],
+        "t.csv: the cut-off is 25 Hz, expected more than 0 and less than half",
+    );
+    fs::write(at.join("few.csv"), "frame,time,a.x,a.y,a.z\n0,0,1,2,3\n1,0.02,1,2,3\n").unwrap();
+    refused(
+        at,
+        &["convert", "few.csv", "x.csv", "--smooth", "6"],
+        "few.csv: no point is there in 10 consecutive frames",
+    );
+    fs::write(at.join("a.bvh"), BVH).unwrap();
+    refused(at, &["convert", "a.bvh", "b.bvh", "--smooth", "6"], "--smooth is for points and poses");
+}
+
 #[test]
 fn convert_refuses_in_one_sentence() {
     let folder = tempfile::tempdir().unwrap();

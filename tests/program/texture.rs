@@ -64,6 +64,62 @@ fn an_example_grows_the_same_on_both_backends() {
 }
 
 #[test]
+fn parameters_are_listed_as_they_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        let output = texture(arguments, folder.path());
+        assert!(output.status.success(), "{arguments:?}: {}", message(&output));
+        stdout(&output)
+    };
+    let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    for line in run(&["--list"]).lines() {
+        let name = line.split_whitespace().next().unwrap();
+        let defaults = run(&[name, "--defaults"]);
+        std::fs::write(folder.path().join("all.toml"), &defaults).unwrap();
+        run(&[name, "-o", "plain.png", "--size", "24x24", "--force"]);
+        run(&[name, "-o", "listed.png", "--size", "24x24", "--params", "all.toml", "--force"]);
+        assert_eq!(read("plain.png"), read("listed.png"), "{name}: {defaults}");
+        // The documents have every one of them.
+        let table: toml::Table = defaults.parse().unwrap();
+        let documented = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/TEXTURE.md")).unwrap();
+        let row = documented.lines().find(|line| line.starts_with(&format!("| `{name}` |"))).unwrap_or_default();
+        for key in table.keys() {
+            assert!(row.contains(&format!("`{key}")), "{name}: {key} is not in docs/TEXTURE.md");
+        }
+    }
+    assert!(run(&["sun", "--defaults"]) == run(&["lava", "--defaults"]));
+}
+
+/// An example may be any picture; what is no picture, or is cut short, is a sentence.
+#[test]
+fn examples_come_in_every_format() {
+    let folder = tempfile::tempdir().unwrap();
+    let example = image::RgbImage::from_fn(24, 24, |x, y| {
+        image::Rgb([(x * 9) as u8, (y * 9) as u8, if (x / 6 + y / 6) % 2 == 0 { 200 } else { 20 }])
+    });
+    let mut grown = Vec::new();
+    for end in ["png", "bmp", "tiff", "webp", "gif", "jpg"] {
+        let (from, to) = (format!("e.{end}"), format!("{end}.png"));
+        example.save(folder.path().join(&from)).unwrap();
+        let done = texture(
+            &["--example", &from, "-o", &to, "--size", "32x32", "--patch", "12", "--overlap", "4"],
+            folder.path(),
+        );
+        assert!(done.status.success(), "{end}: {}", message(&done));
+        grown.push(std::fs::read(folder.path().join(&to)).unwrap());
+        let bytes = std::fs::read(folder.path().join(&from)).unwrap();
+        std::fs::write(folder.path().join(&from), &bytes[..bytes.len() / 4]).unwrap();
+        let failed = texture(&["--example", &from, "-o", "x.png"], folder.path());
+        let message = message(&failed);
+        assert!(
+            failed.status.code() == Some(1) && message.contains(&from) && message.trim().lines().count() == 1,
+            "{end}: {message}"
+        );
+    }
+    assert!(grown[..4].iter().all(|same| *same == grown[0]), "formats without loss give one texture");
+}
+
+#[test]
 fn bad_requests_are_one_sentence() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("p.toml"), "vien = [1.0, 0.0, 0.0]\n").unwrap();
@@ -75,6 +131,7 @@ fn bad_requests_are_one_sentence() {
         ),
         (&["marble", "-o", "x.png", "--size", "0x9"], "a picture of 0 x 9 pixels"),
         (&["marble", "-o", "x.png", "--params", "p.toml"], "nearest known key is `vein`"),
+        (&["marbel", "--defaults"], "unknown material `marbel`, the nearest is `marble`"),
         (&["marble", "-o", "x.png", "--scale", "nan"], "a picture of NaN units"),
         (&["marble", "-o", "x.png", "--preview", "sphere", "--person", "a.glb"], "--person is for --preview person"),
         (&["marble", "-o", "x.png", "--preview", "person", "--person", "a.glb"], "a.glb"),

@@ -5,12 +5,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail, ensure};
 
 use super::listing::{entries, folders_of};
+use crate::files::PICTURE_ENDINGS;
 
 /// What Pose2Sim takes for a video.
 const VIDEOS: [&str; 10] = ["mp4", "avi", "mov", "mkv", "wmv", "flv", "webm", "m4v", "mpeg", "mpg"];
-
-/// Pictures that can be read here.
-const PICTURES: [&str; 3] = ["png", "jpg", "jpeg"];
 
 /// A recording of one camera.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -43,7 +41,7 @@ pub(super) fn recordings(trial: &Path) -> Result<Vec<Recording>> {
             "{} holds no video ({}) and no folder of pictures ({}), expected one of each camera",
             folder.display(),
             VIDEOS.join(", "),
-            PICTURES.join(", ")
+            PICTURE_ENDINGS.join(", ")
         );
     }
     found.sort_by_cached_key(|recording| {
@@ -65,7 +63,8 @@ fn last_number(name: &str) -> Option<u64> {
 
 /// The pattern of the names of a folder's pictures, by the first of them: its last number counts. None without pictures.
 fn pattern(folder: &Path) -> Result<Option<PathBuf>> {
-    let pictures: Vec<PathBuf> = entries(folder)?.into_iter().filter(|file| ends_like(file, &PICTURES)).collect();
+    let pictures: Vec<PathBuf> =
+        entries(folder)?.into_iter().filter(|file| ends_like(file, &PICTURE_ENDINGS)).collect();
     let Some(first) = pictures.first() else { return Ok(None) };
     let name = first.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem);

@@ -1,13 +1,13 @@
 //! A wall of bricks in running bond, each of its own shade, with rough faces and mortar between.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::space::{blend, lit, step};
 use super::{Solid, Space, Texel};
 use crate::texture::shaders::MATERIAL_BRICK;
 
 /// Parameters.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Brick {
     /// Colour of the brightest bricks, sRGB 0..1.

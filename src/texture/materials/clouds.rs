@@ -1,13 +1,13 @@
 //! Clouds: sky seen through four octaves of noise.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::space::blend;
 use super::{Solid, Space, Texel};
 use crate::texture::shaders::MATERIAL_CLOUDS;
 
 /// Parameters; the thesis's values by default.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Clouds {
     /// Colour of the sky, sRGB 0..1.

@@ -1,13 +1,13 @@
 //! Woven cloth: warp and weft over and under each other.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::space::lit;
 use super::{Solid, Space, Texel};
 use crate::texture::shaders::MATERIAL_FABRIC;
 
 /// Parameters.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Fabric {
     /// Colour of the threads along y, sRGB 0..1.
@@ -63,6 +63,11 @@ impl Solid for Fabric {
         let fibres = space.another(3).sum(crate::texture::noise::Sum::Fbm, 3, fibre.map(|f| f * self.threads * 0.5), p);
         let shade = (0.35 + 0.65 * height) * (1.0 + self.irregularity * (0.5 * own + 0.35 * fibres));
         Texel { colour: lit(colour, shade).map(|c| c.clamp(0.0, 1.0)), height: height.clamp(0.0, 1.0) }
+    }
+
+    fn finest(&self) -> f32 {
+        // Light and dark of a thread.
+        2.0 * self.threads
     }
 
     fn numbers(&self) -> Option<(u32, Vec<f32>)> {

@@ -1,12 +1,12 @@
 //! Granite: the highest octave alone, as grey grains.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Solid, Space, Texel};
 use crate::texture::shaders::MATERIAL_GRANITE;
 
 /// Parameters; the thesis's values by default.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Granite {
     /// Colour of the light grains, sRGB 0..1.
@@ -27,6 +27,10 @@ impl Solid for Granite {
     fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
         let height = (self.contrast * space.octave(3, self.scale, p)).clamp(0.0, 1.0);
         Texel { colour: self.colour.map(|c| c * height), height }
+    }
+
+    fn finest(&self) -> f32 {
+        8.0 * self.scale
     }
 
     fn numbers(&self) -> Option<(u32, Vec<f32>)> {

@@ -1,12 +1,12 @@
 //! Grass: blades, each a tapered stroke over those behind it.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::space::{blend, lit};
 use super::{Solid, Space, Texel};
 
 /// Parameters.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Grass {
     /// Colour at the ground, sRGB 0..1.

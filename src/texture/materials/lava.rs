@@ -1,6 +1,6 @@
 //! The sun's surface, or lava: bright where octaves cross their means.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::space::blend;
 use super::{Solid, Space, Texel};
@@ -8,7 +8,7 @@ use crate::texture::noise::Sum;
 use crate::texture::shaders::MATERIAL_LAVA;
 
 /// Parameters; the thesis's values by default.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Lava {
     /// Colour of the bright veins, sRGB 0..1.

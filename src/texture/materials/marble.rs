@@ -1,6 +1,6 @@
 //! Marble: layers bent by turbulence.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::space::blend;
 use super::{Solid, Space, Texel};
@@ -8,7 +8,7 @@ use crate::texture::noise::Sum;
 use crate::texture::shaders::MATERIAL_MARBLE;
 
 /// Parameters; frequencies are the thesis's by default.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Marble {
     /// Colour of the veins, sRGB 0..1.

@@ -22,6 +22,7 @@ mod wood;
 use std::path::Path;
 
 use anyhow::{Result, anyhow, bail};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 pub use brick::Brick;
@@ -97,38 +98,75 @@ fn built<T: Solid + DeserializeOwned + Default + 'static>(
     Ok(Box::new(parameters.read::<T>()?))
 }
 
+/// How a material is made, and its parameters as a file has them.
+struct Made {
+    build: Build,
+    defaults: fn() -> Result<String>,
+}
+
+impl Made {
+    const fn of<T: Solid + DeserializeOwned + Serialize + Default + 'static>() -> Self {
+        Self { build: built::<T>, defaults: defaults::<T> }
+    }
+}
+
+fn defaults<T: Serialize + Default>() -> Result<String> {
+    Ok(toml::to_string(&T::default())?)
+}
+
 choices! {
     /// A material by name.
-    "material" pub enum MaterialKind => build: Build {
+    "material" pub enum MaterialKind => made: Made {
         /// sky through four octaves of noise
-        "clouds" Clouds => built::<Clouds>,
+        "clouds" Clouds => Made::of::<Clouds>(),
         /// lava, or a sun's surface (also called `sun`): turbulence about the means of the octaves
-        "lava" Lava => built::<Lava>,
+        "lava" Lava => Made::of::<Lava>(),
         /// layers bent by turbulence
-        "marble" Marble => built::<Marble>,
+        "marble" Marble => Made::of::<Marble>(),
         /// grey grains: the highest octave alone
-        "granite" Granite => built::<Granite>,
+        "granite" Granite => Made::of::<Granite>(),
         /// rings about the y axis, disturbed by noise, with a fine grain
-        "wood" Wood => built::<Wood>,
+        "wood" Wood => Made::of::<Wood>(),
         /// wood of floors and furniture: even rings about the y axis
-        "timber" Timber => built::<Timber>,
+        "timber" Timber => Made::of::<Timber>(),
         /// a wall in running bond with mortar
-        "brick" Brick => built::<Brick>,
+        "brick" Brick => Made::of::<Brick>(),
         /// blades over blades, fresh and dry
-        "grass" Grass => built::<Grass>,
+        "grass" Grass => Made::of::<Grass>(),
         /// woven threads, plain or twill
-        "fabric" Fabric => built::<Fabric>,
+        "fabric" Fabric => Made::of::<Fabric>(),
         /// mottled skin with freckles and pores
-        "skin" Skin => built::<Skin>,
+        "skin" Skin => Made::of::<Skin>(),
         /// terrain by random mid-point displacement, in colour bands
-        "fractal" Fractal => |parameters, seed| Ok(Box::new(parameters.read::<Fractal>()?.displaced(seed))),
+        "fractal" Fractal => Made {
+            build: |parameters, seed| Ok(Box::new(parameters.read::<Fractal>()?.displaced(seed))),
+            defaults: defaults::<Fractal>,
+        },
         /// terrain by noise, in colour bands with isolines
-        "terrain" Terrain => built::<Terrain>,
+        "terrain" Terrain => Made::of::<Terrain>(),
     }
 }
 
 /// What lava is called too: the formula is that of a sun's surface.
 const SUN: &str = "sun";
+
+impl MaterialKind {
+    /// The material of a name, or of another name that one is known by.
+    ///
+    /// # Errors
+    /// When there is none: the nearest is named.
+    pub fn of(name: &str) -> Result<Self> {
+        Self::from_name(if name == SUN { Self::Lava.name() } else { name })
+    }
+
+    /// Its parameters with their defaults, as a file of parameters has them (TOML).
+    ///
+    /// # Errors
+    /// When they are no TOML, which a test holds them to.
+    pub fn defaults(self) -> Result<String> {
+        (self.made().defaults)()
+    }
+}
 
 /// A material, ready to be looked up.
 pub struct Material {
@@ -150,18 +188,24 @@ impl Material {
     /// When there is none of that name (the nearest is named), when the parameters have an unknown key or a number that is not
     /// finite or beyond 1e6, or when the tile is not a positive length.
     pub fn new(name: &str, parameters: Parameters<'_>, seed: u64, tile: Option<[f32; 2]>) -> Result<Self> {
-        let kind = MaterialKind::from_name(if name == SUN { MaterialKind::Lava.name() } else { name })?;
+        let kind = MaterialKind::of(name)?;
         if let Some(tile) = tile.filter(|tile| !tile.iter().all(|length| (1e-3..=1e4).contains(length))) {
             bail!("a tile of {} x {} units, expected lengths from 0.001 to 10000", tile[0], tile[1]);
         }
         parameters.check()?;
-        Ok(Self { solid: (kind.build())(parameters, seed)?, space: Space::new(seed, tile) })
+        Ok(Self { solid: (kind.made().build)(parameters, seed)?, space: Space::new(seed, tile) })
     }
 
     /// The texel at a point, object units. The same on every call and thread.
     pub fn at(&self, p: [f32; 3]) -> Texel {
         let texel = self.solid.at(&self.space, p.map(|x| if x.is_finite() { x.clamp(-1e6, 1e6) } else { 0.0 }));
         Texel { colour: texel.colour.map(|c| c.clamp(0.0, 1.0)), height: texel.height.clamp(0.0, 1.0) }
+    }
+
+    /// Samples along each axis that a pixel of `pixel` units needs, so that detail finer than it is its mean instead of noise or moire: two
+    /// for each cell, `least` at least and 16 at most.
+    pub fn samples(&self, pixel: f32, least: u32) -> u32 {
+        ((2.0 * self.solid.finest().abs() * pixel).min(16.0).ceil() as u32).max(least)
     }
 
     /// The material for stages, within 1e-3 of [`Self::at`] but beside edges; none where stages do not have it.

@@ -1,12 +1,12 @@
 //! Skin: mottled red and pale, with freckles and pores.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::space::{blend, lit, step};
 use super::{Solid, Space, Texel};
 
 /// Parameters.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Skin {
     /// Colour of the skin, sRGB 0..1.

@@ -23,6 +23,11 @@ pub(crate) trait Solid: Send + Sync {
     /// The texel at `p`, object units.
     fn at(&self, space: &Space, p: [f32; 3]) -> Texel;
 
+    /// Cells of its finest strong detail a unit of length, which pictures hold their samples to; 0 where coarse pixels do it no harm.
+    fn finest(&self) -> f32 {
+        0.0
+    }
+
     /// Its kind (`MATERIAL_*`) and numbers in the order of `glsl/texture/materials.glsl`, where stages have it.
     fn numbers(&self) -> Option<(u32, Vec<f32>)> {
         None

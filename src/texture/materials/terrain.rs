@@ -1,6 +1,6 @@
 //! Terrain from above: heights by mid-point displacement or by noise, in colour bands or with isolines.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::midpoint::Surface;
 use super::space::{blend, lit};
@@ -8,7 +8,7 @@ use super::{Solid, Space, Texel};
 use crate::texture::noise::Sum;
 
 /// A colour from a height on.
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Band {
     /// Height, 0 to 1.
@@ -18,7 +18,7 @@ pub struct Band {
 }
 
 /// Looks that both kinds of terrain share.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Map {
     /// Colours by height, lowest first; between two they are mixed.
@@ -84,7 +84,7 @@ impl Map {
 }
 
 /// Terrain by random mid-point displacement.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Fractal {
     /// Length after which it repeats, units; a tile's length goes before it.
@@ -132,7 +132,7 @@ impl Solid for Displaced {
 }
 
 /// Terrain by noise.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Terrain {
     /// What is summed of the octaves.

@@ -1,14 +1,14 @@
 //! Timber: wood as floors and furniture show it. Noise is taken about its mean, so that rings stay about the y axis and follow each
 //! other evenly, and the grain is faint.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::space::blend;
 use super::{Solid, Space, Texel, Wood};
 use crate::texture::shaders::MATERIAL_TIMBER;
 
 /// Parameters: those of wood, of which `noisiness` is how far noise moves the rings, units of length, and nothing else.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(transparent)]
 pub struct Timber(pub Wood);
 

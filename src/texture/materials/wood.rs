@@ -1,13 +1,13 @@
 //! Wood: rings about the y axis, disturbed by noise, with a fine grain.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::space::blend;
 use super::{Solid, Space, Texel};
 use crate::texture::shaders::MATERIAL_WOOD;
 
 /// Parameters; the thesis's values by default.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Wood {
     /// Colour of the early wood, sRGB 0..1.

@@ -21,10 +21,8 @@ use super::fit::{Coverage, Fit, FitSettings, fit_with};
 use crate::files::{OutputFolder, Overwrite, file_stem, listed, write_atomically};
 use crate::geometry::Camera;
 use crate::observe::{Advance, with_plates};
-use crate::sequence::{Footage, Sequence, check_fps, read_cameras};
+use crate::sequence::{Footage, SAME_RATE, Sequence, check_fps, read_cameras};
 
-/// Rates of frames that differ by less than this share are one rate.
-const SAME_RATE: f64 = 1e-3;
 /// A body that covers less of the silhouettes than this, or lies on them with less, does not fit.
 const FITS: f64 = 0.65;
 
@@ -108,18 +106,20 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
     let all_cameras = read_cameras(&settings.cameras)?;
     let matched = match_cameras(&settings.videos, &all_cameras)?;
     let cameras: Vec<Camera> = matched.iter().map(|&at| all_cameras[at].clone()).collect();
-    let footage = settings.videos.iter().map(|video| Footage::open(video)).collect::<Result<Vec<_>>>()?;
+    let fitting = |(video, camera): (&PathBuf, &Camera)| Ok(Footage::open(video)?.fitting(camera.size));
+    let footage = settings.videos.iter().zip(&cameras).map(fitting).collect::<Result<Vec<_>>>()?;
     for (footage, camera) in footage.iter().zip(&cameras) {
         let ([width, height], [wide, high]) = (footage.size, camera.size);
         ensure!(
             footage.size == camera.size,
-            "{} has pictures of {width}x{height} pixels, but camera {:?} is calibrated for {wide}x{high}",
+            "{} has pictures of {width}x{height} pixels, but camera {:?} is calibrated for {wide}x{high}{}",
             footage.shown,
-            camera.name
+            camera.name,
+            footage.turned().map_or_else(String::new, |turned| format!(" ({turned})"))
         );
     }
     let mut remarks = unused(&all_cameras, &matched);
-    let fps = rate(settings.fps, &footage, &mut remarks)?;
+    let fps = rate(settings.fps, &footage)?;
     let ChosenScale { scale, heights } = match settings.scale {
         Some(scale) => choose_scale(&cameras, height).at(scale),
         None => choose_scale(&cameras, height),
@@ -148,6 +148,7 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
     write_manifest(filmed.as_deref().unwrap_or_default(), settings.overwrite)?;
     let (frame_count, learnt) = {
         let sequence = Sequence::open_unfitted(&manifest)?;
+        remarks.extend(sequence.remarks());
         let plated = with_plates(&sequence, progress)?;
         remarks.extend(plated.remarks());
         (sequence.frame_count, plated.learnt)
@@ -191,41 +192,41 @@ fn unused(cameras: &[Camera], matched: &[usize]) -> Vec<String> {
     if names.is_empty() { Vec::new() } else { vec![format!("no video is of camera {}", listed(&names))] }
 }
 
-/// Frames per second: what is asked for, or the first video's.
-fn rate(asked: Option<f64>, footage: &[Footage], remarks: &mut Vec<String>) -> Result<f64> {
-    let said: Vec<(&str, f64)> = footage.iter().filter_map(|one| Some((one.shown.as_str(), one.fps?))).collect();
-    let Some(fps) = asked.or_else(|| said.first().map(|(_, fps)| *fps)) else {
+/// Frames per second: what is asked for, or that of the most videos, of as many the first's. The sequence says where others differ.
+fn rate(asked: Option<f64>, footage: &[Footage]) -> Result<f64> {
+    let said: Vec<f64> = footage.iter().filter_map(|one| one.fps).collect();
+    let alike = |fps: f64| said.iter().filter(|rate| (*rate / fps - 1.0).abs() <= SAME_RATE).count();
+    let most = said.iter().map(|fps| alike(*fps)).max();
+    let common = said.iter().copied().find(|fps| Some(alike(*fps)) == most);
+    let Some(fps) = asked.or(common) else {
         bail!("numbered pictures do not tell how many frames a second they are, expected --fps");
     };
     check_fps(fps)?;
-    if let Some((other, rate)) = said.iter().find(|(_, rate)| (rate / fps - 1.0).abs() > SAME_RATE) {
-        remarks.push(format!(
-            "{other} says {rate:.3} frames a second, and {fps:.3} are taken: frames that were not taken at the same moment cannot be \
-             put together (--fps says otherwise)"
-        ));
-    }
     Ok(fps)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sequence::Source;
+    use crate::sequence::{Source, Turn, Video};
 
     fn footage(fps: Option<f64>) -> Footage {
-        let source = Source::Video("v.mp4".into());
-        Footage { shown: "v.mp4".into(), source, size: [8, 8], frame_count: 9, rotation: 0, fps }
+        let source = Source::Video(Video { path: "v.mp4".into(), turn: Turn::None });
+        let (shown, size) = ("v.mp4".into(), [8, 8]);
+        Footage { shown, source, size, frame_count: 9, marked: Turn::None, fps, times: None, made: None }
     }
 
     #[test]
-    fn rates_that_differ_are_said_and_a_missing_one_is_asked_for() {
-        let mut remarks = Vec::new();
-        assert_eq!(rate(None, &[footage(Some(29.97)), footage(Some(29.98))], &mut remarks).unwrap(), 29.97);
-        assert!(remarks.is_empty(), "{remarks:?}");
-        assert_eq!(rate(None, &[footage(Some(30.0)), footage(Some(25.0))], &mut remarks).unwrap(), 30.0);
-        assert!(remarks[0].contains("v.mp4 says 25.000 frames a second, and 30.000 are taken"), "{remarks:?}");
-        let error = rate(None, &[footage(None)], &mut remarks).unwrap_err().to_string();
+    fn the_rate_is_that_of_most_videos_and_a_missing_one_is_asked_for() {
+        let of = |asked, rates: &[f64]| {
+            let footage: Vec<Footage> = rates.iter().map(|rate| footage(Some(*rate))).collect();
+            rate(asked, &footage).unwrap()
+        };
+        assert_eq!(of(None, &[29.97, 29.98]), 29.97);
+        assert_eq!(of(None, &[30.0, 25.0]), 30.0);
+        assert_eq!(of(None, &[30.0, 25.0, 25.001]), 25.0);
+        assert_eq!(of(Some(50.0), &[30.0, 25.0]), 50.0);
+        let error = rate(None, &[footage(None)]).unwrap_err().to_string();
         assert!(error.contains("expected --fps"), "{error}");
-        assert_eq!(rate(Some(50.0), &[footage(None)], &mut remarks).unwrap(), 50.0);
     }
 }

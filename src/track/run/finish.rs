@@ -10,6 +10,7 @@ use crate::track::journal::{Extent, Journal};
 use crate::track::pace::Finished;
 use crate::track::results;
 use crate::track::run_record::RunRecord;
+use crate::track::smoothed;
 use crate::track::summary::{TrackSummary, lost_sentence, mean};
 
 impl Run<'_> {
@@ -61,6 +62,11 @@ impl Run<'_> {
             let warning =
                 results::write(output, body, &sequence.cameras, &summary.frames, &confidences, &held, sequence.fps)?;
             summary.warnings.extend(warning);
+        }
+        if let Some(cutoff) = self.settings.smooth.filter(|_| !summary.frames.is_empty()) {
+            let has_gaps = self.recovery.is_some();
+            let told = smoothed::write(output, sequence, body, &summary.frames, &confidences, has_gaps, cutoff)?;
+            summary.warnings.extend(told);
         }
         // A finished run that is gone on with has no times to tell; those of the run that did the work stay.
         if summary.new_frames > 0 || !output.path().join("stages.json").exists() {
