@@ -11,9 +11,10 @@ use pantin::geometry::Camera;
 use pantin::sequence::{read_cameras, write_cameras_toml};
 
 use super::check::{check, failed, finding, turned};
-use super::support::{pantin, shared, succeeded};
+use super::support::{pantin, shared, stderr, succeeded};
 
 const FRAMES: usize = 50;
+const RIGS: usize = 10;
 
 /// What is done to a rig, and to which camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,12 +51,13 @@ struct Rig {
 }
 
 impl Rig {
-    fn draw(seed: u64, data: &Path, at: &Path) -> Self {
+    /// None for a seed that the lottery finds no place for the cameras with.
+    fn draw(seed: u64, data: &Path, at: &Path) -> Option<Self> {
         let folder = at.join(format!("rig{seed}"));
         let [motion, mesh] = ["motion", "mesh"].map(|part| data.join(part).display().to_string());
         let [seed, frames] = [seed.to_string(), FRAMES.to_string()];
         let path = folder.to_str().unwrap();
-        succeeded(&pantin(&[
+        let made = pantin(&[
             "synth",
             "--lottery",
             &seed,
@@ -67,11 +69,15 @@ impl Rig {
             &frames,
             "-o",
             path,
-        ]));
+        ]);
+        if stderr(&made).contains("expected another seed") {
+            return None;
+        }
+        succeeded(&made);
         let silhouettes = at.join(format!("silhouettes{seed}"));
         succeeded(&pantin(&["features", path, "-o", silhouettes.to_str().unwrap()]));
         let cameras = read_cameras(&folder.join("cameras.toml")).unwrap();
-        Self { folder, silhouettes, cameras }
+        Some(Self { folder, silhouettes, cameras })
     }
 
     /// A copy with an error of one camera.
@@ -116,19 +122,19 @@ struct Tally {
     accused: usize,
 }
 
-/// The lottery's seeds 301 to 310, or those that `PANTIN_RIGS` names (`11,12`). On each rig an error is one camera's, drawn from the seed.
+/// The first ten rigs of the lottery's seeds from 301 on, or of those that `PANTIN_RIGS` names (`11,12`). On each rig an error is one camera's, drawn from the seed.
 #[test]
 #[ignore = "draws ten rigs and checks eleven copies of each: twenty minutes on two cores"]
 fn known_errors_are_found_and_nothing_else() {
     let Some(data) = shared("known_errors_are_found_and_nothing_else", "") else { return };
     let seeds: Vec<u64> = match std::env::var("PANTIN_RIGS") {
         Ok(named) => named.split(',').map(|seed| seed.parse().unwrap()).collect(),
-        Err(_) => (301..=310).collect(),
+        Err(_) => (301..400).collect(),
     };
     let folder = tempfile::tempdir().unwrap();
     let mut tallies: BTreeMap<String, Tally> = BTreeMap::new();
-    for seed in seeds {
-        let rig = Rig::draw(seed, &data, folder.path());
+    let rigs = seeds.into_iter().filter_map(|seed| Some((seed, Rig::draw(seed, &data, folder.path())?))).take(RIGS);
+    for (seed, rig) in rigs {
         for (at, error) in ERRORS.into_iter().enumerate() {
             let drawn = (seed as usize).wrapping_mul(7919) + at * 104_729;
             let view = drawn % rig.cameras.len();
