@@ -172,7 +172,7 @@ fn what_is_no_person_is_refused_in_one_sentence() {
         (&["person.glb", "body.csv"], "body.csv is no body file, expected a name that ends in .toml"),
         (&["person.glb", "body.toml", "--height", "1.78"], "its person is 2 mm tall, expected 500 to 2500"),
         (&["person.glb", "body.toml", "--height", "nan"], "its person is NaN mm tall"),
-        (&["person.glb", "body.toml", "--scale", "10"], "--scale, --rate and --y-up are for recordings"),
+        (&["person.glb", "body.toml", "--scale", "10"], "--scale, --rate, --smooth and --y-up are for recordings"),
         (
             &["person.glb", "body.toml", "--bone", "left_hip=Thigh"],
             "`left_hip` is given the joint `Thigh`, which is none",

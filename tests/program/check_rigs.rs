@@ -124,7 +124,7 @@ struct Tally {
 
 /// The first ten rigs of the lottery's seeds from 301 on, or of those that `PANTIN_RIGS` names (`11,12`). On each rig an error is one camera's, drawn from the seed.
 #[test]
-#[ignore = "draws ten rigs and checks eleven copies of each: twenty minutes on two cores"]
+#[ignore = "draws ten rigs and checks eleven copies of each: half an hour on two cores"]
 fn known_errors_are_found_and_nothing_else() {
     let Some(data) = shared("known_errors_are_found_and_nothing_else", "") else { return };
     let seeds: Vec<u64> = match std::env::var("PANTIN_RIGS") {
