@@ -169,7 +169,7 @@ impl<'a> Belief<'a> {
         let direction = Finding::number("direction", "degrees", turned.beside, [0.0, BESIDE])
             .give_or_take(turned.beside_scatter)
             .found(format!(
-                "turned by {:.2} about its x (to the right) and {:.2} about its y (down) {}",
+                "turned by {:.2} about its x (to the right) and {:.2} about its y (down), {}",
                 turned.right,
                 turned.down,
                 measured.turning.words()
@@ -194,9 +194,13 @@ impl<'a> Belief<'a> {
                 Finding::not_measured("timing", "nobody moves enough in the frames looked at to tell")
             }
             Delay::Late { shift, late, scatter, betterment } => {
-                let finding = Finding::number("timing", "frames late", *late, [-LATE, LATE])
-                    .give_or_take(*scatter)
-                    .found(format!("with this camera moved by {shift} frames {}", betterment.words()));
+                let found = if *shift == 0 {
+                    format!("the views agree best with this camera as it is, to {:.3} px", betterment.after)
+                } else {
+                    format!("with this camera moved by {shift} frames, {}", betterment.words())
+                };
+                let finding =
+                    Finding::number("timing", "frames late", *late, [-LATE, LATE]).give_or_take(*scatter).found(found);
                 let advice = format!(
                     "write `delay = {shift}` into the [[view]] of this camera (added to one that is there): frames by which its pictures \
                      come too late"

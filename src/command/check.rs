@@ -80,7 +80,8 @@ fn print(report: &CheckReport) {
             let scatter = finding.scatter.map_or(String::new(), |scatter| format!(" ± {scatter:.2}"));
             format!(" {}{scatter} {} ({})", rounded(value), finding.unit, finding.limit)
         });
-        let found = if finding.found.is_empty() { String::new() } else { format!("; {}", finding.found) };
+        let between = if number.is_empty() { " " } else { "; " };
+        let found = if finding.found.is_empty() { String::new() } else { format!("{between}{}", finding.found) };
         say!("{status} {}{camera}:{number}{found}", finding.check);
         if !finding.advice.is_empty() {
             say!("       {}", finding.advice);
