@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::agreement::{Moment, Ray, rays};
 use super::betterment::{Betterment, COUNTS, SURE};
 use super::finding::Finding;
-use super::silhouettes::Silhouettes;
+use super::silhouettes::{SHIFTS, Silhouettes};
 use super::timing::{Delay, delay};
 use super::turns::{Turn, all_turned, best_turns, rays_that_show};
 use crate::geometry::Camera;
@@ -26,6 +26,8 @@ const TOGETHER: f64 = 0.3;
 struct Belief<'a> {
     cameras: &'a [Camera],
     silhouettes: &'a Silhouettes,
+    /// Delays that the manifest states, frames.
+    stated: &'a [f64],
     turns: Vec<Turn>,
     delays: Vec<isize>,
     is_turned: Vec<bool>,
@@ -54,12 +56,13 @@ pub(super) struct Faults {
     pub(super) rays: Vec<Ray>,
 }
 
-/// Looks for faults until no change of a camera counts; then `count` rays a silhouette.
-pub(super) fn faults(cameras: &[Camera], silhouettes: &Silhouettes, count: usize) -> Faults {
+/// Looks for faults until no change of a camera counts; then `count` rays a silhouette. `stated` are the delays that the manifest states.
+pub(super) fn faults(cameras: &[Camera], stated: &[f64], silhouettes: &Silhouettes, count: usize) -> Faults {
     let views = cameras.len();
     let mut belief = Belief {
         cameras,
         silhouettes,
+        stated,
         turns: vec![Turn::default(); views],
         delays: vec![0; views],
         is_turned: vec![false; views],
@@ -201,9 +204,17 @@ impl<'a> Belief<'a> {
                 };
                 let finding =
                     Finding::number("timing", "frames late", *late, [-LATE, LATE]).give_or_take(*scatter).found(found);
+                let stated = self.stated[view];
+                let now = if stated == 0.0 { String::new() } else { format!(" (now {stated})") };
+                let most = if SHIFTS.contains(&(shift - 1)) && SHIFTS.contains(&(shift + 1)) {
+                    ""
+                } else {
+                    ". Nothing beyond is looked for: then check again, and look for a clap where it stays"
+                };
                 let advice = format!(
-                    "write `delay = {shift}` into the [[view]] of this camera (added to one that is there): frames by which its pictures \
-                     come too late"
+                    "write `delay = {}`{now} into the [[view]] of this camera: frames by which its pictures come too late, negative where they \
+                     come too early. Then measure the person again (`pantin fit`){most}",
+                    stated + *shift as f64
                 );
                 believed_or_not(finding, self.is_late[view], &advice)
             }

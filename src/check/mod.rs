@@ -31,7 +31,7 @@ use silhouettes::Silhouettes;
 
 use crate::geometry::Camera;
 use crate::observe::{Advance, Plated, ViewPlate, with_plates};
-use crate::sequence::Sequence;
+use crate::sequence::{DOUBTFUL, Sequence};
 
 /// Frames looked at unless the user says which: a short stretch says as much as a long one.
 const FRAMES: usize = 100;
@@ -39,8 +39,6 @@ const FRAMES: usize = 100;
 const RAYS: usize = 150;
 /// What takes long once the silhouettes are there.
 const COMPARISONS: usize = 3;
-/// A learnt plate may be doubtful in this share of the picture, %.
-const DOUBTFUL: f64 = 1.0;
 /// Fewer rays say nothing.
 const FEWEST_RAYS: usize = 200;
 
@@ -126,10 +124,10 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
             .found(opened)
             .or("give the sequence a second camera: one alone cannot be checked"),
     ];
-    checks.extend(sequence.remarks().iter().map(|remark| Finding::not_measured("recordings", remark)));
+    checks.extend(sequence.remarks_on_recordings().iter().map(|remark| Finding::not_measured("recordings", remark)));
     checks.extend(view::lenses(&sequence.cameras));
     checks.push(view::up_axis(&sequence.cameras));
-    checks.extend(plates(&plated));
+    checks.extend(plates(sequence, &plated));
     checks.extend(seen(sequence, &silhouettes));
     compare();
     let found = rays(&sequence.cameras, &silhouettes.moments(), RAYS);
@@ -148,7 +146,10 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
             let findings = ["direction", "roll", "timing"].map(|check| Finding::not_measured(check, why)).to_vec();
             Faults { findings, rays: found }
         } else {
-            faults::faults(&sequence.cameras, &silhouettes, RAYS)
+            {
+                let stated: Vec<f64> = sequence.views.iter().map(|view| view.delay).collect();
+                faults::faults(&sequence.cameras, &stated, &silhouettes, RAYS)
+            }
         };
         checks.extend(explained(&sequence.cameras, &faults.rays));
         checks.extend(exchanges);
@@ -159,22 +160,30 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
 }
 
 /// How far the plates that were learnt can be believed.
-fn plates(plated: &Plated<'_>) -> Vec<Finding> {
-    let finding = |view: &ViewPlate| {
-        let doubtful = 100.0 * view.plate.doubts.iter().map(|doubt| doubt.share).sum::<f64>();
+fn plates(sequence: &Sequence, plated: &Plated<'_>) -> Vec<Finding> {
+    let finding = |camera: &str, doubtful: f64, found: String| {
+        Finding::number("learnt background", "% of the picture doubtful", doubtful, [0.0, DOUBTFUL])
+            .doubtful_within([0.0, f64::MAX])
+            .of(camera)
+            .found(found)
+            .or("the person may stand in it, and loses limbs there: film the empty scene and give it as `background`, or film on until he \
+                 has left that place")
+    };
+    let learnt = |view: &ViewPlate| {
         let remarks = view.plate.remarks();
         let found = if remarks.is_empty() {
             format!("learnt from {} pictures", view.plate.pictures)
         } else {
             remarks.join("; ")
         };
-        Finding::number("learnt background", "% of the picture doubtful", doubtful, [0.0, DOUBTFUL])
-            .doubtful_within([0.0, f64::MAX])
-            .of(&view.camera)
-            .found(found)
-            .or("film the empty scene and give it as `background`, or film on until the person has left that place")
+        finding(&view.camera, view.plate.percent_doubtful(), found)
     };
-    plated.learnt.iter().map(finding).collect()
+    // Those that were learnt before, and whose doubts the manifest states.
+    let stated = sequence.views.iter().filter(|view| view.background_doubtful > 0.0).filter_map(|view| {
+        let plate = view.background.as_ref()?.display();
+        Some(finding(&view.camera, view.background_doubtful, format!("{plate}, as the manifest says")))
+    });
+    plated.learnt.iter().map(learnt).chain(stated).collect()
 }
 
 /// In how many of the frames looked at each camera sees somebody.

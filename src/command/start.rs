@@ -7,8 +7,8 @@ use anyhow::{Context, Result, bail};
 use super::fit::summary;
 use super::output::{put, say, tell};
 use super::progress::WorkBar;
-use crate::files::Overwrite;
-use crate::sequence::check_scale;
+use crate::files::{Overwrite, listed};
+use crate::sequence::{DOUBTFUL, check_scale};
 use crate::track::{FirstTry, FirstTrySettings, FirstView, FitSettings, FrameRange, first_try};
 
 /// Makes all that a first track needs from your videos, their calibration and the person's height.
@@ -112,14 +112,27 @@ fn told(made: &FirstTry, args: &StartArgs) -> Result<()> {
     };
     put!("{}", summary(fit));
     say!("look at {folder}/look/silhouettes.png: the outline should hold the person and nothing else");
+    let ghosts: Vec<&str> =
+        made.views.iter().filter(|view| view.doubtful > DOUBTFUL).map(|view| view.camera.as_str()).collect();
+    if !ghosts.is_empty() {
+        say!(
+            "look at {folder}/plates: the plates of {} may hold the person, who then loses limbs. If so, film the empty scene and give it with \
+             --plates, or take a longer video in which the person leaves that place",
+            listed(&ghosts)
+        );
+    }
     if made.fits() {
         say!("look at {folder}/look/body.png: the body should lie on the person in every view");
     } else {
+        let skin = if ghosts.is_empty() {
+            " Where bare skin is missing before a light wall, write [features.shadow] with chroma = 5 into the manifest, then pantin fit."
+        } else {
+            ""
+        };
         say!(
-            "look at {folder}/look/body.png: the body and the outline differ by more than a third in a view. Is the outline the person's? Where \
-             bare skin is missing before a light wall, write [features.shadow] with chroma = 5 into the manifest, then pantin fit. Are arms and \
-             legs apart in that frame? Else measure another one: pantin start ... --frames A..B --force, with --heading if back and front are \
-             exchanged"
+            "look at {folder}/look/body.png: the body and the outline differ by more than a third in a view. Is the outline the person's?{skin} \
+             Are arms and legs apart in that frame? Else measure another one: pantin fit {folder} -o {folder}/body.toml --start-out \
+             {folder}/start.csv --frames A..B --force, with --heading if back and front are exchanged"
         );
     }
     say!("then: pantin check {folder}");

@@ -71,8 +71,12 @@ pub struct View {
     pub stored: usize,
     /// The number of each frame's picture, ascending; none where frames and pictures are the same.
     pub picks: Option<Arc<[u32]>>,
+    /// Frames by which its pictures come too late, as the manifest says.
+    pub delay: f64,
     /// A picture of the empty scene.
     pub background: Option<PathBuf>,
+    /// How much of it is doubtful since it was learnt from pictures with the person, % of the picture; 0 for one that was filmed.
+    pub background_doubtful: f64,
     /// Ready silhouettes and the size they are stored at.
     pub mask: Option<(Source, [u32; 2])>,
     /// Pixels that count neither for nor against anybody.
@@ -115,6 +119,9 @@ struct ManifestFile {
     features: Option<toml::Table>,
 }
 
+/// A learnt background may be doubtful in this share of the picture, %.
+pub const DOUBTFUL: f64 = 1.0;
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ViewTable {
@@ -122,6 +129,7 @@ struct ViewTable {
     source: PathBuf,
     input: Option<Vec<String>>,
     background: Option<PathBuf>,
+    background_doubtful: Option<f64>,
     mask: Option<PathBuf>,
     ignore: Option<PathBuf>,
     delay: Option<f64>,
@@ -239,6 +247,20 @@ impl Sequence {
 
     /// What whoever tracks it should know of its views, a sentence each.
     pub fn remarks(&self) -> Vec<String> {
+        let doubtful = self.views.iter().filter(|view| view.background_doubtful > DOUBTFUL);
+        let plates = doubtful.filter_map(|view| {
+            let plate = view.background.as_ref()?.display();
+            Some(format!(
+                "the background of camera {:?} was learnt and {:.1} % of it is doubtful: look at {plate}, and where the person stands in it \
+                 film the empty scene or on until he has left that place; limbs are lost there",
+                view.camera, view.background_doubtful
+            ))
+        });
+        self.remarks_on_recordings().into_iter().chain(plates).collect()
+    }
+
+    /// The same without what is to be known of its backgrounds.
+    pub fn remarks_on_recordings(&self) -> Vec<String> {
         let path = self.path.display();
         let one = (self.views.len() == 1).then(|| {
             format!(
@@ -489,6 +511,13 @@ fn open_view(
             );
         }
     }
+    let background_doubtful = table.background_doubtful.unwrap_or(0.0);
+    if table.background_doubtful.is_some() && (background.is_none() || !(0.0..=100.0).contains(&background_doubtful)) {
+        bail!(
+            "{}: camera {name:?} has `background_doubtful = {background_doubtful}`, expected it beside `background`, 0 to 100 % of the picture",
+            path.display()
+        );
+    }
     let mask = match &table.mask {
         None => None,
         Some(mask) => {
@@ -507,7 +536,9 @@ fn open_view(
         source: source.source.clone(),
         stored: source.frame_count,
         picks: None,
+        delay: table.delay.unwrap_or(0.0),
         background,
+        background_doubtful,
         mask,
         ignored,
         learnt: None,

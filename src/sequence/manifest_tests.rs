@@ -272,6 +272,29 @@ fn calibrations_without_sizes_take_those_of_the_pictures() {
 }
 
 #[test]
+fn a_background_that_is_doubtful_is_said_by_whoever_opens_it() {
+    let scene = Scene::new();
+    image::RgbImage::new(40, 30).save(scene.path("plate.png")).unwrap();
+    let [one, two] = ["cam01", "cam02"].map(|camera| Scene::view(camera) + "\nbackground = \"plate.png\"");
+    scene.manifest("", &[&(one.clone() + "\nbackground_doubtful = 3.25"), &(two + "\nbackground_doubtful = 0.9")]);
+    let sequence = Sequence::open(scene.folder.path()).unwrap();
+    let remarks = sequence.remarks();
+    assert_eq!(remarks.len(), sequence.remarks_on_recordings().len() + 1, "{remarks:?}");
+    let said = remarks.last().unwrap();
+    assert!(
+        said.contains("camera \"cam01\" was learnt and 3.2 % of it is doubtful") && said.contains("plate.png"),
+        "{said}"
+    );
+    let error = scene.error("", &[&(one + "\nbackground_doubtful = 101")]);
+    assert!(
+        error.contains("camera \"cam01\" has `background_doubtful = 101`, expected it beside `background`"),
+        "{error}"
+    );
+    let error = scene.error("", &[&(Scene::view("cam01") + "\nbackground_doubtful = 2")]);
+    assert!(error.contains("expected it beside `background`"), "{error}");
+}
+
+#[test]
 fn views_that_do_not_fit_together_are_sentences() {
     let scene = Scene::new();
     let (one, two) = (Scene::view("cam01"), Scene::view("cam02"));
@@ -647,7 +670,12 @@ fn a_camera_that_was_started_late_is_put_right_by_one_key() {
     assert_eq!(sequence.frame_count, 2);
     let set = sequence.read_frames(0..1).unwrap().next_frame().unwrap().unwrap();
     assert_eq!([0, 1].map(|view: usize| set.pictures[view].get_pixel(0, 0)[0]), [20, 10]);
-    assert!(sequence.remarks()[0].contains("cam01 2, cam03 3"), "{:?}", sequence.remarks());
+    let remarks = sequence.remarks();
+    assert!(
+        remarks[0].contains("frame 0 lies 1.2 frames (0.048 s) after") && remarks[0].contains("\"cam03\""),
+        "{remarks:?}"
+    );
+    assert!(remarks[1].contains("cam01 2, cam03 3"), "{remarks:?}");
     // All as late as each other are not late.
     let both = ["cam01", "cam03"].map(|camera| Scene::view(camera) + "\ndelay = 7");
     scene.manifest("", &both.each_ref().map(String::as_str));

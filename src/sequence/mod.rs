@@ -30,7 +30,7 @@ pub use footage::{Footage, SpreadFrames};
 pub use frames::{FrameReader, FrameSet, STALL_TIMEOUT};
 pub use ignored::Ignored;
 pub use live::LiveReader;
-pub use manifest::{Orientation, Sequence, View, check_manifest};
+pub use manifest::{DOUBTFUL, Orientation, Sequence, View, check_manifest};
 pub(crate) use manifest::{check_fps, check_scale};
 pub use person::Person;
 pub use pictures::PicturePattern;

@@ -68,6 +68,7 @@ pub(super) fn synchronise(views: &[Recorded], fps: f64, stamps: Option<Stamps>) 
     let resampled = is_resampled(views, fps, stamps, &mut remarks);
     let delays: Vec<f64> = views.iter().map(|view| view.delay.unwrap_or(0.0)).collect();
     let earliest = delays.iter().copied().fold(f64::INFINITY, f64::min);
+    remarks.extend(first_moment(views, fps));
     let mut picks = Vec::new();
     for (view, delay) in views.iter().zip(&delays) {
         let late = delay - earliest;
@@ -182,6 +183,19 @@ fn common_length(views: &[Recorded], lengths: &[usize], may_differ: bool, remark
         second.camera,
         lengths[other]
     );
+}
+
+/// A sentence where frame 0 is not the first picture of the cameras that are in time.
+fn first_moment(views: &[Recorded], fps: f64) -> Option<String> {
+    let delayed = views.iter().filter_map(|view| Some((view, view.delay.filter(|delay| *delay < 0.0)?)));
+    let (view, delay) = delayed.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let late = -delay;
+    Some(format!(
+        "frame 0 lies {late} frames ({:.3} s) after the first pictures of cameras without `delay`, since camera {:?} has `delay = {delay}`: \
+         motion capture beside them is to be cut by as much",
+        late / fps,
+        view.camera
+    ))
 }
 
 /// Sentences on videos that have another rate than the sequence.

@@ -31,6 +31,7 @@ struct ManifestView {
     camera: String,
     source: String,
     background: Option<String>,
+    background_doubtful: Option<f64>,
     mask: Option<String>,
     ignore: Option<String>,
 }
@@ -134,6 +135,10 @@ fn write(sequence: &Sequence, settings: &SequenceSettings, folder: &OutputFolder
                 camera: name.clone(),
                 source: format!("frames/{name}_%04d.png"),
                 background: plate.as_ref().map(|_| format!("plates/{name}.png")),
+                background_doubtful: plate
+                    .as_ref()
+                    .map(|_| view.background_doubtful)
+                    .filter(|doubtful| *doubtful > 0.0),
                 mask: view.mask.as_ref().map(|_| format!("masks/{name}_%04d.png")),
                 ignore: view.ignored.as_ref().map(|_| format!("ignored/{name}_%04d.png")),
             }

@@ -190,6 +190,21 @@ fn a_camera_a_frame_late_is_caught_and_named() {
     println!("c2 a frame late: measured {late:.2}; failed {failed:?}");
     assert!(failed.contains(&"timing c2".to_string()) && (0.6..1.4).contains(&late), "{failed:?} {late}");
     assert!(failed.iter().all(|check| !check.starts_with("timing") || check == "timing c2"), "{failed:?}");
+    let advice = finding(&report, "timing", "c2")["advice"].as_str().unwrap();
+    assert!(advice.contains("write `delay = 1` into the [[view]]"), "{advice}");
+    // With half of it stated the whole is named.
+    let folder = sequence(&cameras(), Some("c2"));
+    let path = folder.path().join("sequence.toml");
+    let text = fs::read_to_string(&path).unwrap();
+    let (before, after) = text.split_once("camera = \"c2\"\n").unwrap();
+    let state = |delay: i32| fs::write(&path, format!("{before}camera = \"c2\"\ndelay = {delay}\n{after}")).unwrap();
+    state(-1);
+    let (_, report, _) = check(folder.path());
+    let advice = finding(&report, "timing", "c2")["advice"].as_str().unwrap().to_string();
+    assert!(advice.contains("write `delay = 1` (now -1) into the [[view]]"), "{advice}");
+    state(1);
+    let (status, report, error) = check(folder.path());
+    assert!(status == 0 && self::failed(&report).is_empty(), "{error}");
 }
 
 #[test]

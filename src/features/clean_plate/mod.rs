@@ -77,6 +77,11 @@ pub struct Doubt {
 }
 
 impl LearntPlate {
+    /// How much of the picture is doubtful, %.
+    pub fn percent_doubtful(&self) -> f64 {
+        100.0 * self.doubts.iter().map(|doubt| doubt.share).sum::<f64>()
+    }
+
     /// Learns the empty scene from pictures of one size, spread over all that there is of it. `advance` hears of every pass,
     /// [`PASSES`] in all.
     ///

@@ -10,6 +10,8 @@ pub(super) struct ManifestView<'a> {
     pub(super) camera: &'a str,
     pub(super) source: &'a Path,
     pub(super) plate: Option<PathBuf>,
+    /// How much of it is doubtful, % of the picture.
+    pub(super) doubtful: f64,
 }
 
 /// What a manifest is written from.
@@ -41,6 +43,13 @@ impl ManifestText<'_> {
             let _ = writeln!(text, "\n[[view]]\ncamera = {}\nsource = {source}", quoted(view.camera));
             if let Some(plate) = &view.plate {
                 let _ = writeln!(text, "background = {}", quoted(&seen_from(folder, plate)?));
+                if view.doubtful > 0.0 {
+                    let _ = writeln!(
+                        text,
+                        "background_doubtful = {:.1} # % of the picture, as it was learnt",
+                        view.doubtful
+                    );
+                }
             }
         }
         Ok(text)
@@ -87,13 +96,15 @@ mod tests {
         assert!(seen_from(&at("walk"), &at("none/a.mp4")).unwrap_err().to_string().contains("cannot find"));
         let cameras = at("cameras.toml");
         let source = at("videos/the \"first\".mp4");
-        let views = vec![ManifestView { camera: "c \\1", source: &source, plate: Some(at("walk/c.png")) }];
+        let views =
+            vec![ManifestView { camera: "c \\1", source: &source, plate: Some(at("walk/c.png")), doubtful: 2.25 }];
         let text = ManifestText { name: "a \"b\"", fps: 25.0, cameras: &cameras, height: 1720.0, scale: 0.25, views };
         let table: toml::Table = text.text(&at("walk")).unwrap().parse().unwrap();
         assert_eq!(table["name"].as_str(), Some("a \"b\""));
         assert_eq!(table["view"][0]["camera"].as_str(), Some("c \\1"));
         assert_eq!(table["view"][0]["source"].as_str(), Some("../videos/the \"first\".mp4"));
         assert_eq!(table["view"][0]["background"].as_str(), Some("c.png"));
+        assert_eq!(table["view"][0]["background_doubtful"].as_float(), Some(2.2));
         assert_eq!(table["cameras"].as_str(), Some("../cameras.toml"));
     }
 }

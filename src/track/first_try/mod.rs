@@ -62,6 +62,8 @@ pub struct FirstView {
     pub person: Option<f64>,
     /// Pictures that the plate was learnt from; None where it was filmed.
     pub learnt_from: Option<usize>,
+    /// How much of the plate is doubtful, % of the picture.
+    pub doubtful: f64,
 }
 
 /// A first try that is made.
@@ -136,16 +138,21 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
     }
     let output = OutputFolder::open(folder)?;
     let manifest = output.file("sequence.toml")?;
-    let write_manifest = |plates: &[PathBuf], overwrite: Overwrite| {
+    let write_manifest = |plates: &[PathBuf], doubtful: &[f64], overwrite: Overwrite| {
         let views = cameras.iter().zip(&settings.videos).enumerate();
         let views = views
-            .map(|(at, (camera, source))| ManifestView { camera: &camera.name, source, plate: plates.get(at).cloned() })
+            .map(|(at, (camera, source))| ManifestView {
+                camera: &camera.name,
+                source,
+                plate: plates.get(at).cloned(),
+                doubtful: doubtful.get(at).copied().unwrap_or(0.0),
+            })
             .collect();
         let text = ManifestText { name: &settings.name, fps, cameras: &settings.cameras, height, scale, views };
         let text = text.text(output.path())?;
         write_atomically(&manifest, overwrite, |writer| Ok(writer.write_all(text.as_bytes())?))
     };
-    write_manifest(filmed.as_deref().unwrap_or_default(), settings.overwrite)?;
+    write_manifest(filmed.as_deref().unwrap_or_default(), &[], settings.overwrite)?;
     let (frame_count, learnt) = {
         let sequence = Sequence::open_unfitted(&manifest)?;
         remarks.extend(sequence.remarks());
@@ -160,9 +167,10 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
     for (name, learnt) in learnt_plates.iter().zip(&learnt) {
         output.write(name, |writer| Ok(learnt.plate.picture.write_with_encoder(PngEncoder::new(writer))?))?;
     }
+    let doubtful: Vec<f64> = learnt.iter().map(|learnt| learnt.plate.percent_doubtful()).collect();
     if filmed.is_none() {
         let plates: Vec<PathBuf> = learnt_plates.iter().map(|name| output.path().join(name)).collect();
-        write_manifest(&plates, Overwrite::Replace)?;
+        write_manifest(&plates, &doubtful, Overwrite::Replace)?;
     }
     let sequence = Sequence::open_unfitted(&manifest)?;
     let fit = fit_with(&sequence, &settings.fit, progress).map_err(|error| format!("{error:#}"));
@@ -181,6 +189,7 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
         fps: footage.fps,
         person,
         learnt_from: learnt.get(at).map(|learnt| learnt.plate.pictures),
+        doubtful: doubtful.get(at).copied().unwrap_or(0.0),
     });
     Ok(FirstTry { manifest: manifest.clone(), fps, frame_count, scale, views: views.collect(), fit, looks, remarks })
 }
