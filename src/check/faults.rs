@@ -35,7 +35,6 @@ struct Belief<'a> {
 }
 
 /// What is measured of one camera, the others being as is believed.
-#[derive(Clone)]
 struct Measured {
     turn: Turn,
     turning: Betterment,

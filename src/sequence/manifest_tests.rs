@@ -676,10 +676,13 @@ fn a_camera_that_was_started_late_is_put_right_by_one_key() {
         "{remarks:?}"
     );
     assert!(remarks[1].contains("cam01 2, cam03 3"), "{remarks:?}");
-    // All as late as each other are not late.
-    let both = ["cam01", "cam03"].map(|camera| Scene::view(camera) + "\ndelay = 7");
-    scene.manifest("", &both.each_ref().map(String::as_str));
-    assert_eq!(Sequence::open(scene.folder.path()).unwrap().frame_count, 3);
+    // All as late or as early as each other are not late.
+    for delay in [7, -7] {
+        let both = ["cam01", "cam03"].map(|camera| format!("{}\ndelay = {delay}", Scene::view(camera)));
+        scene.manifest("", &both.each_ref().map(String::as_str));
+        let sequence = Sequence::open(scene.folder.path()).unwrap();
+        assert_eq!((sequence.frame_count, sequence.remarks()), (3, vec![]));
+    }
     let of =
         |delay: &str| scene.error("", &[&Scene::view("cam01"), &format!("{}\ndelay = {delay}", Scene::view("cam03"))]);
     assert!(of("3").contains("camera \"cam03\" has no frame"), "{}", of("3"));

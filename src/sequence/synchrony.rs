@@ -187,6 +187,8 @@ fn common_length(views: &[Recorded], lengths: &[usize], may_differ: bool, remark
 
 /// A sentence where frame 0 is not the first picture of the cameras that are in time.
 fn first_moment(views: &[Recorded], fps: f64) -> Option<String> {
+    // Where every camera has a delay, none is there to be measured from.
+    views.iter().find(|view| view.delay.unwrap_or(0.0) == 0.0)?;
     let delayed = views.iter().filter_map(|view| Some((view, view.delay.filter(|delay| *delay < 0.0)?)));
     let (view, delay) = delayed.min_by(|a, b| a.1.total_cmp(&b.1))?;
     let late = -delay;
