@@ -73,7 +73,44 @@ impl Limbs {
         pose: &[f32],
         turn: u64,
     ) -> Result<Candidate> {
-        let moved = &self.limbs[limb];
+        self.with_end_anywhere(scorer, frame, limb, self.limbs[limb].len(), pose, turn)
+    }
+
+    /// As [`Self::anywhere`], and with its end alone looked for so, beginning with the last two degrees of freedom: a lattice over few is
+    /// dense, where the limb's root is right already. The best of all.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(super) fn ends_inward(
+        &self,
+        scorer: &mut Scorer<'_>,
+        frame: usize,
+        limb: usize,
+        pose: &[f32],
+        turn: u64,
+    ) -> Result<Candidate> {
+        let mut best = self.anywhere(scorer, frame, limb, pose, turn)?;
+        for count in (2..self.limbs[limb].len()).step_by(2) {
+            let found = self.with_end_anywhere(scorer, frame, limb, count, pose, turn)?;
+            if found.worth > best.worth {
+                best = found;
+            }
+        }
+        Ok(best)
+    }
+
+    /// A limb with its last `ends` degrees of freedom tried all over their limits, and all of them searched from the best of these.
+    fn with_end_anywhere(
+        &self,
+        scorer: &mut Scorer<'_>,
+        frame: usize,
+        limb: usize,
+        ends: usize,
+        pose: &[f32],
+        turn: u64,
+    ) -> Result<Candidate> {
+        let whole = &self.limbs[limb];
+        let moved = &whole[whole.len() - ends..];
         let (lower, upper) = (scorer.space.lower(), scorer.space.upper());
         // A lattice fills the limits more evenly than random numbers (Roberts 2018), shifted from frame to frame.
         let root = plastic(moved.len());
@@ -92,7 +129,7 @@ impl Limbs {
         let best = most_under(&scattered, None);
         let spread: Vec<f32> = lower.iter().zip(upper).map(|(low, high)| WIDTH * (high - low)).collect();
         let effort = Effort { spread: &spread, generations: scorer.generations(GENERATIONS), turn };
-        let found = scorer.search(frame, &scattered[best].pose, moved, effort, None)?;
+        let found = scorer.search(frame, &scattered[best].pose, whole, effort, None)?;
         scorer.candidate(found.pose)
     }
 }

@@ -14,6 +14,9 @@ const ANEW: usize = 20;
 const CONVINCING: f64 = 8.0;
 /// By how much less than the best frame of a window one is worth in which all limbs are looked for.
 const POOR: f64 = 12.0;
+/// Times that all limbs of a poor frame are looked for, and how many of those found are tried with all else moving along.
+const RESCUES: u64 = 3;
+const PROMISING: usize = 2;
 /// Where a track expects joints: deviation at rest, mm, and as a share of the way in a frame.
 const EXPECTED: [f64; 2] = [30.0, 0.5];
 /// Share of a change that goes on in the next frame.
@@ -119,29 +122,61 @@ impl Track<'_> {
         chosen: &mut Candidate,
         most: f64,
     ) -> Result<Vec<Candidate>> {
-        let mut others = Vec::new();
-        let is_poor = chosen.worth < most - POOR;
-        let mut is_anew = is_poor;
-        let count = self.limbs.count();
-        for limb in (0..count).filter(|&limb| is_poor || limb == index % count) {
-            let elsewhere = self.limbs.anywhere(scorer, index, limb, &chosen.pose, self.turn(10 + limb as u64))?;
-            if elsewhere.worth > chosen.worth + CONVINCING {
-                others.push(std::mem::replace(chosen, elsewhere));
-                is_anew = true;
-            } else {
-                others.push(elsewhere);
-            }
+        if chosen.worth < most - POOR {
+            return self.rescued(scorer, index, chosen);
         }
-        if is_anew {
-            let generations = scorer.generations(ANEW);
-            let effort = Effort { spread: self.steps, generations, turn: self.turn(1) };
-            let pose = scorer.search_all(index, &chosen.pose, effort, None)?.pose;
-            let settled = scorer.candidate(pose)?;
+        let limb = index % self.limbs.count().max(1);
+        if limb >= self.limbs.count() {
+            return Ok(Vec::new());
+        }
+        let mut others = Vec::new();
+        let mut elsewhere = self.limbs.anywhere(scorer, index, limb, &chosen.pose, self.turn(10 + limb as u64))?;
+        if elsewhere.worth > chosen.worth + CONVINCING {
+            std::mem::swap(chosen, &mut elsewhere);
+            others.push(elsewhere);
+            let settled = self.settled(scorer, index, &chosen.pose, 1)?;
             if settled.worth > chosen.worth {
                 others.push(std::mem::replace(chosen, settled));
             }
+        } else {
+            others.push(elsewhere);
         }
         Ok(others)
+    }
+
+    /// Looks for all limbs of a poor frame, again and again as long as one is found. The most promising of them are tried with all else
+    /// moving along, whatever they are worth by themselves: an arm that is found explains little while the trunk still stands as it
+    /// did without it.
+    fn rescued(&self, scorer: &mut Scorer<'_>, index: usize, chosen: &mut Candidate) -> Result<Vec<Candidate>> {
+        let mut others = Vec::new();
+        let settled = self.settled(scorer, index, &chosen.pose, 1)?;
+        if settled.worth > chosen.worth {
+            others.push(std::mem::replace(chosen, settled));
+        }
+        for attempt in 1..=RESCUES {
+            let turn = |limb: usize| self.turn(100 * attempt + 10 + limb as u64);
+            let mut found = (0..self.limbs.count())
+                .map(|limb| self.limbs.ends_inward(scorer, index, limb, &chosen.pose, turn(limb)))
+                .collect::<Result<Vec<_>>>()?;
+            found.sort_by(|a, b| b.worth.total_cmp(&a.worth));
+            for (rank, promising) in found.iter().take(PROMISING).enumerate() {
+                others.push(self.settled(scorer, index, &promising.pose, 100 * attempt + 1 + rank as u64)?);
+            }
+            others.extend(found);
+            let best = most_under(&others, None);
+            if others[best].worth <= chosen.worth + CONVINCING {
+                break;
+            }
+            std::mem::swap(chosen, &mut others[best]);
+        }
+        Ok(others)
+    }
+
+    /// A pose with all of it searched round with the body's steps.
+    fn settled(&self, scorer: &mut Scorer<'_>, index: usize, pose: &[f32], number: u64) -> Result<Candidate> {
+        let effort = Effort { spread: self.steps, generations: scorer.generations(ANEW), turn: self.turn(number) };
+        let found = scorer.search_all(index, pose, effort, None)?.pose;
+        scorer.candidate(found)
     }
 }
 
