@@ -1,6 +1,6 @@
 use std::fs;
 
-use super::super::source::Turn;
+use super::super::turn::Turn;
 use super::super::video::tests::{ffmpeg_is_here, make_video};
 use super::*;
 

@@ -9,7 +9,7 @@ use super::chosen_calibration::calibration;
 use super::config::{Config, LargeGaps};
 use super::videos::{Recording, recordings};
 use crate::sequence::calibration::read_cameras;
-use crate::sequence::video::probe_rate;
+use crate::sequence::video::probe_video;
 
 /// What one camera recorded.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -133,11 +133,15 @@ fn views(recordings: &[Recording], calibration: &Path, dir: &Path) -> Result<Vec
     Ok(paired.into_iter().zip(recordings).map(view).collect())
 }
 
-/// The rate of all videos, frames a second, whole as Pose2Sim takes it.
+/// The rate of all videos, frames a second, as a manifest reads it (where pictures are missing that at which the others came), and whole as
+/// Pose2Sim takes it.
 fn common_rate(videos: &[Recording]) -> Result<f64> {
     let mut common: Option<(&Path, f64)> = None;
     for Recording { source, .. } in videos {
-        let rate = probe_rate(source)?.round().max(1.0);
+        let rate = probe_video(source)?.fps;
+        let rate =
+            rate.with_context(|| format!("{} tells no frame rate, expected a video that does", source.display()))?;
+        let rate = rate.round().max(1.0);
         let (first, expected) = *common.get_or_insert((source, rate));
         ensure!(
             rate == expected,
