@@ -407,6 +407,7 @@ mod tests {
     fn missing_points_are_null_and_an_empty_report_is_a_page() {
         let text = page(&everything()).unwrap();
         assert!(text.contains("[[0.0,0.0,900.0],null,null]"), "{text}");
+        assert!(text.contains("<h2>Warnings</h2>") && text.contains("<section class=\"notes\"><h2>Notes</h2>"));
         let empty = page(&ReportData::default()).unwrap();
         assert!(empty.starts_with("<!DOCTYPE html>") && empty.ends_with("</html>\n"));
         assert!(!empty.contains("<canvas") && !empty.contains("<table"));

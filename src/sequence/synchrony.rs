@@ -187,11 +187,13 @@ fn common_length(
             .to_string(),
     };
     bail!(
-        "camera {:?} has {} frames and camera {:?} has {}, expected views of the same length ({hint})",
+        "camera {:?} has {} frames and camera {:?} has {} ({}; {}), expected views of the same length ({hint})",
         first.camera,
         lengths[0],
         second.camera,
-        lengths[other]
+        lengths[other],
+        first.footage.shown,
+        second.footage.shown
     );
 }
 

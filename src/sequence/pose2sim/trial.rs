@@ -152,3 +152,27 @@ fn common_rate(videos: &[Recording]) -> Result<f64> {
     }
     common.map(|(_, rate)| rate).context("there is no video")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sequence::manifest::tests::numbered_video;
+    use crate::sequence::video::tests::ffmpeg_is_here;
+
+    #[test]
+    fn a_video_that_lacks_pictures_has_the_rate_at_which_the_others_came() {
+        if !ffmpeg_is_here("a_video_that_lacks_pictures_has_the_rate_at_which_the_others_came") {
+            return;
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let video = |name: &str, rate: u32, missing: &str| {
+            let source = folder.path().join(name);
+            numbered_video(&source, rate, 24, missing);
+            Recording { name: name.to_string(), source, is_video: true }
+        };
+        let (whole, torn) = (video("a.mkv", 30, "0"), video("b.mkv", 30, "between(n,8,15)"));
+        assert_eq!(common_rate(&[whole, torn]).unwrap(), 30.0);
+        let (slow, fast) = (video("c.mkv", 25, "0"), video("d.mkv", 50, "0"));
+        assert!(common_rate(&[slow, fast]).unwrap_err().to_string().contains("expected videos of one rate"));
+    }
+}
