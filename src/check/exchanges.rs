@@ -2,17 +2,14 @@
 
 use super::agreement::{CAP, FEWER_RAYS, Ray, disagreement, rays, rays_of};
 use super::finding::Finding;
-use super::partners::shows;
+use super::partners::{shows, worst};
 use super::silhouettes::Silhouettes;
 use crate::geometry::{Camera, Lens};
 
-/// Exchanges are only tried where the views disagree by more than this many pixels.
-const DISAGREE: f64 = 0.6;
-/// By which factor an exchange must improve on what there is.
-const BETTER: f64 = 0.6;
-
-/// Every pair of as many cameras is tried.
-const MOST_SUSPECTS: usize = 9;
+/// Exchanges and turned pictures are only tried where the views disagree by more than this many pixels.
+pub(super) const DISAGREE: f64 = 0.6;
+/// By which factor an exchange or another orientation must improve on what there is.
+pub(super) const BETTER: f64 = 0.6;
 
 /// Handedness and order of the cameras.
 pub(super) fn exchanges(cameras: &[Camera], silhouettes: &Silhouettes, found: &[Ray]) -> [Finding; 2] {
@@ -56,14 +53,9 @@ pub(super) fn exchanges(cameras: &[Camera], silhouettes: &Silhouettes, found: &[
 }
 
 /// The cameras that two exchanged ones are looked for among: those that the others agree with least.
-fn suspects(cameras: usize, found: &[Ray]) -> Vec<usize> {
-    let excess: Vec<f64> =
-        (0..cameras).map(|view| disagreement(found.iter().filter(|ray| ray.view == view), CAP)).collect();
-    let mut worst: Vec<usize> = (0..cameras).collect();
-    worst.sort_by(|&a, &b| excess[b].total_cmp(&excess[a]));
-    worst.truncate(MOST_SUSPECTS);
-    worst.sort_unstable();
-    worst
+pub(super) fn suspects(cameras: usize, found: &[Ray]) -> Vec<usize> {
+    let agreement = |view: usize| -disagreement(found.iter().filter(|ray| ray.view == view), CAP);
+    worst(&(0..cameras).map(agreement).collect::<Vec<f64>>())
 }
 
 /// The camera of pictures turned over, left for right.

@@ -1,14 +1,19 @@
 //! Which cameras look beside where their calibration says, and whose pictures come early or late. One fault makes others look at fault that
 //! share much of its view, and a late camera of a person who walks by looks like a turned one: so the one change of one camera that
 //! betters the agreement most is believed, if it counts, and the rest is measured again with it put right, until no change counts.
+//! Only where something is amiss cameras are also looked for that are farther off in time.
 
+use std::cell::OnceCell;
+
+use anyhow::Result;
 use rayon::prelude::*;
 
-use super::agreement::{Moment, Ray, rays};
+use super::agreement::{FEWER_RAYS, Moment, Ray, percent_explained, rays};
 use super::betterment::{Betterment, COUNTS, SURE};
 use super::finding::Finding;
+use super::partners::worst;
 use super::silhouettes::{SHIFTS, Silhouettes};
-use super::timing::{Delay, delay};
+use super::timing::{Delay, FAR_COUNTS, delay, far};
 use super::turns::{Turn, all_turned, best_turns, rays_that_show};
 use crate::geometry::Camera;
 
@@ -19,6 +24,9 @@ const ROLLED: f64 = 0.6;
 /// More than this many frames is late.
 const LATE: f64 = 0.6;
 
+/// Where the other views explain less of a silhouette's border, %, something is amiss even if no turn and no small delay betters it.
+const AMISS: f64 = 60.0;
+
 /// All cameras are believed to be turned where that takes away this part of the disagreement that single ones leave.
 const TOGETHER: f64 = 0.3;
 
@@ -28,6 +36,7 @@ struct Belief<'a> {
     silhouettes: &'a Silhouettes,
     /// Delays that the manifest states, frames.
     stated: &'a [f64],
+    fps: f64,
     turns: Vec<Turn>,
     delays: Vec<isize>,
     is_turned: Vec<bool>,
@@ -55,13 +64,32 @@ pub(super) struct Faults {
     pub(super) rays: Vec<Ray>,
 }
 
-/// Looks for faults until no change of a camera counts; then `count` rays a silhouette. `stated` are the delays that the manifest states.
-pub(super) fn faults(cameras: &[Camera], stated: &[f64], silhouettes: &Silhouettes, count: usize) -> Faults {
+/// What is known of the views' times: the delays that the manifest states, in frames, the frames a second, and how the silhouettes are
+/// read again with more neighbours of some views.
+pub(super) struct Times<'a> {
+    pub(super) stated: &'a [f64],
+    pub(super) fps: f64,
+    pub(super) widen: &'a mut dyn FnMut(&[usize]) -> Result<Silhouettes>,
+}
+
+/// Looks for faults until no change of a camera counts; then `count` rays a silhouette.
+///
+/// # Errors
+/// When the silhouettes cannot be read again.
+pub(super) fn faults(
+    cameras: &[Camera],
+    Times { stated, fps, widen }: Times<'_>,
+    silhouettes: &Silhouettes,
+    count: usize,
+) -> Result<Faults> {
     let views = cameras.len();
+    // The views that may be far off in time, and the silhouettes with their neighbours.
+    let wide: OnceCell<(Vec<usize>, Silhouettes)> = OnceCell::new();
     let mut belief = Belief {
         cameras,
         silhouettes,
         stated,
+        fps,
         turns: vec![Turn::default(); views],
         delays: vec![0; views],
         is_turned: vec![false; views],
@@ -71,8 +99,19 @@ pub(super) fn faults(cameras: &[Camera], stated: &[f64], silhouettes: &Silhouett
     // Ends: a camera is turned once and late once, and all are turned together once.
     loop {
         let measured: Vec<Measured> = (0..views).into_par_iter().map(|view| belief.measure(view)).collect();
-        let changes = measured.iter().enumerate().flat_map(|(view, measured)| belief.changes(view, measured));
-        let Some((view, change, _)) = changes.max_by(|a, b| a.2.total_cmp(&b.2)) else {
+        let mut changes: Vec<(usize, Change, f64)> =
+            measured.iter().enumerate().flat_map(|(view, measured)| belief.changes(view, measured)).collect();
+        let explained = belief.explained();
+        if !changes.is_empty() || explained.iter().any(|percent| *percent < AMISS) {
+            if wide.get().is_none() {
+                let suspects = worst(&explained);
+                let read = widen(&suspects)?;
+                belief.silhouettes = &wide.get_or_init(|| (suspects, read)).1;
+            }
+            let suspects = wide.get().map_or(&[][..], |(suspects, _)| suspects);
+            changes.extend(belief.far_changes(suspects));
+        }
+        let Some((view, change, _)) = changes.into_iter().max_by(|a, b| a.2.total_cmp(&b.2)) else {
             let is_suspected = measured.iter().any(|measured| Direction::of(&measured.turn).is_beside());
             if is_suspected && !is_tried_together {
                 is_tried_together = true;
@@ -82,7 +121,7 @@ pub(super) fn faults(cameras: &[Camera], stated: &[f64], silhouettes: &Silhouett
             }
             let findings =
                 measured.iter().enumerate().flat_map(|(view, measured)| belief.findings(view, measured)).collect();
-            return Faults { findings, rays: rays(&all_turned(cameras, &belief.turns), &belief.moments(), count) };
+            return Ok(Faults { findings, rays: rays(&all_turned(cameras, &belief.turns), &belief.moments(), count) });
         };
         match change {
             Change::Turned(turn) => {
@@ -118,8 +157,31 @@ impl<'a> Belief<'a> {
         let mut unturned = turns.clone();
         unturned[view] = Turn::default();
         let turning = Betterment::of(&rays(&unturned), &rays(&turns), moments.len());
-        let delay = delay(&all_turned(self.cameras, &self.turns), self.silhouettes, &self.delays, view);
-        Measured { turn: turns[view], turning, delay }
+        let about = if SHIFTS.contains(&self.delays[view]) { 0 } else { self.delays[view] };
+        Measured { turn: turns[view], turning, delay: self.delay(view, about) }
+    }
+
+    fn delay(&self, view: usize, about: isize) -> Delay {
+        delay(&all_turned(self.cameras, &self.turns), self.silhouettes, &self.delays, view, about)
+    }
+
+    /// The share of each silhouette's border that the others explain, %.
+    fn explained(&self) -> Vec<f64> {
+        let rays = rays(&all_turned(self.cameras, &self.turns), &self.moments(), FEWER_RAYS);
+        let of = |view: usize| percent_explained(rays.iter().filter(|ray| ray.view == view));
+        (0..self.cameras.len()).map(of).collect()
+    }
+
+    /// What the cameras of `suspects` that are far off in time take away; which are not believed to be late yet.
+    fn far_changes(&self, suspects: &[usize]) -> Vec<(usize, Change, f64)> {
+        let cameras = all_turned(self.cameras, &self.turns);
+        let change = |&view: &usize| {
+            let about = far(&cameras, self.silhouettes, &self.delays, view, self.fps)?;
+            let Delay::Late { shift, late, scatter, betterment } = self.delay(view, about) else { return None };
+            let counts = late.abs() > SURE * scatter && betterment.part() >= FAR_COUNTS;
+            counts.then(|| (view, Change::Late(shift), betterment.gain()))
+        };
+        suspects.par_iter().filter(|view| !self.is_late[**view]).filter_map(change).collect()
     }
 
     /// The changes of a camera that count and are not believed yet, and what they take away.
@@ -205,7 +267,7 @@ impl<'a> Belief<'a> {
                     Finding::number("timing", "frames late", *late, [-LATE, LATE]).give_or_take(*scatter).found(found);
                 let stated = self.stated[view];
                 let now = if stated == 0.0 { String::new() } else { format!(" (now {stated})") };
-                let most = if SHIFTS.contains(&(shift - 1)) && SHIFTS.contains(&(shift + 1)) {
+                let most = if shift.unsigned_abs() < self.silhouettes.reach {
                     ""
                 } else {
                     ". Nothing beyond is looked for: then check again, and look for a clap where it stays"

@@ -1,14 +1,15 @@
 //! Is a sequence sane? Every check is a number, its limit, what was found and what to do (docs/CALIBRATION.md).
 //!
 //! `view` looks at the calibration alone; `silhouettes` reads what the cameras saw; `agreement` measures how well they
-//! agree, without any model of the person; `exchanges` asks whether two cameras or left and right are exchanged, `faults` which cameras'
-//! `turns` and delays (`timing`) make them agree better, and by how much (`betterment`); `person` looks at the surface that they agree on.
+//! agree, without any model of the person; `exchanges` asks whether two cameras or left and right are exchanged, `orientations` whether a
+//! camera's picture is turned or mirrored, `faults` which cameras' `turns` and delays (`timing`) make them agree better, and by how much (`betterment`); `person` looks at the surface that they agree on.
 
 mod agreement;
 mod betterment;
 mod exchanges;
 mod faults;
 mod finding;
+mod orientations;
 mod partners;
 mod person;
 mod signed_distance;
@@ -26,7 +27,8 @@ use serde::Serialize;
 pub use finding::{Finding, Status};
 
 use agreement::{EXPLAINED, HARDLY_EXPLAINED, Ray, WELL_EXPLAINED, percent_explained, rays};
-use faults::Faults;
+use faults::{Faults, Times};
+use orientations::Misplaced;
 use silhouettes::Silhouettes;
 
 use crate::geometry::Camera;
@@ -39,6 +41,9 @@ const FRAMES: usize = 100;
 const RAYS: usize = 150;
 /// What takes long once the silhouettes are there.
 const COMPARISONS: usize = 3;
+/// Frames that a camera which is far off in time is looked for over at least, and at most.
+const FAR_FRAMES: usize = 30;
+const MOST_FAR_FRAMES: usize = 240;
 /// Fewer rays say nothing.
 const FEWEST_RAYS: usize = 200;
 
@@ -113,11 +118,6 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
     let plated = with_plates(&sequence, progress)?;
     let sequence = plated.sequence.as_ref();
     let silhouettes = Silhouettes::read(sequence, first..end, settings.samples, progress)?;
-    let mut compared = 0;
-    let mut compare = || {
-        progress("comparing the silhouettes", compared, COMPARISONS);
-        compared += 1;
-    };
     let opened = format!("{} views, {} frames", sequence.views.len(), sequence.frame_count);
     let mut checks = vec![
         Finding::number("files", "views", sequence.views.len() as f64, [2.0, f64::INFINITY])
@@ -129,7 +129,7 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
     checks.push(view::up_axis(&sequence.cameras));
     checks.extend(plates(sequence, &plated));
     checks.extend(seen(sequence, &silhouettes));
-    compare();
+    progress("comparing the silhouettes", 0, COMPARISONS);
     let found = rays(&sequence.cameras, &silhouettes.moments(), RAYS);
     if found.len() < FEWEST_RAYS {
         let why = format!("the silhouettes have {} border rays, expected {FEWEST_RAYS} or more", found.len());
@@ -138,25 +138,53 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
     } else {
         let middle = found.iter().map(|ray| ray.point).sum::<DVec3>() / found.len() as f64;
         checks.extend(view::volume(&sequence.cameras, middle));
-        compare();
+        progress("comparing the silhouettes", 1, COMPARISONS);
         let exchanges = exchanges::exchanges(&sequence.cameras, &silhouettes, &found);
-        compare();
-        let faults = if exchanges.iter().any(|finding| finding.status == Status::Failed) {
-            let why = "put right what is exchanged first";
-            let findings = ["direction", "roll", "timing"].map(|check| Finding::not_measured(check, why)).to_vec();
-            Faults { findings, rays: found }
+        progress("comparing the silhouettes", 2, COMPARISONS);
+        let is_exchanged = exchanges.iter().any(|finding| finding.status == Status::Failed);
+        let misplaced =
+            if is_exchanged { None } else { Misplaced::find(&sequence.cameras, &silhouettes.moments(), &found) };
+        let unmeasured =
+            |why: &str| ["direction", "roll", "timing"].map(|check| Finding::not_measured(check, why)).to_vec();
+        let faults = if is_exchanged {
+            Faults { findings: unmeasured("put right what is exchanged first"), rays: found }
+        } else if let Some(misplaced) = &misplaced {
+            let findings = unmeasured("put the picture that is turned or mirrored right first");
+            Faults { findings, rays: misplaced.rays.clone() }
         } else {
-            {
-                let stated: Vec<f64> = sequence.views.iter().map(|view| view.delay).collect();
-                faults::faults(&sequence.cameras, &stated, &silhouettes, RAYS)
-            }
+            let stated: Vec<f64> = sequence.views.iter().map(|view| view.delay).collect();
+            let reach = far_reach(sequence.fps);
+            let mut widen = |wide: &[usize]| silhouettes.widened(sequence, wide, reach, progress);
+            let times = Times { stated: &stated, fps: sequence.fps, widen: &mut widen };
+            faults::faults(&sequence.cameras, times, &silhouettes, RAYS)?
         };
         checks.extend(explained(&sequence.cameras, &faults.rays));
         checks.extend(exchanges);
+        checks.extend(misplaced.map(|misplaced| misplaced.finding(sequence)));
         checks.extend(faults.findings);
         checks.extend(person::person(&faults.rays, sequence.body.is_file().then_some(sequence.body.as_path()))?);
     }
     Ok(CheckReport::new(sequence.name.clone(), silhouettes.samples.clone(), checks))
+}
+
+/// A sentence where a camera's picture is turned or mirrored, so that it agrees with the others only once that is put right; none where all
+/// agree, or nothing tells.
+///
+/// # Errors
+/// When a picture cannot be read.
+pub fn misplaced_picture(sequence: &Sequence, progress: &mut Advance<'_>) -> Result<Option<String>> {
+    let plated = with_plates(sequence, progress)?;
+    let sequence = plated.sequence.as_ref();
+    let frames = 0..sequence.frame_count.min(FRAMES);
+    let silhouettes = Silhouettes::read(sequence, frames, CheckSettings::default().samples, progress)?;
+    let found = rays(&sequence.cameras, &silhouettes.moments(), RAYS);
+    let misplaced = Misplaced::find(&sequence.cameras, &silhouettes.moments(), &found);
+    Ok(misplaced.filter(|_| found.len() >= FEWEST_RAYS).map(|misplaced| misplaced.sentence(sequence)))
+}
+
+/// Frames by which a camera is looked for that is far off in time: a second's, [`FAR_FRAMES`] where that is fewer.
+fn far_reach(fps: f64) -> usize {
+    (fps.round() as usize).clamp(FAR_FRAMES, MOST_FAR_FRAMES)
 }
 
 /// How far the plates that were learnt can be believed.

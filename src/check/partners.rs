@@ -3,6 +3,8 @@
 
 /// Views that a view is compared with at most.
 const MOST: usize = 8;
+/// What would take long with many cameras is looked for among as many that agree least.
+const MOST_SUSPECTS: usize = 9;
 /// From this many cameras on a check that takes long has fewer rays a silhouette, so that it takes no longer.
 const MANY: usize = 16;
 
@@ -13,6 +15,15 @@ pub(super) fn partners(view: usize, count: usize) -> Vec<usize> {
         return (0..count).filter(|other| *other != view).collect();
     }
     (0..MOST).map(|at| (view + 1 + at * others / MOST) % count).collect()
+}
+
+/// The views that agree least with the others, in their order, by a number each that is smallest for those.
+pub(super) fn worst(agreement: &[f64]) -> Vec<usize> {
+    let mut worst: Vec<usize> = (0..agreement.len()).collect();
+    worst.sort_by(|&a, &b| agreement[a].total_cmp(&agreement[b]));
+    worst.truncate(MOST_SUSPECTS);
+    worst.sort_unstable();
+    worst
 }
 
 /// Whether a change of `changed` shows in what is measured of `view`.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::features::BitImage;
+use crate::sequence::Turn;
 
 /// Beyond this many grid steps outside the silhouette nothing is told apart.
 const MARGIN: u32 = 16;
@@ -56,6 +57,41 @@ impl SignedDistance {
         };
         field.border = field.find_border();
         Some(field)
+    }
+
+    /// The same of a picture that is turned or mirrored.
+    pub(super) fn put(&self, turn: Turn) -> Self {
+        let side = |length: f64| length as u32;
+        let size = [side(self.picture.x), side(self.picture.y)];
+        let [width, height] = turn.turned([self.width as u32, self.height as u32]).map(|side| side as usize);
+        let corner = self.origin + DVec2::new(self.width as f64 - 1.0, self.height as f64 - 1.0) * self.step;
+        let [first, last] = [self.origin, corner].map(|pixel| turn.place(pixel, size));
+        let origin = first.min(last);
+        let mut values = vec![0.0; self.values.len()];
+        for (at, value) in self.values.iter().enumerate() {
+            let (x, y) = (at % self.width, at / self.width);
+            let pixel = self.origin + DVec2::new(x as f64, y as f64) * self.step;
+            let cell = ((turn.place(pixel, size) - origin) / self.step).round();
+            values[cell.y as usize * width + cell.x as usize] = *value;
+        }
+        let turned = turn.turned(size);
+        let ignored = self.ignored.as_ref().map(|ignored| {
+            let pixel = |x: u32, y: u32| {
+                let from = turn.back().place(DVec2::new(f64::from(x), f64::from(y)), turned);
+                ignored.get(from.x as u32, from.y as u32)
+            };
+            Arc::new(BitImage::from_fn(turned[0], turned[1], pixel))
+        });
+        Self {
+            picture: DVec2::from_array(turned.map(f64::from)),
+            origin,
+            step: self.step,
+            width,
+            height,
+            values,
+            border: self.border.iter().map(|pixel| turn.place(*pixel, size)).collect(),
+            ignored,
+        }
     }
 
     fn is_ignored(&self, pixel: DVec2) -> bool {
@@ -190,5 +226,28 @@ mod tests {
         assert!(field.at(DVec2::NAN).is_none());
         assert!(field.border().iter().all(|p| blob(p.x as u32, p.y as u32)));
         assert!(SignedDistance::of(&BitImage::new(9, 9), 1, None).is_none());
+    }
+
+    #[test]
+    fn a_turned_silhouette_is_that_of_the_turned_picture() {
+        let blob = |x: u32, y: u32| x > 5 && x < 30 && y > 8 && y < 20 && (x * 7 + y * 5) % 11 > 1;
+        let corner = |x: u32, y: u32| x < 9 && y < 3;
+        let image = |is_in: fn(u32, u32) -> bool| {
+            image::GrayImage::from_fn(60, 40, |x, y| image::Luma([255 * u8::from(is_in(x, y))]))
+        };
+        let bits = |picture: &image::GrayImage| BitImage::of_gray(picture);
+        let field = SignedDistance::of(&bits(&image(blob)), 1, Some(Arc::new(bits(&image(corner))))).unwrap();
+        for turn in Turn::ALL {
+            let [seen, ignored] = [image(blob), image(corner)]
+                .map(|picture| bits(&turn.of(image::DynamicImage::ImageLuma8(picture)).into_luma8()));
+            let expected = SignedDistance::of(&seen, 1, Some(Arc::new(ignored))).unwrap();
+            let put = field.put(turn);
+            assert_eq!(put.border.len(), expected.border.len());
+            let [width, height] = turn.turned([60, 40]);
+            for (x, y) in (0..width).flat_map(|x| (0..height).map(move |y| (x, y))) {
+                let at = DVec2::new(f64::from(x), f64::from(y));
+                assert_eq!(put.at(at), expected.at(at), "{turn:?} {at}");
+            }
+        }
     }
 }

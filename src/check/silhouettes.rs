@@ -1,4 +1,5 @@
-//! The silhouettes that are looked at: those of some frames spread over the sequence and of their neighbours in time.
+//! The silhouettes that are looked at: those of some frames spread over the sequence and of their neighbours in time, more of them where a
+//! camera may be far from the others in time.
 
 use std::ops::{Range, RangeInclusive};
 
@@ -8,7 +9,7 @@ use super::agreement::Moment;
 use super::signed_distance::SignedDistance;
 use crate::features::ViewFeatures;
 use crate::observe::{Advance, Observer, check_background, silhouette_settings};
-use crate::sequence::Sequence;
+use crate::sequence::{Sequence, View};
 
 /// Frames by which a camera may be early or late.
 pub(super) const SHIFTS: RangeInclusive<isize> = -3..=3;
@@ -21,6 +22,8 @@ pub(super) struct Silhouettes {
     pub(super) frames: Range<usize>,
     /// The frames looked at.
     pub(super) samples: Vec<usize>,
+    /// Frames by which a view can be moved; [`SHIFTS`] unless widened.
+    pub(super) reach: usize,
     /// A row a frame, a silhouette a view; empty rows where a frame is neither sample nor neighbour.
     fields: Vec<Vec<Option<SignedDistance>>>,
 }
@@ -39,21 +42,32 @@ impl Silhouettes {
     ) -> Result<Self> {
         check_background(sequence, &frames)?;
         let samples = spread(&frames, count);
-        let is_wanted =
-            |frame: usize| samples.iter().any(|&sample| SHIFTS.contains(&(frame as isize - sample as isize)));
-        let mut observer = Observer::new(sequence, silhouette_settings(sequence)?, frames.clone(), frames.start)?;
-        let mut fields = vec![Vec::new(); frames.len()];
-        while let Some(frame) = observer.read()? {
-            progress("reading", frame.index.saturating_sub(frames.start), frames.len());
-            if let Some(features) = observer.features(&frame, is_wanted(frame.index))? {
-                let field = |view: &ViewFeatures| {
-                    let step = view.silhouette.height().div_ceil(ROWS);
-                    SignedDistance::of(&view.silhouette, step, view.observation.ignored.clone())
-                };
-                fields[frame.index - frames.start] = features.iter().map(field).collect();
-            }
-        }
-        Ok(Self { frames, samples, fields })
+        let reach = SHIFTS.end().unsigned_abs();
+        let fields = fields(sequence, frames.clone(), |frame, _| is_near(&samples, frame, reach), progress)?;
+        Ok(Self { frames, samples, reach, fields })
+    }
+
+    /// The same samples with more neighbours of the views `wide`, by which these can be moved by `reach` frames, beyond the range too.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub(super) fn widened(
+        &self,
+        sequence: &Sequence,
+        wide: &[usize],
+        reach: usize,
+        progress: &mut Advance<'_>,
+    ) -> Result<Self> {
+        let near = SHIFTS.end().unsigned_abs();
+        // A background that is learnt as the frames go by would be learnt from others.
+        let before = if sequence.views.iter().any(View::learns_background) { 0 } else { reach + near };
+        let (start, end) = (self.frames.start.saturating_sub(before), self.frames.end + reach + near);
+        let frames = start..end.min(sequence.frame_count);
+        let is_kept = |frame: usize, view: usize| {
+            is_near(&self.samples, frame, if wide.contains(&view) { reach + near } else { near })
+        };
+        let fields = fields(sequence, frames.clone(), is_kept, progress)?;
+        Ok(Self { frames, samples: self.samples.clone(), reach, fields })
     }
 
     /// A sample as the views saw it, with each view's frame moved by `shift(view)`; None where a neighbour is not in
@@ -71,6 +85,36 @@ impl Silhouettes {
     pub(super) fn moments(&self) -> Vec<Moment<'_>> {
         self.samples.iter().filter_map(|&sample| self.moment(sample, |_| 0)).collect()
     }
+}
+
+/// Whether a frame is at most `reach` from a sample.
+fn is_near(samples: &[usize], frame: usize, reach: usize) -> bool {
+    samples.iter().any(|&sample| sample.abs_diff(frame) <= reach)
+}
+
+/// The silhouettes of the frames and views that are kept.
+fn fields(
+    sequence: &Sequence,
+    frames: Range<usize>,
+    is_kept: impl Fn(usize, usize) -> bool,
+    progress: &mut Advance<'_>,
+) -> Result<Vec<Vec<Option<SignedDistance>>>> {
+    let views = 0..sequence.views.len();
+    let mut observer = Observer::new(sequence, silhouette_settings(sequence)?, frames.clone(), frames.start)?;
+    let mut fields = vec![Vec::new(); frames.len()];
+    while let Some(frame) = observer.read()? {
+        progress("reading", frame.index.saturating_sub(frames.start), frames.len());
+        let is_wanted = views.clone().any(|view| is_kept(frame.index, view));
+        if let Some(features) = observer.features(&frame, is_wanted)? {
+            let field = |(at, view): (usize, &ViewFeatures)| {
+                let step = view.silhouette.height().div_ceil(ROWS);
+                let kept = is_kept(frame.index, at).then_some(&view.silhouette)?;
+                SignedDistance::of(kept, step, view.observation.ignored.clone())
+            };
+            fields[frame.index - frames.start] = features.iter().enumerate().map(field).collect();
+        }
+    }
+    Ok(fields)
 }
 
 /// `count` frames evenly spread, away from the ends where there is room for their neighbours.

@@ -1,6 +1,7 @@
 //! `pantin score`.
 
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
 use anyhow::{Context, Result};
 use serde_json::json;
@@ -9,13 +10,20 @@ use super::name_pair::name_pair;
 use super::output::{put, say, tell};
 use crate::files::{Overwrite, write_atomically};
 use crate::motion::{
-    Matching, PointFormat, PointPairs, TrajectoryError, read_points, read_y_up_points, write_frame_errors,
+    FARTHEST_SHIFT, Matching, PointFormat, PointPairs, TrajectoryError, best_shift, read_points, read_y_up_points,
+    write_frame_errors,
 };
 use crate::track::tracked_points;
 
+/// No recording is longer, seconds.
+const LARGEST_SHIFT: f64 = 1e5;
+/// A best shift this near to the farthest, seconds, may lie beyond it.
+const AT_THE_END: f64 = 0.01;
+
 /// Measures the error of tracked markers or joints against C3D, TRC or CSV truth, in mm: for every point its mean over
 /// frames, then the mean over points; the standard deviation is that of all errors of all points in all frames. Points
-/// are paired by name (see --map), frames by index, or by time where the frame rates differ.
+/// are paired by name, joints by what other programs call them too (`RKnee` is `right_knee`; see --map), frames by index, or by time where
+/// the frame rates differ.
 #[derive(clap::Args, Debug)]
 pub(super) struct ScoreArgs {
     /// A track's folder (its markers.c3d or joints.csv, the first that shares a name with the truth), or a file of
@@ -42,6 +50,10 @@ pub(super) struct ScoreArgs {
     /// The truth is y-up (OpenSim): turn it z-up, (x, y, z) becoming (z, x, y).
     #[arg(long)]
     truth_y_up: bool,
+    /// Compare the track's moment t with the truth's moment t + SECONDS; `auto` finds the shift within 1 s that leaves the smallest error
+    /// (with --remove-offset the smallest without offsets).
+    #[arg(long, value_name = "SECONDS|auto", allow_negative_numbers = true)]
+    shift: Option<Shift>,
     /// Write the errors of every frame (before removing offsets) as CSV.
     #[arg(long, value_name = "FILE.csv")]
     per_frame: Option<PathBuf>,
@@ -51,6 +63,25 @@ pub(super) struct ScoreArgs {
     /// Replace the --per-frame file when it is there.
     #[arg(long)]
     force: bool,
+}
+
+/// A shift in time that is asked for.
+#[derive(Clone, Copy, Debug)]
+enum Shift {
+    Seconds(f64),
+    Auto,
+}
+
+impl FromStr for Shift {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.parse::<f64>() {
+            _ if text == "auto" => Ok(Self::Auto),
+            Ok(seconds) if seconds.abs() <= LARGEST_SHIFT => Ok(Self::Seconds(seconds)),
+            _ => Err(format!("expected `auto` or seconds, {LARGEST_SHIFT} at most")),
+        }
+    }
 }
 
 /// Runs the command.
@@ -77,10 +108,19 @@ pub(super) fn run(args: &ScoreArgs) -> Result<()> {
         pairs.keep(&ours, &truth, &args.points)?;
     }
     pairs.exclude(&ours, &truth, &args.exclude)?;
-    let compare = |remove_offset: bool| {
-        TrajectoryError::between(&ours, &truth, &pairs, remove_offset)
-            .with_context(|| format!("cannot compare {} with {}", path.display(), args.truth.display()))
+    let files = || format!("cannot compare {} with {}", path.display(), args.truth.display());
+    let shift = match args.shift {
+        None => 0.0,
+        Some(Shift::Seconds(seconds)) => seconds,
+        Some(Shift::Auto) => best_shift(&ours, &truth, &pairs, args.remove_offset).with_context(files)?,
     };
+    if matches!(args.shift, Some(Shift::Auto)) && shift.abs() > FARTHEST_SHIFT - AT_THE_END {
+        tell!(
+            "note: the best shift, {shift:.3} s, lies at the end of what `--shift auto` looks at: state one that is nearer with --shift SECONDS"
+        );
+    }
+    let compare =
+        |remove_offset: bool| TrajectoryError::shifted(&ours, &truth, &pairs, remove_offset, shift).with_context(files);
     let error = compare(false)?;
     let without_offset = args.remove_offset.then(|| compare(true)).transpose()?;
     if let Some(file) = &args.per_frame {
@@ -88,7 +128,11 @@ pub(super) fn run(args: &ScoreArgs) -> Result<()> {
         write_atomically(file, overwrite, |out| write_frame_errors(out, &error))?;
     }
     if args.json {
-        say!("{:#}", as_json(&path, &args.truth, &pairs, &error, without_offset.as_ref()));
+        let mut object = as_json(&path, &args.truth, &pairs, &error, without_offset.as_ref());
+        if args.shift.is_some() {
+            object["shift"] = json!(error.shift);
+        }
+        say!("{object:#}");
     } else {
         print_table(&path, &args.truth, &pairs, &error, without_offset.as_ref());
     }
@@ -110,7 +154,12 @@ fn print_table(
     without_offset: Option<&TrajectoryError>,
 ) {
     say!("{} against {}", path.display(), truth.display());
-    say!("{} frames matched by {}, errors in mm\n", error.frames.len(), matched_by(error.matching));
+    let shift = match error.shift {
+        0.0 => String::new(),
+        shift if shift > 0.0 => format!(", the truth taken {shift:.4} s later (--shift {shift:.4})"),
+        shift => format!(", the truth taken {:.4} s earlier (--shift {shift:.4})", -shift),
+    };
+    say!("{} frames matched by {}{shift}, errors in mm\n", error.frames.len(), matched_by(error.matching));
     let label = |name: &str, ours: &str| if name == ours { name.to_string() } else { format!("{name} = {ours}") };
     let labels: Vec<String> = error.points.iter().map(|point| label(&point.name, &point.ours)).collect();
     let width = labels.iter().map(|label| label.chars().count()).max().unwrap_or(0).max("point".len());

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, bail};
 
 use super::fit::summary;
+use super::name_pair::name_pair;
 use super::output::{put, say, tell};
 use super::progress::WorkBar;
 use crate::files::{Overwrite, listed};
-use crate::sequence::{DOUBTFUL, check_scale};
+use crate::sequence::{DOUBTFUL, Orientation, check_scale};
 use crate::track::{FirstTry, FirstTrySettings, FirstView, FitSettings, FrameRange, first_try};
 
 /// Makes all that a first track needs from your videos, their calibration and the person's height.
@@ -30,7 +31,8 @@ pub(super) struct StartArgs {
     /// The folder to make.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Pictures of the empty scene, DIR/CAMERA.png (or .jpg) each [default: learnt from the whole videos].
+    /// Pictures of the empty scene, DIR/CAMERA.png (or .jpg) each, or with the camera's name in theirs (bg_cam01.png) [default: learnt from
+    /// the whole videos].
     #[arg(long, value_name = "DIR")]
     plates: Option<PathBuf>,
     /// Frames per second [default: what the videos say].
@@ -39,6 +41,10 @@ pub(super) struct StartArgs {
     /// Working size over stored size [default: such that the person is some 220 pixels tall].
     #[arg(long, value_name = "S")]
     scale: Option<f64>,
+    /// How a camera's stored pictures are turned when they are read: upright (as a video is marked), stored, 90, 180 or 270 (degrees
+    /// clockwise), mirrored. Once a camera; it is written into the manifest.
+    #[arg(long, value_name = "CAMERA=HOW", value_delimiter = ',', value_parser = camera_orientation)]
+    orientation: Vec<(String, Orientation)>,
     /// Frames that the person is measured in: A..B without B, A.., or ..B; counted from 0.
     #[arg(long, value_name = "A..B", default_value = "0..1")]
     frames: FrameRange,
@@ -51,9 +57,17 @@ pub(super) struct StartArgs {
     /// Times that many poses are scored in a round.
     #[arg(long, value_name = "K", default_value_t = FitSettings::default().iterations)]
     iterations: usize,
-    /// Replace sequence.toml, body.toml, start.csv and the plates.
+    /// Replace sequence.toml, body.toml, start.csv and the learnt plates. What you wrote into sequence.toml stays: name, fps and scale unless
+    /// they are given here, `background` of plates that were not learnt, and every key that this command does not write (delay, ignore,
+    /// orientation, [features], …); comments do not.
     #[arg(long)]
     force: bool,
+}
+
+/// `cam3=180`.
+fn camera_orientation(text: &str) -> Result<(String, Orientation), String> {
+    let (camera, how) = name_pair(text)?;
+    Ok((camera, Orientation::from_name(&how).map_err(|error| error.to_string())?))
 }
 
 /// Runs the command.
@@ -73,6 +87,7 @@ pub(super) fn run(args: &StartArgs) -> Result<()> {
         name,
         fps: args.fps,
         scale: args.scale,
+        orientations: args.orientation.clone(),
         fit: FitSettings {
             height: Some(args.height),
             frames: args.frames,

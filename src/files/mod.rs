@@ -2,6 +2,7 @@
 //! choices declared once, with one sentence for a name that is none of them; results written to a temporary name and renamed,
 //! never over an existing file unless asked.
 
+mod beside;
 mod choice;
 mod exact;
 mod input;
@@ -11,6 +12,7 @@ mod shortened;
 mod stem;
 mod toml_file;
 
+pub(crate) use beside::beside;
 pub(crate) use choice::choices;
 pub use choice::{Choice, ChoiceParser, deserialize as deserialize_choice, expected, names, nearest, unknown};
 pub use exact::{exactly, exactly_if_any};

@@ -56,6 +56,8 @@ pub struct FrameError {
 pub struct TrajectoryError {
     /// How frames were matched.
     pub matching: Matching,
+    /// Seconds by which the truth's clock was taken to be ahead: our moment t is compared with the truth's moment t + shift.
+    pub shift: f64,
     /// Points that are compared at least once.
     pub points: Vec<PointError>,
     /// Frames of ours that the truth covers.
@@ -84,10 +86,31 @@ impl TrajectoryError {
         pairs: &PointPairs,
         remove_offset: bool,
     ) -> Result<Self> {
+        Self::shifted(ours, truth, pairs, remove_offset, 0.0)
+    }
+
+    /// The same with our moment t compared with the truth's moment t + `shift` seconds, which is interpolated where it lies between
+    /// frames.
+    ///
+    /// # Errors
+    /// As [`Self::between`]; and when neither side tells its rate and there is a shift.
+    pub fn shifted(
+        ours: &PointTrajectory,
+        truth: &PointTrajectory,
+        pairs: &PointPairs,
+        remove_offset: bool,
+        shift: f64,
+    ) -> Result<Self> {
         let matching = matching(ours, truth);
+        let rate = if truth.rate > 0.0 { truth.rate } else { ours.rate };
+        ensure!(
+            shift == 0.0 || rate > 0.0,
+            "a shift of {shift} s is asked for and neither file tells its frame rate, expected one that does"
+        );
+        let ahead = if shift == 0.0 { 0.0 } else { shift * rate };
         let mut rows = Vec::new();
         for row in 0..ours.frames.len() {
-            if let Some(there) = counterpart(ours, truth, matching, row) {
+            if let Some(there) = counterpart(ours, truth, matching, row, ahead) {
                 let difference =
                     |&(theirs, mine): &(usize, usize)| Some(ours.frames[row][mine]? - there.point(truth, theirs)?);
                 rows.push((
@@ -145,6 +168,7 @@ impl TrajectoryError {
         let mean = points.iter().map(|point| point.mean).sum::<f64>() / points.len() as f64;
         Ok(Self {
             matching,
+            shift,
             mean,
             std: mean_and_std(&all).1,
             frames_without_truth: ours.frames.len() - frames.len(),
@@ -154,6 +178,58 @@ impl TrajectoryError {
             frames,
         })
     }
+}
+
+/// The farthest shift that [`best_shift`] looks at, seconds.
+pub const FARTHEST_SHIFT: f64 = 1.0;
+/// Shifts that leave fewer than this part of the most frames that any of them compares are not looked at.
+const FRAMES_LEFT: f64 = 0.5;
+/// How finely a shift is found, seconds.
+const FINEST_SHIFT: f64 = 1e-4;
+/// Shifts that are tried at first on each side at most.
+const MOST_SHIFTS: f64 = 120.0;
+
+/// The shift within [`FARTHEST_SHIFT`] with the smallest mean error, for [`TrajectoryError::shifted`]; of equals the smallest.
+///
+/// # Errors
+/// As [`TrajectoryError::shifted`], where no shift can be compared; when neither side tells its rate.
+pub fn best_shift(
+    ours: &PointTrajectory,
+    truth: &PointTrajectory,
+    pairs: &PointPairs,
+    remove_offset: bool,
+) -> Result<f64> {
+    let rate = ours.rate.max(truth.rate);
+    ensure!(rate > 0.0, "a shift is to be found and neither file tells its frame rate, expected one that does");
+    let error = |shift: f64| TrajectoryError::shifted(ours, truth, pairs, remove_offset, shift);
+    let mut step = f64::max(1.0 / rate, FARTHEST_SHIFT / MOST_SHIFTS);
+    let each_way = (FARTHEST_SHIFT / step).floor() as i32;
+    let tried: Vec<(f64, f64, usize)> = (-each_way..=each_way)
+        .filter_map(|at| {
+            let shift = f64::from(at) * step;
+            let error = error(shift).ok()?;
+            Some((shift, error.mean, error.frames.len()))
+        })
+        .collect();
+    let most = tried.iter().map(|(.., frames)| *frames).max().unwrap_or(0) as f64;
+    let kept = tried.into_iter().filter(|(.., frames)| *frames as f64 >= FRAMES_LEFT * most);
+    let Some((mut best, mut least, _)) = kept.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.abs().total_cmp(&b.0.abs())))
+    else {
+        return error(0.0).map(|error| error.shift);
+    };
+    while step > FINEST_SHIFT {
+        step /= 2.0;
+        for shift in [best - step, best + step] {
+            if shift.abs() <= FARTHEST_SHIFT
+                && let Ok(error) = error(shift)
+                && error.mean < least
+                && error.frames.len() as f64 >= FRAMES_LEFT * most
+            {
+                (best, least) = (shift, error.mean);
+            }
+        }
+    }
+    Ok(best)
 }
 
 /// Writes the errors frame by frame as CSV: `frame,mean,<point>,…`, mm, empty where one side misses the point.
@@ -203,13 +279,21 @@ impl Counterpart {
     }
 }
 
-fn counterpart(ours: &PointTrajectory, truth: &PointTrajectory, matching: Matching, row: usize) -> Option<Counterpart> {
+/// The place on the truth's time line that is `ahead` rows of it later than a row of ours.
+fn counterpart(
+    ours: &PointTrajectory,
+    truth: &PointTrajectory,
+    matching: Matching,
+    row: usize,
+    ahead: f64,
+) -> Option<Counterpart> {
     // The position in rows of the truth; frame indices are far below 2^53, so this is exact.
     let frame = (ours.first_frame + row) as f64;
     let position = match matching {
         Matching::FrameIndex => frame,
         Matching::Time => frame / ours.rate * truth.rate,
-    } - truth.first_frame as f64;
+    } + ahead
+        - truth.first_frame as f64;
     // Times that are meant to coincide do so up to rounding.
     let position = if (position - position.round()).abs() < 1e-6 { position.round() } else { position };
     let last = truth.frames.len().checked_sub(1)?;
@@ -286,6 +370,34 @@ mod tests {
         let mut unknown = fast.clone();
         unknown.rate = 0.0;
         assert_eq!(compare(&unknown, &fast, false).matching, Matching::FrameIndex);
+    }
+
+    #[test]
+    fn a_shift_in_time_is_found_and_taken_away() {
+        let swing = |rate: f64, late: f64, frames: usize| {
+            let mut points = trajectory(rate, 0, frames);
+            for (row, points) in points.frames.iter_mut().enumerate() {
+                let phase = 5.0 * (row as f64 / rate - late);
+                points.fill(Some(DVec3::new(300.0 * phase.sin(), 200.0 * (0.7 * phase).cos(), 900.0)));
+            }
+            points
+        };
+        let ours = swing(50.0, 0.0, 200);
+        for (rate, late) in [(50.0, 0.36), (50.0, -0.53), (120.0, 0.217), (50.0, 0.0)] {
+            let truth = swing(rate, late, 400);
+            let pairs = PointPairs::find(&ours, &truth, &[]).unwrap();
+            for remove in [false, true] {
+                let shift = best_shift(&ours, &truth, &pairs, remove).unwrap();
+                assert!((shift - late).abs() < 0.004, "{shift} of {late}");
+                let error = TrajectoryError::shifted(&ours, &truth, &pairs, remove, shift).unwrap();
+                assert!(error.mean < 2.0 && error.shift == shift, "{}", error.mean);
+            }
+        }
+        let mut unknown = ours.clone();
+        unknown.rate = 0.0;
+        let pairs = PointPairs::find(&ours, &ours, &[]).unwrap();
+        let refused = TrajectoryError::shifted(&unknown, &unknown, &pairs, false, 0.1).unwrap_err().to_string();
+        assert!(refused.contains("neither file tells its frame rate"), "{refused}");
     }
 
     #[test]

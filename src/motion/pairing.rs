@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use anyhow::{Result, bail, ensure};
 
+use super::joint_names::{Joint, joint};
 use super::points::PointTrajectory;
 use crate::files::{listed, nearest, shortened};
 
@@ -19,7 +20,8 @@ pub struct PointPairs {
 }
 
 impl PointPairs {
-    /// Pairs points of equal name; `map` (truth's name, our name) comes before that.
+    /// Pairs points of equal name, then joints that go by names of different programs (`RKnee` and `right_knee`); `map` (truth's name, our
+    /// name) comes before that.
     ///
     /// # Errors
     /// When a name of the map is unknown or stands twice, or when there is no pair at all: the sentence names some
@@ -45,8 +47,30 @@ impl PointPairs {
             // A point of ours that the map gave to another is not free for its namesake.
             None => column(name).filter(|_| !mapped.contains(name.as_str())),
         };
-        let columns: Vec<(usize, usize)> =
-            truth.names.iter().enumerate().filter_map(|(column, name)| Some((column, partner(name)?))).collect();
+        let by_name: Vec<Option<usize>> = truth.names.iter().map(partner).collect();
+        let taken: HashSet<usize> = by_name.iter().copied().flatten().collect();
+        // Names that are several joints' on a side stand for none.
+        let meant = |names: &[String]| -> HashMap<Joint, Option<usize>> {
+            let mut meant = HashMap::new();
+            for (column, name) in names.iter().enumerate() {
+                if let Some(joint) = joint(name) {
+                    meant.entry(joint).and_modify(|only| *only = None).or_insert(Some(column));
+                }
+            }
+            meant
+        };
+        let (ours_meant, truth_meant) = (meant(&ours.names), meant(&truth.names));
+        let namesake = |name: &String| {
+            let joint = joint(name)?;
+            truth_meant.get(&joint).copied().flatten()?;
+            ours_meant.get(&joint).copied().flatten().filter(|column| !taken.contains(column))
+        };
+        let columns: Vec<(usize, usize)> = by_name
+            .iter()
+            .zip(&truth.names)
+            .enumerate()
+            .filter_map(|(column, (partner, name))| Some((column, partner.or_else(|| namesake(name))?)))
+            .collect();
         if columns.is_empty() {
             bail!(
                 "the truth and the track share no point name: the truth has {}, the track has {}; a map can pair them",
@@ -137,23 +161,24 @@ mod tests {
         let mut truth = trajectory(60.0, 0, 3);
         truth.names = vec!["LHip".into(), "Nose".into()];
         let mut ours = truth.clone();
-        ours.names = vec!["left_hip".into(), "nose_tip".into()];
+        ours.names = vec!["hip_of_left".into(), "nose_tip".into()];
         let message = |result: Result<PointPairs>| result.unwrap_err().to_string();
         let none = message(PointPairs::find(&ours, &truth, &[]));
-        assert!(none.contains("`LHip`, `Nose`") && none.contains("`left_hip`"), "{none}");
+        assert!(none.contains("`LHip`, `Nose`") && none.contains("`hip_of_left`"), "{none}");
         let pair = |a: &str, b: &str| (a.to_string(), b.to_string());
-        let map = [pair("LHip", "left_hip")];
+        let map = [pair("LHip", "hip_of_left")];
         let one = PointPairs::find(&ours, &truth, &map).unwrap();
         assert_eq!(
             (one.missing_in_ours.as_slice(), one.missing_in_truth.as_slice()),
             (&["Nose".to_string()][..], &["nose_tip".to_string()][..])
         );
-        let wrong = message(PointPairs::find(&ours, &truth, &[pair("LHipp", "left_hip")]));
+        let wrong = message(PointPairs::find(&ours, &truth, &[pair("LHipp", "hip_of_left")]));
         assert!(wrong.contains("no point `LHipp`, the nearest name is `LHip`"), "{wrong}");
-        let wrong = message(PointPairs::find(&ours, &truth, &[pair("LHip", "left_hip"), pair("Nose", "left_hip")]));
-        assert!(wrong.contains("`left_hip` twice"), "{wrong}");
+        let wrong =
+            message(PointPairs::find(&ours, &truth, &[pair("LHip", "hip_of_left"), pair("Nose", "hip_of_left")]));
+        assert!(wrong.contains("`hip_of_left` twice"), "{wrong}");
 
-        let map = [pair("LHip", "left_hip"), pair("Nose", "nose_tip")];
+        let map = [pair("LHip", "hip_of_left"), pair("Nose", "nose_tip")];
         let both = PointPairs::find(&ours, &truth, &map).unwrap();
         let names = |words: &[&str]| words.iter().map(|w| (*w).to_string()).collect::<Vec<_>>();
         let mut kept = both.clone();
@@ -168,6 +193,22 @@ mod tests {
         assert!(wrong.contains("every point is excluded"), "{wrong}");
         let wrong = both.clone().exclude(&ours, &truth, &names(&["knees"])).unwrap_err().to_string();
         assert!(wrong.contains("no point `knees`"), "{wrong}");
+    }
+
+    #[test]
+    fn joints_of_other_programs_are_paired() {
+        let mut truth = trajectory(60.0, 0, 3);
+        let ours = PointTrajectory { names: vec!["right_knee".into(), "head_top".into()], ..truth.clone() };
+        let pairs = |truth: &PointTrajectory| PointPairs::find(&ours, truth, &[]).map(|pairs| pairs.columns);
+        truth.names = vec!["Head".into(), "RKnee".into()];
+        assert_eq!(pairs(&truth).unwrap(), [(0, 1), (1, 0)]);
+        // Its own name comes first, and what two points could be is neither.
+        truth.names = vec!["RKnee".into(), "right_knee".into()];
+        assert_eq!(pairs(&truth).unwrap(), [(1, 0)]);
+        truth.names = vec!["RKnee".into(), "R_Knee".into()];
+        assert!(pairs(&truth).is_err());
+        truth.names = vec!["LKnee".into(), "RKNE".into()];
+        assert!(pairs(&truth).is_err());
     }
 
     #[test]

@@ -25,6 +25,8 @@ pub struct ReportData {
     pub headlines: Vec<Headline>,
     /// Sentences a reader must not miss.
     pub warnings: Vec<String>,
+    /// Sentences on what was made of the input, by which nothing is amiss.
+    pub notes: Vec<String>,
     /// Index of the first frame of the curves and of the player.
     pub first_frame: usize,
     /// Curves of the error, mm.
@@ -157,12 +159,14 @@ pub fn page(data: &ReportData) -> Result<String> {
         }
         out.push_str("</div>");
     }
-    if !data.warnings.is_empty() {
-        out.push_str("<section class=\"warnings\"><h2>Warnings</h2><ul>");
-        for warning in &data.warnings {
-            write!(out, "<li>{}</li>", escape(warning))?;
+    for (class, heading, sentences) in [("warnings", "Warnings", &data.warnings), ("notes", "Notes", &data.notes)] {
+        if !sentences.is_empty() {
+            write!(out, "<section class=\"{class}\"><h2>{heading}</h2><ul>")?;
+            for sentence in sentences {
+                write!(out, "<li>{}</li>", escape(sentence))?;
+            }
+            out.push_str("</ul></section>");
         }
-        out.push_str("</ul></section>");
     }
     overlays(out, &data.overlays)?;
     if data.player.as_ref().is_some_and(|player| player.skeletons.iter().any(|s| !s.frames.is_empty())) {
@@ -367,6 +371,7 @@ mod tests {
             subtitle: evil.clone(),
             headlines: vec![Headline { value: evil.clone(), label: evil.clone() }],
             warnings: vec![evil.clone()],
+            notes: vec![evil.clone()],
             first_frame: 3,
             errors_per_frame: vec![curve(20.0), curve(10.0)],
             fitness_per_frame: vec![curve(0.2)],
@@ -402,6 +407,7 @@ mod tests {
     fn missing_points_are_null_and_an_empty_report_is_a_page() {
         let text = page(&everything()).unwrap();
         assert!(text.contains("[[0.0,0.0,900.0],null,null]"), "{text}");
+        assert!(text.contains("<h2>Warnings</h2>") && text.contains("<section class=\"notes\"><h2>Notes</h2>"));
         let empty = page(&ReportData::default()).unwrap();
         assert!(empty.starts_with("<!DOCTYPE html>") && empty.ends_with("</html>\n"));
         assert!(!empty.contains("<canvas") && !empty.contains("<table"));

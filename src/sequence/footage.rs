@@ -5,10 +5,11 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use image::RgbImage;
 
-use super::pictures::{PicturePattern, picture_size, read_picture, shown as shown_size};
+use super::pictures::{PicturePattern, picture_size, shown as shown_size};
 use super::resample::area_average;
-use super::source::{Source, Turn, Video};
+use super::source::{Source, Video};
 use super::timestamps::Timestamps;
+use super::turn::Turn;
 use super::video::{VideoDecoder, VideoInfo, probe_video};
 use crate::files::check_regular;
 
@@ -61,11 +62,19 @@ impl Footage {
 
     /// The same footage with its pictures as they are stored.
     #[must_use]
-    pub fn as_stored(mut self) -> Self {
-        if let Source::Video(video) = &mut self.source {
-            // Turned back, a quarter turn changes the sides again.
-            self.size = video.turn.turned(self.size);
-            video.turn = Turn::None;
+    pub fn as_stored(self) -> Self {
+        self.put(Turn::None)
+    }
+
+    /// The same footage with its stored pictures turned so, whatever a player does.
+    #[must_use]
+    pub fn put(mut self, turn: Turn) -> Self {
+        // Turned back, a quarter turn changes the sides again.
+        self.size = turn.turned(self.source.turn().turned(self.size));
+        match &mut self.source {
+            Source::Video(video) => video.turn = turn,
+            Source::Pictures(pattern) => pattern.turn = turn,
+            Source::Live(_) => {}
         }
         self
     }
@@ -82,9 +91,23 @@ impl Footage {
         let how = match (self.marked, video.turn) {
             (Turn::None, _) => return None,
             (marked, Turn::None) => format!("would be {} by a player, and is read as it is stored", marked.said()),
-            (marked, _) => format!("is {} when it is read, as players do", marked.said()),
+            (marked, turn) if turn == marked => format!("is {} when it is read, as players do", marked.said()),
+            (marked, turn) => format!("would be {} by a player, and is {} when it is read", marked.said(), turn.said()),
         };
         Some(format!("{} {how}: {}", self.shown, shown_size(self.size)))
+    }
+
+    /// What to say, in brackets, of footage that has another size than the one its camera is calibrated for; empty where nothing is known.
+    pub(crate) fn why_another_size(&self, size: [u32; 2]) -> String {
+        if let Some(turned) = self.turned() {
+            return format!(" ({turned})");
+        }
+        if Turn::Clockwise.turned(self.size) == size {
+            return " (turned by 90 degrees it would fit: `orientation = 90` or `270` in its [[view]], clockwise, or `pantin start \
+                    --orientation CAMERA=90`)"
+                .to_string();
+        }
+        String::new()
     }
 
     /// `count` of its frames at `size`, evenly spread over all; all frames where there are fewer.
@@ -151,8 +174,7 @@ impl SpreadFrames {
             // The same frames as a video's: the last of each share.
             Frames::Pictures(pattern) => {
                 let frame = (self.next * self.total).div_ceil(self.count) - 1;
-                let picture = read_picture(&pattern.file(frame), &[self.stored])?;
-                Ok(area_average(picture.into_rgb8(), self.size))
+                Ok(area_average(pattern.read(frame, self.stored)?.into_rgb8(), self.size))
             }
         }
     }

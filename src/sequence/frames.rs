@@ -253,9 +253,7 @@ impl ViewStream {
                 let bytes = decoder.next_frame()?.unwrap_or_default();
                 RgbImage::from_raw(width, height, bytes).with_context(|| format!("frame {frame} has too few bytes"))?
             }
-            Stream::Pictures(pattern) => {
-                area_average(read_picture(&pattern.file(number), &[self.picture_size])?.into_rgb8(), self.size)
-            }
+            Stream::Pictures(pattern) => area_average(pattern.read(number, self.picture_size)?.into_rgb8(), self.size),
         };
         let ignored = self.ignored.as_ref().map(|ignored| ignored.of_frame(number, self.size)).transpose()?;
         let Some((masks, stored)) = &mut self.masks else { return Ok((picture, None, ignored)) };
@@ -265,7 +263,7 @@ impl ViewStream {
                 GrayImage::from_raw(stored[0], stored[1], bytes)
                     .with_context(|| format!("the mask of frame {frame} has too few bytes"))?
             }
-            Stream::Pictures(pattern) => read_picture(&pattern.file(number), &[*stored])?.into_luma8(),
+            Stream::Pictures(pattern) => pattern.read(number, *stored)?.into_luma8(),
         };
         Ok((picture, Some(nearest_mask(&mask, self.size)), ignored))
     }

@@ -15,7 +15,8 @@ use super::person::{Person, PersonTable, check_names};
 use super::pictures::{picture_size, shown};
 use super::source::{LiveSource, Source};
 use super::synchrony::{MOST_DELAY, Recorded, Stamps, synchronise};
-use crate::files::{check_regular, choices, nearest, parse_toml, read_toml};
+use super::turn::Turn;
+use crate::files::{beside, check_regular, choices, nearest, parse_toml, read_toml};
 use crate::geometry::Camera;
 
 /// A sequence: synchronised pictures of calibrated cameras, and what belongs to them (METHOD A2, FORMATS).
@@ -51,6 +52,8 @@ pub struct Sequence {
     /// Frames in every view; [`Sequence::NO_END`] where they are live.
     pub frame_count: usize,
     /// What a user should know of how the videos were recorded, a sentence each.
+    warnings: Vec<String>,
+    /// What is made of them because the files or the manifest say so, a sentence each.
     notes: Vec<String>,
     /// The `[objective]` table as written, for the search to read.
     pub objective: Option<toml::Table>,
@@ -133,27 +136,74 @@ struct ViewTable {
     mask: Option<PathBuf>,
     ignore: Option<PathBuf>,
     delay: Option<f64>,
+    #[serde(default, deserialize_with = "number_or_name")]
     orientation: Option<Orientation>,
 }
 
 choices! {
-    /// How the pictures of a video are taken that is marked to be turned for display.
+    /// How the stored pictures of a view are turned when they are read.
     "orientation" pub enum Orientation {
-        /// Turned, as players and OpenCV show them.
+        /// Turned as a video is marked to be for display, as players and OpenCV show it.
         "upright" Upright,
         /// As they are stored.
         "stored" Stored,
+        /// As they are stored, turned clockwise by 90 degrees.
+        "90" Clockwise,
+        /// As they are stored, turned by 180 degrees.
+        "180" Half,
+        /// As they are stored, turned clockwise by 270 degrees.
+        "270" Counterclockwise,
+        /// As they are stored, left for right.
+        "mirrored" Mirrored,
     }
 }
 
-impl ViewTable {
-    /// Footage as this view wants it: as the manifest says, else as it fits the size that a camera is calibrated for, else upright.
-    fn oriented(&self, footage: Footage, size: Option<[u32; 2]>) -> Footage {
-        match (self.orientation, size) {
-            (Some(Orientation::Stored), _) => footage.as_stored(),
+impl Orientation {
+    /// How stored pictures are turned, where that does not depend on the file.
+    pub(crate) fn turn(self) -> Option<Turn> {
+        match self {
+            Self::Upright => None,
+            Self::Stored => Some(Turn::None),
+            Self::Clockwise => Some(Turn::Clockwise),
+            Self::Half => Some(Turn::Half),
+            Self::Counterclockwise => Some(Turn::Counterclockwise),
+            Self::Mirrored => Some(Turn::Mirrored),
+        }
+    }
+
+    /// The orientation in which stored pictures are turned so.
+    pub(crate) fn of(turn: Turn) -> Option<Self> {
+        Self::ALL.into_iter().find(|orientation| orientation.turn() == Some(turn))
+    }
+
+    /// Footage as a view wants it: as its manifest says, else as it fits the size that a camera is calibrated for, else upright.
+    pub(crate) fn orient(own: Option<Self>, footage: Footage, size: Option<[u32; 2]>) -> Footage {
+        match (own.map(Self::turn), size) {
+            (Some(Some(turn)), _) => footage.put(turn),
             (None, Some(size)) => footage.fitting(size),
             _ => footage,
         }
+    }
+}
+
+/// An orientation by its name, which may be a number.
+fn number_or_name<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Option<Orientation>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Written {
+        Number(i64),
+        Name(String),
+    }
+    let name = match Written::deserialize(deserializer)? {
+        Written::Number(number) => number.to_string(),
+        Written::Name(name) => name,
+    };
+    Orientation::from_name(&name).map(Some).map_err(serde::de::Error::custom)
+}
+
+impl ViewTable {
+    fn oriented(&self, footage: Footage, size: Option<[u32; 2]>) -> Footage {
+        Orientation::orient(self.orientation, footage, size)
     }
 }
 
@@ -267,7 +317,12 @@ impl Sequence {
                 "{path} has one view, in which near and far look alike: depth is a guess, expected two views or more"
             )
         });
-        one.into_iter().chain(self.notes.iter().cloned()).collect()
+        one.into_iter().chain(self.notes.iter().cloned()).chain(self.warnings.iter().cloned()).collect()
+    }
+
+    /// Those remarks by which nothing is amiss: what is made of the videos because they or the manifest say so.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
 
     fn refuse_live(&self) -> Result<()> {
@@ -319,19 +374,19 @@ impl Sequence {
         file.check(&shown_path.to_string())?;
         let dir = path.parent().map(Path::to_path_buf).unwrap_or_default();
         let existing = |key: &str, relative: &Path| -> Result<PathBuf> {
-            let file = dir.join(relative);
+            let file = beside(&dir, relative);
             if let Err(why) = check_regular(&file) {
                 bail!("{shown_path}: {key} is {:?}, and {why}", relative.display());
             }
             Ok(file)
         };
         // A folder may hold a calibration file a camera.
-        let cameras_path = match dir.join(&file.cameras) {
+        let cameras_path = match beside(&dir, &file.cameras) {
             folder if folder.is_dir() => folder,
             _ => existing("cameras", &file.cameras)?,
         };
         let fitted = |key: &str, relative: &Path| -> Result<PathBuf> {
-            if is_fitted { existing(key, relative) } else { Ok(dir.join(relative)) }
+            if is_fitted { existing(key, relative) } else { Ok(beside(&dir, relative)) }
         };
         let people = file.person.iter().map(|person| person.open(&existing)).collect::<Result<Vec<Person>>>()?;
         let first = people.first();
@@ -368,7 +423,8 @@ impl Sequence {
         let together = synchronise(&recorded, file.fps, file.timestamps).with_context(|| shown_path.to_string())?;
         check_coverage(&path, &cameras)?;
 
-        let notes = recorded.iter().filter_map(|view| view.footage.turned()).chain(together.remarks).collect();
+        let notes = recorded.iter().filter_map(|view| view.footage.turned()).chain(together.notes).collect();
+        let warnings = together.remarks;
         let views: Vec<View> =
             opened.into_iter().zip(together.picks).map(|(view, picks)| View { picks, ..view }).collect();
         check_sizes(&views, file.scale).with_context(|| path.display().to_string())?;
@@ -388,6 +444,7 @@ impl Sequence {
             truth,
             views,
             frame_count: together.frame_count,
+            warnings,
             notes,
             objective: file.objective,
             features: file.features,
@@ -481,6 +538,12 @@ fn open_view(
             if table.mask.is_some() {
                 bail!("{}: camera {name:?} is live and has `mask`, expected `background` alone", path.display());
             }
+            if let Some(turned) = table.orientation.filter(|orientation| orientation.turn().is_some()) {
+                bail!(
+                    "{}: camera {name:?} is live and has `orientation = \"{turned}\"`, expected that of recordings alone",
+                    path.display()
+                );
+            }
             let shown = live.address.clone();
             // What it delivers is looked at when it is opened: a camera can be opened once.
             let (size, frame_count) = (camera.size, Sequence::NO_END);
@@ -489,12 +552,12 @@ fn open_view(
         None => table.oriented(open_source(&key("source"), &table.source, existing, dir)?, Some(camera.size)),
     };
     if source.size != camera.size {
-        let turned = source.turned().map_or_else(String::new, |turned| format!(" ({turned})"));
         bail!(
-            "{} has pictures of {} pixels, but camera {name:?} is calibrated for {}{turned}",
+            "{} has pictures of {} pixels, but camera {name:?} is calibrated for {}{}",
             source.shown,
             shown(source.size),
-            shown(camera.size)
+            shown(camera.size),
+            source.why_another_size(camera.size)
         );
     }
     let background = table.background.as_deref().map(|plate| existing(&key("background"), plate)).transpose()?;
@@ -528,7 +591,7 @@ fn open_view(
     };
     let length = Some(source.frame_count).filter(|count| *count != Sequence::NO_END);
     let ignored =
-        table.ignore.as_deref().map(|ignore| Ignored::open(&key("ignore"), &dir.join(ignore), camera.size, length));
+        table.ignore.as_deref().map(|ignore| Ignored::open(&key("ignore"), &beside(dir, ignore), camera.size, length));
     let ignored = ignored.transpose().with_context(|| path.display().to_string())?;
     let view = View {
         camera: name.clone(),
@@ -568,7 +631,7 @@ fn open_source(
     existing: &impl Fn(&str, &Path) -> Result<PathBuf>,
     dir: &Path,
 ) -> Result<Footage> {
-    let file = dir.join(relative);
+    let file = beside(dir, relative);
     Footage::open(&if is_pattern(&file) { file } else { existing(key, relative)? })
 }
 

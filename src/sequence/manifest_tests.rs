@@ -1,6 +1,6 @@
 use std::fs;
 
-use super::super::source::Turn;
+use super::super::turn::Turn;
 use super::super::video::tests::{ffmpeg_is_here, make_video};
 use super::*;
 
@@ -555,7 +555,7 @@ fn videos_marked_to_be_turned_are_read_as_the_calibration_has_them() {
 }
 
 /// A video whose frames tell their number by their grey, without those that are missing: 8 levels a frame.
-fn numbered_video(path: &Path, rate: u32, frames: u32, missing: &str) {
+pub(in crate::sequence) fn numbered_video(path: &Path, rate: u32, frames: u32, missing: &str) {
     let made = std::process::Command::new("ffmpeg")
         .args(["-v", "error", "-y", "-f", "lavfi", "-i"])
         .arg(format!("color=size=40x30:rate={rate}:color=black,format=gray,geq=lum=8*N+8,select='not({missing})'"))
@@ -676,6 +676,7 @@ fn a_camera_that_was_started_late_is_put_right_by_one_key() {
         "{remarks:?}"
     );
     assert!(remarks[1].contains("cam01 2, cam03 3"), "{remarks:?}");
+    assert_eq!(sequence.notes(), remarks, "nothing is amiss");
     // All as late or as early as each other are not late.
     for delay in [7, -7] {
         let both = ["cam01", "cam03"].map(|camera| format!("{}\ndelay = {delay}", Scene::view(camera)));

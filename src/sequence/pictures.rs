@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use image::{DynamicImage, ImageDecoder, ImageReader};
 
+use super::turn::Turn;
 use crate::files::{Limit, PICTURE_FORMATS};
 
 /// Pictures are held in memory whole.
@@ -23,6 +24,8 @@ pub struct PicturePattern {
     /// The smallest number that is there: the name of frame 0.
     first: u64,
     count: usize,
+    /// How the stored pictures are turned when they are read.
+    pub(super) turn: Turn,
 }
 
 impl PicturePattern {
@@ -55,7 +58,7 @@ impl PicturePattern {
         if let Some(pair) = numbers.windows(2).find(|pair| pair[1] != pair[0] + 1) {
             bail!("the pictures {shown} have a gap: number {} is missing, number {} is there", pair[0] + 1, pair[1]);
         }
-        Ok(Self { folder, prefix, suffix, digits, first, count: numbers.len() })
+        Ok(Self { folder, prefix, suffix, digits, first, count: numbers.len(), turn: Turn::None })
     }
 
     /// How many pictures there are.
@@ -67,6 +70,16 @@ impl PicturePattern {
     pub fn file(&self, frame: usize) -> PathBuf {
         let number = self.first + frame as u64;
         self.folder.join(format!("{}{number:0digits$}{}", self.prefix, self.suffix, digits = self.digits))
+    }
+}
+
+impl PicturePattern {
+    /// One frame's picture, turned as it is to be and then of the size `size`.
+    ///
+    /// # Errors
+    /// As [`read_picture`].
+    pub(super) fn read(&self, frame: usize, size: [u32; 2]) -> Result<DynamicImage> {
+        Ok(self.turn.of(read_picture(&self.file(frame), &[self.turn.turned(size)])?))
     }
 }
 

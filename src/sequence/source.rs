@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::pictures::PicturePattern;
+use super::turn::Turn;
 
 /// Where the pictures (or masks) of a view come from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,6 +16,17 @@ pub enum Source {
     Live(LiveSource),
 }
 
+impl Source {
+    /// How its stored pictures are turned.
+    pub(crate) fn turn(&self) -> Turn {
+        match self {
+            Self::Video(video) => video.turn,
+            Self::Pictures(pattern) => pattern.turn,
+            Self::Live(_) => Turn::None,
+        }
+    }
+}
+
 /// A video file, and how its pictures are turned when they are read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Video {
@@ -22,59 +34,6 @@ pub struct Video {
     pub path: PathBuf,
     /// How its stored pictures are turned.
     pub turn: Turn,
-}
-
-/// How pictures are turned.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Turn {
-    /// Not at all.
-    None,
-    /// By 90 degrees, clockwise.
-    Clockwise,
-    /// By 180 degrees.
-    Half,
-    /// By 90 degrees, counterclockwise.
-    Counterclockwise,
-}
-
-impl Turn {
-    /// What a file's mark says, degrees counterclockwise as ffprobe writes them; no quarter turn is none.
-    pub(super) fn marked(degrees: i32) -> Self {
-        match degrees.rem_euclid(360) {
-            90 => Self::Counterclockwise,
-            180 => Self::Half,
-            270 => Self::Clockwise,
-            _ => Self::None,
-        }
-    }
-
-    /// The size of a picture of `size` pixels that is turned so.
-    pub fn turned(self, size: [u32; 2]) -> [u32; 2] {
-        match self {
-            Self::None | Self::Half => size,
-            Self::Clockwise | Self::Counterclockwise => [size[1], size[0]],
-        }
-    }
-
-    /// What ffmpeg's filters are preceded by.
-    pub(super) fn filter(self) -> &'static str {
-        match self {
-            Self::None => "",
-            Self::Clockwise => "transpose=clock,",
-            Self::Half => "hflip,vflip,",
-            Self::Counterclockwise => "transpose=cclock,",
-        }
-    }
-
-    /// As sentences say it.
-    pub(crate) fn said(self) -> &'static str {
-        match self {
-            Self::None => "not turned",
-            Self::Clockwise => "turned by 90 degrees clockwise",
-            Self::Half => "turned by 180 degrees",
-            Self::Counterclockwise => "turned by 90 degrees counterclockwise",
-        }
-    }
 }
 
 /// A source without an end.

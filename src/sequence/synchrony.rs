@@ -53,6 +53,8 @@ pub(super) struct Synchrony {
     pub(super) frame_count: usize,
     /// What a user should know, a sentence each.
     pub(super) remarks: Vec<String>,
+    /// What follows from what the user stated, a sentence each: nothing is amiss.
+    pub(super) notes: Vec<String>,
 }
 
 /// Puts the views of a sequence of `fps` frames a second together in time.
@@ -68,7 +70,7 @@ pub(super) fn synchronise(views: &[Recorded], fps: f64, stamps: Option<Stamps>) 
     let resampled = is_resampled(views, fps, stamps, &mut remarks);
     let delays: Vec<f64> = views.iter().map(|view| view.delay.unwrap_or(0.0)).collect();
     let earliest = delays.iter().copied().fold(f64::INFINITY, f64::min);
-    remarks.extend(first_moment(views, fps));
+    let mut notes: Vec<String> = first_moment(views, fps).into_iter().collect();
     let mut picks = Vec::new();
     for (view, delay) in views.iter().zip(&delays) {
         let late = delay - earliest;
@@ -85,7 +87,7 @@ pub(super) fn synchronise(views: &[Recorded], fps: f64, stamps: Option<Stamps>) 
         |(view, picks): (&Recorded, &Option<Vec<u32>>)| picks.as_ref().map_or(view.footage.frame_count, Vec::len);
     let lengths: Vec<usize> = views.iter().zip(&picks).map(length).collect();
     let may_differ = resampled || views.iter().any(|view| view.delay.is_some());
-    let frame_count = common_length(views, &lengths, may_differ, &mut remarks)?;
+    let frame_count = common_length(views, &lengths, may_differ, &remarks, &mut notes)?;
     if stamps != Some(Stamps::Ignore) {
         remarks.extend(rates(views, fps, resampled));
         remarks.extend(beginnings(views, fps));
@@ -98,7 +100,7 @@ pub(super) fn synchronise(views: &[Recorded], fps: f64, stamps: Option<Stamps>) 
         // A video that is regular after all is read as every other one.
         picks.filter(|picks| picks.iter().enumerate().any(|(frame, pick)| frame != *pick as usize)).map(Arc::from)
     };
-    Ok(Synchrony { picks: picks.into_iter().map(cut).collect(), frame_count, remarks })
+    Ok(Synchrony { picks: picks.into_iter().map(cut).collect(), frame_count, remarks, notes })
 }
 
 /// Live views have no frames that could be counted or put off.
@@ -115,7 +117,8 @@ fn live(views: &[Recorded]) -> Result<Synchrony> {
             recorded.camera
         );
     }
-    Ok(Synchrony { picks: vec![None; views.len()], frame_count: views[0].footage.frame_count, remarks: Vec::new() })
+    let frame_count = views[0].footage.frame_count;
+    Ok(Synchrony { picks: vec![None; views.len()], frame_count, remarks: Vec::new(), notes: Vec::new() })
 }
 
 /// Whether the frames are the pictures nearest in time, and what is to be said of the videos that ask for it.
@@ -147,7 +150,13 @@ fn is_resampled(views: &[Recorded], fps: f64, stamps: Option<Stamps>, remarks: &
 }
 
 /// The number of frames that all views have.
-fn common_length(views: &[Recorded], lengths: &[usize], may_differ: bool, remarks: &mut Vec<String>) -> Result<usize> {
+fn common_length(
+    views: &[Recorded],
+    lengths: &[usize],
+    may_differ: bool,
+    remarks: &[String],
+    notes: &mut Vec<String>,
+) -> Result<usize> {
     let shortest = lengths.iter().copied().min().unwrap_or(0);
     if let Some(at) = lengths.iter().position(|length| *length == 0) {
         bail!(
@@ -160,7 +169,7 @@ fn common_length(views: &[Recorded], lengths: &[usize], may_differ: bool, remark
         let each = views.iter().zip(lengths).map(|(view, length)| format!("{} {length}", view.camera));
         let each: Vec<String> = each.collect();
         let each: Vec<&str> = each.iter().map(String::as_str).collect();
-        remarks.push(format!(
+        notes.push(format!(
             "the cameras filmed for different times ({} frames): {shortest} are taken, those of all",
             listed(&each)
         ));
@@ -173,15 +182,18 @@ fn common_length(views: &[Recorded], lengths: &[usize], may_differ: bool, remark
         (Some(a), Some(b)) if (a / b - 1.0).abs() > SAME_RATE => format!(
             "their files have {a:.3} and {b:.3} frames a second: `timestamps = \"resample\"` takes the pictures nearest in time"
         ),
-        _ => "or `delay` in the [[view]] of a camera that was started early or late: frames by which its pictures come too late"
+        _ => "or `delay` in the [[view]] of a camera that was started early or late: frames by which its pictures come too late; with \
+              `delay = 0` the frames that all have are taken, and `pantin check` looks for the delay"
             .to_string(),
     };
     bail!(
-        "camera {:?} has {} frames and camera {:?} has {}, expected views of the same length ({hint})",
+        "camera {:?} has {} frames and camera {:?} has {} ({}; {}), expected views of the same length ({hint})",
         first.camera,
         lengths[0],
         second.camera,
-        lengths[other]
+        lengths[other],
+        first.footage.shown,
+        second.footage.shown
     );
 }
 

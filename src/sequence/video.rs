@@ -12,8 +12,9 @@ use anyhow::{Context, Result, anyhow, bail};
 
 use super::playlist::refuse_playlist;
 use super::program::{Process, Stopper, missing_program};
-use super::source::{Turn, Video};
+use super::source::Video;
 use super::timestamps::Timestamps;
+use super::turn::Turn;
 
 /// What a video file holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,28 +117,6 @@ fn rate(text: &str) -> Option<f64> {
     let (count, seconds) = text.split_once('/')?;
     let rate = count.parse::<f64>().ok()? / seconds.parse::<f64>().ok()?;
     (rate.is_finite() && rate > 0.0).then_some(rate)
-}
-
-/// The mean rate of a video, frames a second, as its container tells it.
-///
-/// # Errors
-/// When ffprobe is missing, or the file is no video or tells no rate.
-pub fn probe_rate(path: &Path) -> Result<f64> {
-    refuse_playlist(path)?;
-    let mut command = Command::new(ffmpeg_sidecar::ffprobe::ffprobe_path());
-    command.args(["-v", "error", "-select_streams", "v:0", "-of", "csv=p=0", "-show_entries", "stream=avg_frame_rate"]);
-    command.args(["-protocol_whitelist", "file", "-i"]).arg(file_url(path));
-    let mut process = Process::spawn(command)?;
-    let mut text = String::new();
-    process
-        .output
-        .read_to_string(&mut text)
-        .with_context(|| format!("cannot read what ffprobe says of {}", path.display()))?;
-    let ended = process.finish();
-    if !ended.success() {
-        bail!("{} cannot be read as a video: {ended}", path.display());
-    }
-    rate(text.trim()).with_context(|| format!("{} tells no frame rate, expected a video that does", path.display()))
 }
 
 /// What each pixel of a decoded picture holds.

@@ -45,6 +45,7 @@ pub(super) fn write_report(
     let frames = &summary.frames;
     let drawn = drawn_frames(output.path(), &sequence.cameras, frames);
     let joints = held.with_gaps(body.joint_trajectory(&held.table, sequence.fps)?);
+    let (notes, warnings) = summary.warnings.iter().cloned().partition(|told| sequence.notes().contains(told));
     let mut data = ReportData {
         title: sequence.name.clone(),
         subtitle: format!(
@@ -57,7 +58,8 @@ pub(super) fn write_report(
             summary.backend[1]
         ),
         headlines: headlines(summary),
-        warnings: summary.warnings.clone(),
+        warnings,
+        notes,
         first_frame: summary.first_frame,
         errors_per_frame: vec![expected_errors(confidences)],
         fitness_per_frame: fitness_curves(confidences, frames),

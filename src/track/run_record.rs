@@ -312,10 +312,8 @@ fn described(source: &Source) -> Result<String> {
 
 /// What is made of a view's pictures before they are frames, where it is something: which they are, and how they are turned.
 fn changed(view: &View) -> Vec<String> {
-    let turned = match &view.source {
-        Source::Video(Video { turn, .. }) if *turn != Turn::None => Some(turn.said().to_string()),
-        _ => None,
-    };
+    let turn = view.source.turn();
+    let turned = (turn != Turn::None).then(|| turn.said().to_string());
     let picked = view.picks.as_deref().map(|picks| {
         let bytes: Vec<u8> = picks.iter().flat_map(|pick| pick.to_le_bytes()).collect();
         format!("pictures {} and on for frames, {}", picks.first().copied().unwrap_or(0), sum(&bytes))

@@ -17,6 +17,8 @@ use super::support::{has_ffmpeg, lay_out_beam, pantin, refused, shared, stderr, 
 
 const SIZE: [u32; 2] = [320, 400];
 const FRAMES: usize = 20;
+/// Frames of the longer walk.
+const LONG: usize = 66;
 
 /// Five cameras round a walk, no two of them opposite each other.
 fn cameras() -> Vec<Camera> {
@@ -50,25 +52,37 @@ fn pose(body: &Body, frame: usize) -> Vec<f32> {
 /// The drawn masks, made once: folder/cN_FFF.png.
 fn masks() -> &'static Path {
     static FOLDER: OnceLock<tempfile::TempDir> = OnceLock::new();
-    FOLDER
-        .get_or_init(|| {
-            let folder = tempfile::tempdir().unwrap();
-            let body = Body::adult(1750.0).unwrap();
-            let cameras = cameras();
-            let reference = Reference::new(&body, &cameras);
-            for frame in 0..FRAMES {
-                let pose = pose(&body, frame);
-                for (view, camera) in cameras.iter().enumerate() {
-                    let drawn = reference.draw(&pose, view);
-                    let mask = GrayImage::from_fn(drawn.width, drawn.height, |x, y| {
-                        Luma([if drawn.bytes[(y * drawn.width + x) as usize] != 0 { 255 } else { 0 }])
-                    });
-                    mask.save(folder.path().join(format!("{}_{frame:03}.png", camera.name))).unwrap();
-                }
-            }
-            folder
-        })
-        .path()
+    FOLDER.get_or_init(|| drawn(FRAMES, pose)).path()
+}
+
+/// The masks of a longer walk of 30 mm a frame, made once.
+fn long_masks() -> &'static Path {
+    static FOLDER: OnceLock<tempfile::TempDir> = OnceLock::new();
+    let slower = |body: &Body, frame: usize| {
+        let mut pose = pose(body, frame);
+        let along = body.dof_names().iter().position(|dof| dof == "pelvis.tx").unwrap();
+        pose[along] = 30.0 * frame as f32 - 900.0;
+        pose
+    };
+    FOLDER.get_or_init(|| drawn(LONG, slower)).path()
+}
+
+fn drawn(frames: usize, pose: impl Fn(&Body, usize) -> Vec<f32>) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let body = Body::adult(1750.0).unwrap();
+    let cameras = cameras();
+    let reference = Reference::new(&body, &cameras);
+    for frame in 0..frames {
+        let pose = pose(&body, frame);
+        for (view, camera) in cameras.iter().enumerate() {
+            let drawn = reference.draw(&pose, view);
+            let mask = GrayImage::from_fn(drawn.width, drawn.height, |x, y| {
+                Luma([if drawn.bytes[(y * drawn.width + x) as usize] != 0 { 255 } else { 0 }])
+            });
+            mask.save(folder.path().join(format!("{}_{frame:03}.png", camera.name))).unwrap();
+        }
+    }
+    folder
 }
 
 /// A sequence of those masks with other cameras; `late` is a camera whose pictures come a frame late.
@@ -207,6 +221,118 @@ fn a_camera_a_frame_late_is_caught_and_named() {
     assert!(status == 0 && self::failed(&report).is_empty(), "{error}");
 }
 
+/// A sequence in which the pictures of c2 lack so many frames of the beginning; of the others they do, where that is below zero.
+fn cut(by: isize) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    write_cameras_toml(&at.join("cameras.toml"), &cameras(), Overwrite::Refuse).unwrap();
+    let mut manifest = "name = \"walk\"\nfps = 25.0\ncameras = \"cameras.toml\"\nheight = 1750\n".to_string();
+    for camera in cameras() {
+        let name = &camera.name;
+        let lacks = if name == "c2" { by.max(0) } else { (-by).max(0) } as usize;
+        for frame in 0..LONG - by.unsigned_abs() {
+            let from = long_masks().join(format!("{name}_{:03}.png", frame + lacks));
+            fs::hard_link(from, at.join(format!("{name}_{frame:03}.png"))).unwrap();
+        }
+        manifest +=
+            &format!("[[view]]\ncamera = \"{name}\"\nsource = \"{name}_%03d.png\"\nmask = \"{name}_%03d.png\"\n");
+    }
+    fs::write(at.join("sequence.toml"), manifest).unwrap();
+    folder
+}
+
+#[test]
+fn a_camera_far_off_in_time_is_named_with_its_whole_delay_alone() {
+    for by in [0, 5, 8, 20, -8] {
+        let folder = cut(by);
+        let (status, report, error) = check(folder.path());
+        let failed = failed(&report);
+        println!("c2 cut by {by}: {failed:?}");
+        if by == 0 {
+            assert!(failed.is_empty(), "{failed:?}");
+            continue;
+        }
+        assert_eq!((status, failed), (1, vec!["timing c2".to_string()]), "cut by {by}: {error}");
+        let timing = finding(&report, "timing", "c2");
+        assert!((timing["value"].as_f64().unwrap() + by as f64).abs() < 0.3, "cut by {by}: {timing}");
+        let advice = timing["advice"].as_str().unwrap();
+        assert!(advice.contains(&format!("write `delay = {}` into the [[view]]", -by)), "{advice}");
+        assert!(!advice.contains("Nothing beyond"), "{advice}");
+        for camera in cameras() {
+            let direction = finding(&report, "direction", &camera.name);
+            assert_eq!(direction["status"], "ok", "cut by {by}: {direction}");
+        }
+        let early = format!("{} early", by.abs());
+        let out = stdout(&pantin(&["check", folder.path().to_str().unwrap()]));
+        assert_eq!(out.contains("frames early"), by > 0, "{early}: {out}");
+    }
+}
+
+#[test]
+fn what_failed_comes_first_and_what_is_well_is_a_line() {
+    let folder = cut(8);
+    let path = folder.path().to_str().unwrap();
+    let out = stdout(&pantin(&["check", path]));
+    let lines: Vec<&str> = out.lines().collect();
+    assert!(lines[1].starts_with("FAILED timing c2: "), "{out}");
+    let last = lines[lines.len() - 1];
+    assert!(
+        last.starts_with("ok     files, distortion (5), field of view (5)") && last.contains("timing (4)"),
+        "{out}"
+    );
+    assert!(lines.len() < 8 && out.matches("\nok ").count() == 1, "{out}");
+    let all = stdout(&pantin(&["check", path, "--all"]));
+    assert!(all.lines().count() > 30 && all.contains("ok     direction c0: "), "{all}");
+}
+
+/// A sequence in which the pictures of c3 were put another way.
+fn put(way: impl Fn(&GrayImage) -> GrayImage, orientation: &str) -> tempfile::TempDir {
+    let folder = sequence(&cameras(), None);
+    for frame in 0..FRAMES {
+        let name = format!("c3_{frame:03}.png");
+        way(&image::open(masks().join(&name)).unwrap().to_luma8()).save(folder.path().join(name)).unwrap();
+    }
+    let path = folder.path().join("sequence.toml");
+    let text = fs::read_to_string(&path).unwrap();
+    let text = text.replace(masks().join("c3_").to_str().unwrap(), folder.path().join("c3_").to_str().unwrap());
+    fs::write(path, text.replace("camera = \"c3\"\n", &format!("camera = \"c3\"\n{orientation}\n"))).unwrap();
+    folder
+}
+
+#[test]
+fn pictures_upside_down_or_mirrored_are_named_and_put_right() {
+    use image::imageops::{flip_horizontal, rotate90, rotate180};
+    type Way = fn(&GrayImage) -> GrayImage;
+    let ways: [(Way, &str, &str); 2] = [
+        (rotate180, "turned by 180 degrees", "orientation = 180"),
+        (flip_horizontal, "mirrored", "orientation = \"mirrored\""),
+    ];
+    for (way, how, key) in ways {
+        let folder = put(way, "");
+        let (status, report, error) = check(folder.path());
+        let failed = failed(&report);
+        assert!(status == 1 && failed.contains(&"orientation c3".to_string()), "{how}: {failed:?} {error}");
+        assert!(
+            failed.iter().all(|check| !check.starts_with("direction") && !check.starts_with("timing")),
+            "{failed:?}"
+        );
+        let advice = finding(&report, "orientation", "c3")["advice"].as_str().unwrap();
+        let said = format!("c3 agrees with the others when its picture is {how}: write `{key}` into its [[view]]");
+        assert!(advice.contains(&said), "{advice}");
+        let (status, report, error) = check(put(way, key).path());
+        assert!(status == 0 && self::failed(&report).is_empty(), "{how}: {error}");
+    }
+    // A quarter turn changes the sides.
+    let (_, report, _) = check(put(rotate90, "").path());
+    let found = report["checks"][0]["found"].as_str().unwrap();
+    assert!(found.contains("calibrated for 320x400 (turned by 90 degrees it would fit"), "{found}");
+    let (status, _, error) = check(put(rotate90, "orientation = 270").path());
+    assert_eq!(status, 0, "{error}");
+    let (_, report, _) = check(put(rotate180, "orientation = 45").path());
+    let found = report["checks"][0]["found"].as_str().unwrap();
+    assert!(found.contains("unknown orientation `45`"), "{found}");
+}
+
 #[test]
 fn exchanged_cameras_are_caught_and_named() {
     let mut cameras = cameras();
@@ -297,7 +423,10 @@ fn a_wrong_lens_and_too_few_frames_are_said() {
         (output.status.code().unwrap(), stdout(&output), stderr(&output))
     };
     let (status, out, error) = run(&["--frames", "3..5"]);
-    assert!(status == 0 && out.contains("-      timing c1") && out.contains("no three neighbours"), "{out}{error}");
+    assert!(
+        status == 0 && out.contains("-      timing c0 c1 c2 c3 c4: ") && out.contains("no three neighbours"),
+        "{out}{error}"
+    );
     let (status, _, error) = run(&["--frames", "3..50"]);
     assert!(status == 1 && error.contains("frames 3..50 are no frames of"), "{error}");
     let (_, _, error) = run(&["--frames", "4..5", "--samples", "1"]);

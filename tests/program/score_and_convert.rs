@@ -68,11 +68,9 @@ fn joints_by_a_map_as_json_and_frame_by_frame() {
 fn score_refuses_in_one_sentence() {
     let folder = track();
     let at = folder.path();
-    refused(
-        at,
-        &["score", "out", "--truth", "joints.csv"],
-        "the truth has `LKnee`, `LHip`, the track has `LKNE`, `RKNE`",
-    );
+    let markers = "out/markers.c3d";
+    let (truth, none) = ("joints.csv", "the truth has `LKnee`, `LHip`, the track has `LKNE`, `RKNE`");
+    refused(at, &["score", markers, "--truth", truth], none);
     refused(at, &["score", "out", "--truth", "none.trc"], "cannot read none.trc");
     refused(at, &["score", "none", "--truth", "joints.csv"], "there is no file none");
     fs::create_dir(at.join("empty")).unwrap();
@@ -80,6 +78,41 @@ fn score_refuses_in_one_sentence() {
     refused(at, &["score", "out", "--truth", "markers.trc", "--points", "HIP"], "no point `HIP` to compare");
     let (status, _, error) = pantin(at, &["score", "out", "--truth", "joints.csv", "--map", "LKnee"]);
     assert!(status == 2 && error.contains("\"LKnee\" is no pair, expected two names with `=`"), "{error}");
+}
+
+#[test]
+fn joints_of_other_programs_and_another_clock_are_compared() {
+    let folder = track();
+    let (status, out, error) = pantin(folder.path(), &["score", "out", "--truth", "joints.csv"]);
+    assert!(status == 0 && out.contains("LKnee = left_knee") && out.contains("over 2 points"), "{out}{error}");
+    // A swing whose truth was recorded 0.2 s late, at another rate.
+    let swing = |rate: f64, late: f64, frames: usize| {
+        let mut swing = PointTrajectory { rate, ..points(&["RKnee"], frames, DVec3::ZERO) };
+        for (row, points) in swing.frames.iter_mut().enumerate() {
+            points.fill(Some(DVec3::new(400.0 * (4.0 * (row as f64 / rate - late)).sin(), 0.0, 500.0)));
+        }
+        swing
+    };
+    let at = |name: &str| folder.path().join(name);
+    write_points(&at("truth.trc"), &swing(100.0, 0.2, 400), Overwrite::Refuse).unwrap();
+    let ours = PointTrajectory { names: vec!["right_knee".into()], ..swing(25.0, 0.0, 75) };
+    write_points(&at("ours.csv"), &ours, Overwrite::Refuse).unwrap();
+    let score = |more: &[&str]| {
+        let all = [&["score", "ours.csv", "--truth", "truth.trc", "--json"], more].concat();
+        let (status, out, error) = pantin(folder.path(), &all);
+        assert_eq!(status, 0, "{error}");
+        serde_json::from_str::<serde_json::Value>(&out).unwrap()
+    };
+    let plain = score(&[]);
+    assert!(plain["mean"].as_f64().unwrap() > 100.0 && plain.get("shift").is_none(), "{plain}");
+    assert!(score(&["--shift", "0.2"])["mean"].as_f64().unwrap() < 0.5);
+    let found = score(&["--shift", "auto"]);
+    assert!((found["shift"].as_f64().unwrap() - 0.2).abs() < 0.002, "{found}");
+    assert!(found["mean"].as_f64().unwrap() < 2.0, "{found}");
+    let (_, out, _) = pantin(folder.path(), &["score", "ours.csv", "--truth", "truth.trc", "--shift", "0.2"]);
+    assert!(out.contains("the truth taken 0.2000 s later (--shift 0.2000)"), "{out}");
+    let (status, _, error) = pantin(folder.path(), &["score", "ours.csv", "--truth", "truth.trc", "--shift", "nan"]);
+    assert!(status == 2 && error.contains("expected `auto` or seconds"), "{error}");
 }
 
 const BVH: &str = "HIERARCHY\nROOT hip\n{\n OFFSET 0 0 0\n CHANNELS 3 Xposition Yposition Zposition\n End Site\n {\n  OFFSET 0 10 0\n }\n}\n\

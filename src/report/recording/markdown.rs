@@ -12,11 +12,13 @@ pub(super) fn summary(data: &ReportData) -> Result<String> {
     for headline in &data.headlines {
         write!(text, "\n- **{}** {}", escape(&headline.value), escape(&headline.label))?;
     }
-    if !data.warnings.is_empty() {
-        text.push_str("\n\n## Warnings\n");
-    }
-    for warning in &data.warnings {
-        write!(text, "\n- {}", escape(warning))?;
+    for (heading, sentences) in [("Warnings", &data.warnings), ("Notes", &data.notes)] {
+        if !sentences.is_empty() {
+            write!(text, "\n\n## {heading}\n")?;
+        }
+        for sentence in sentences {
+            write!(text, "\n- {}", escape(sentence))?;
+        }
     }
     if !data.joint_errors.is_empty() {
         text.push_str("\n\n## Error a joint\n\n| joint | mean, mm | deviation | largest |\n|---|--:|--:|--:|\n");

@@ -9,7 +9,7 @@ use super::chosen_calibration::calibration;
 use super::config::{Config, LargeGaps};
 use super::videos::{Recording, recordings};
 use crate::sequence::calibration::read_cameras;
-use crate::sequence::video::probe_rate;
+use crate::sequence::video::probe_video;
 
 /// What one camera recorded.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -133,11 +133,15 @@ fn views(recordings: &[Recording], calibration: &Path, dir: &Path) -> Result<Vec
     Ok(paired.into_iter().zip(recordings).map(view).collect())
 }
 
-/// The rate of all videos, frames a second, whole as Pose2Sim takes it.
+/// The rate of all videos, frames a second, as a manifest reads it (where pictures are missing that at which the others came), and whole as
+/// Pose2Sim takes it.
 fn common_rate(videos: &[Recording]) -> Result<f64> {
     let mut common: Option<(&Path, f64)> = None;
     for Recording { source, .. } in videos {
-        let rate = probe_rate(source)?.round().max(1.0);
+        let rate = probe_video(source)?.fps;
+        let rate =
+            rate.with_context(|| format!("{} tells no frame rate, expected a video that does", source.display()))?;
+        let rate = rate.round().max(1.0);
         let (first, expected) = *common.get_or_insert((source, rate));
         ensure!(
             rate == expected,
@@ -147,4 +151,28 @@ fn common_rate(videos: &[Recording]) -> Result<f64> {
         );
     }
     common.map(|(_, rate)| rate).context("there is no video")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sequence::manifest::tests::numbered_video;
+    use crate::sequence::video::tests::ffmpeg_is_here;
+
+    #[test]
+    fn a_video_that_lacks_pictures_has_the_rate_at_which_the_others_came() {
+        if !ffmpeg_is_here("a_video_that_lacks_pictures_has_the_rate_at_which_the_others_came") {
+            return;
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let video = |name: &str, rate: u32, missing: &str| {
+            let source = folder.path().join(name);
+            numbered_video(&source, rate, 24, missing);
+            Recording { name: name.to_string(), source, is_video: true }
+        };
+        let (whole, torn) = (video("a.mkv", 30, "0"), video("b.mkv", 30, "between(n,8,15)"));
+        assert_eq!(common_rate(&[whole, torn]).unwrap(), 30.0);
+        let (slow, fast) = (video("c.mkv", 25, "0"), video("d.mkv", 50, "0"));
+        assert!(common_rate(&[slow, fast]).unwrap_err().to_string().contains("expected videos of one rate"));
+    }
 }

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Component, Path, PathBuf};
 
 use anyhow::{Context, Result};
+use toml::{Table, Value};
 
 /// A view of the manifest.
 pub(super) struct ManifestView<'a> {
@@ -12,6 +13,8 @@ pub(super) struct ManifestView<'a> {
     pub(super) plate: Option<PathBuf>,
     /// How much of it is doubtful, % of the picture.
     pub(super) doubtful: f64,
+    /// Keys that its user wrote.
+    pub(super) kept: Option<&'a Table>,
 }
 
 /// What a manifest is written from.
@@ -22,6 +25,8 @@ pub(super) struct ManifestText<'a> {
     pub(super) height: f64,
     pub(super) scale: f64,
     pub(super) views: Vec<ManifestView<'a>>,
+    /// Keys and tables that its user wrote.
+    pub(super) kept: &'a Table,
 }
 
 impl ManifestText<'_> {
@@ -38,6 +43,9 @@ impl ManifestText<'_> {
         let _ = writeln!(text, "name = {}\nfps = {:?}\ncameras = {cameras}", quoted(self.name), self.fps);
         let _ = writeln!(text, "body = \"body.toml\"\nstart = \"start.csv\"\nheight = {:?}", self.height);
         let _ = writeln!(text, "scale = {:?}", self.scale);
+        // A table takes all keys that follow.
+        let (tables, keys): (Vec<_>, Vec<_>) = self.kept.iter().partition(|(_, value)| has_tables(value));
+        text.push_str(&written(&keys)?);
         for view in &self.views {
             let source = quoted(&seen_from(folder, view.source)?);
             let _ = writeln!(text, "\n[[view]]\ncamera = {}\nsource = {source}", quoted(view.camera));
@@ -51,13 +59,27 @@ impl ManifestText<'_> {
                     );
                 }
             }
+            text.push_str(&written(&view.kept.into_iter().flatten().collect::<Vec<_>>())?);
+        }
+        if !tables.is_empty() {
+            let _ = write!(text, "\n{}", written(&tables)?);
         }
         Ok(text)
     }
 }
 
+/// Whether a value stands under a heading of its own.
+fn has_tables(value: &Value) -> bool {
+    value.is_table() || value.as_array().is_some_and(|values| values.iter().any(Value::is_table))
+}
+
+fn written(keys: &[(&String, &Value)]) -> Result<String> {
+    let table: Table = keys.iter().map(|(key, value)| ((*key).clone(), (*value).clone())).collect();
+    Ok(toml::to_string(&table)?)
+}
+
 fn quoted(text: &str) -> String {
-    toml::Value::String(text.to_string()).to_string()
+    Value::String(text.to_string()).to_string()
 }
 
 /// A file, which may be a pattern of numbered pictures, as seen from a folder.
@@ -96,15 +118,25 @@ mod tests {
         assert!(seen_from(&at("walk"), &at("none/a.mp4")).unwrap_err().to_string().contains("cannot find"));
         let cameras = at("cameras.toml");
         let source = at("videos/the \"first\".mp4");
-        let views =
-            vec![ManifestView { camera: "c \\1", source: &source, plate: Some(at("walk/c.png")), doubtful: 2.25 }];
-        let text = ManifestText { name: "a \"b\"", fps: 25.0, cameras: &cameras, height: 1720.0, scale: 0.25, views };
-        let table: toml::Table = text.text(&at("walk")).unwrap().parse().unwrap();
+        let kept_view: Table = "delay = -8\nignore = \"desk.png\"".parse().unwrap();
+        let kept: Table = "timestamps = \"ignore\"\n[features.shadow]\nchroma = 5".parse().unwrap();
+        let views = vec![ManifestView {
+            camera: "c \\1",
+            source: &source,
+            plate: Some(at("walk/c.png")),
+            doubtful: 2.25,
+            kept: Some(&kept_view),
+        }];
+        let (name, fps, height, scale) = ("a \"b\"", 25.0, 1720.0, 0.25);
+        let text = ManifestText { name, fps, cameras: &cameras, height, scale, views, kept: &kept };
+        let table: Table = text.text(&at("walk")).unwrap().parse().unwrap();
         assert_eq!(table["name"].as_str(), Some("a \"b\""));
         assert_eq!(table["view"][0]["camera"].as_str(), Some("c \\1"));
         assert_eq!(table["view"][0]["source"].as_str(), Some("../videos/the \"first\".mp4"));
         assert_eq!(table["view"][0]["background"].as_str(), Some("c.png"));
         assert_eq!(table["view"][0]["background_doubtful"].as_float(), Some(2.2));
         assert_eq!(table["cameras"].as_str(), Some("../cameras.toml"));
+        assert_eq!((table["view"][0]["delay"].as_integer(), table["timestamps"].as_str()), (Some(-8), Some("ignore")));
+        assert_eq!(table["features"]["shadow"]["chroma"].as_integer(), Some(5));
     }
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::{Result, bail};
 
+use super::super::filmed_plate::holds;
 use crate::files::listed;
 use crate::geometry::Camera;
 
@@ -67,17 +68,6 @@ fn by_name(name: &str, cameras: &[&str]) -> Named {
         (Some((at, _)), None) => Named::One(at),
         _ => Named::Several,
     }
-}
-
-/// Whether a name contains a camera's, and not as the beginning of a longer number: `cam1` is not in `cam10`.
-fn holds(name: &str, camera: &str) -> bool {
-    let is_digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-    name.match_indices(camera).any(|(at, _)| {
-        let (before, after) = (name[..at].chars().next_back(), name[at + camera.len()..].chars().next());
-        let cuts_before = is_digit(before) && is_digit(camera.chars().next());
-        let cuts_after = is_digit(after) && is_digit(camera.chars().next_back());
-        !cuts_before && !cuts_after
-    })
 }
 
 #[cfg(test)]

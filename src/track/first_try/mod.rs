@@ -1,6 +1,7 @@
 //! Everything that a first track needs, made from videos, their cameras and the person's height: manifest, plates, body, first pose,
 //! and pictures to look at.
 
+mod kept;
 mod looked;
 mod manifest;
 mod matching;
@@ -12,16 +13,19 @@ use std::slice;
 use anyhow::{Context, Result, bail, ensure};
 use image::codecs::png::PngEncoder;
 
+use self::kept::{Kept, learnt_plate};
 use self::looked::look;
 use self::manifest::{ManifestText, ManifestView};
 use self::matching::match_cameras;
 use self::scale::{ChosenScale, choose_scale};
 use super::filmed_plate::filmed_plate;
 use super::fit::{Coverage, Fit, FitSettings, fit_with};
-use crate::files::{OutputFolder, Overwrite, file_stem, listed, write_atomically};
+use crate::check::misplaced_picture;
+use crate::features::LearntPlate;
+use crate::files::{OutputFolder, Overwrite, listed, write_atomically};
 use crate::geometry::Camera;
-use crate::observe::{Advance, with_plates};
-use crate::sequence::{Footage, SAME_RATE, Sequence, check_fps, read_cameras};
+use crate::observe::{Advance, ViewPlate, with_plates};
+use crate::sequence::{Footage, Orientation, SAME_RATE, Sequence, check_fps, read_cameras};
 
 /// A body that covers less of the silhouettes than this, or lies on them with less, does not fit.
 const FITS: f64 = 0.65;
@@ -41,6 +45,8 @@ pub struct FirstTrySettings {
     pub fps: Option<f64>,
     /// Working size over stored size; chosen by how tall the person is in the pictures without.
     pub scale: Option<f64>,
+    /// How the pictures of cameras are turned, by name.
+    pub orientations: Vec<(String, Orientation)>,
     /// How the person is measured; its height must be there.
     pub fit: FitSettings,
     /// Whether files that are there may be replaced.
@@ -96,7 +102,8 @@ impl FirstTry {
 }
 
 /// Makes sequence.toml, plates/, body.toml, start.csv and look/ in `folder`. Where nobody could be measured all but the body and the
-/// pose is there, and the result says why.
+/// pose is there, and the result says why. Of a manifest that is replaced stays what its user wrote or changed: every key that is not
+/// written here, the name, rate and scale unless others are asked for, and plates that were not learnt.
 ///
 /// # Errors
 /// When a video is of no camera or of another size than its camera, no rate is known, a file is there and may not be replaced, a
@@ -108,7 +115,14 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
     let all_cameras = read_cameras(&settings.cameras)?;
     let matched = match_cameras(&settings.videos, &all_cameras)?;
     let cameras: Vec<Camera> = matched.iter().map(|&at| all_cameras[at].clone()).collect();
-    let fitting = |(video, camera): (&PathBuf, &Camera)| Ok(Footage::open(video)?.fitting(camera.size));
+    let there = folder.join("sequence.toml");
+    let is_there = settings.overwrite == Overwrite::Replace && there.is_file();
+    let kept = if is_there { Kept::read(&there)? } else { Kept::default() };
+    let kept = kept.oriented(&settings.orientations, &cameras)?;
+    let fitting = |(video, camera): (&PathBuf, &Camera)| {
+        let orientation = kept.orientation(&camera.name).with_context(|| there.display().to_string())?;
+        Ok(Orientation::orient(orientation, Footage::open(video)?, Some(camera.size)))
+    };
     let footage = settings.videos.iter().zip(&cameras).map(fitting).collect::<Result<Vec<_>>>()?;
     for (footage, camera) in footage.iter().zip(&cameras) {
         let ([width, height], [wide, high]) = (footage.size, camera.size);
@@ -117,60 +131,77 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
             "{} has pictures of {width}x{height} pixels, but camera {:?} is calibrated for {wide}x{high}{}",
             footage.shown,
             camera.name,
-            footage.turned().map_or_else(String::new, |turned| format!(" ({turned})"))
+            footage.why_another_size(camera.size)
         );
     }
     let mut remarks = unused(&all_cameras, &matched);
-    let fps = rate(settings.fps, &footage)?;
-    let ChosenScale { scale, heights } = match settings.scale {
-        Some(scale) => choose_scale(&cameras, height).at(scale),
-        None => choose_scale(&cameras, height),
+    let fps = rate(settings.fps.or(kept.fps), &footage)?;
+    let chosen = choose_scale(&cameras, height);
+    let mut changed = Vec::new();
+    if let Some(own) = kept.fps.filter(|own| settings.fps.is_none() && rate(None, &footage).ok() != Some(*own)) {
+        changed.push(format!("`fps = {own}`"));
+    }
+    if let Some(own) = kept.scale.filter(|own| settings.scale.is_none() && *own != chosen.scale) {
+        changed.push(format!("`scale = {own}`"));
+    }
+    let ChosenScale { scale, heights } = match settings.scale.or(kept.scale) {
+        Some(scale) => chosen.at(scale),
+        None => chosen,
     };
-    let filmed = |folder: &PathBuf| -> Result<Vec<PathBuf>> {
-        cameras.iter().map(|camera| filmed_plate(slice::from_ref(folder), &[&camera.name])).collect()
+    remarks.extend(kept.remark(&cameras, &changed));
+    let filmed = |camera: &Camera| -> Result<Option<(PathBuf, f64)>> {
+        let Some(plates) = &settings.plates else { return Ok(kept.plate(&camera.name, folder)) };
+        Ok(Some((filmed_plate(slice::from_ref(plates), &[&camera.name])?, 0.0)))
     };
-    let filmed = settings.plates.as_ref().map(filmed).transpose()?;
-    let plate_of = |camera: &Camera| format!("plates/{}.png", file_stem(&camera.name));
-    let learnt_plates = if filmed.is_some() { Vec::new() } else { cameras.iter().map(plate_of).collect() };
+    let filmed = cameras.iter().map(filmed).collect::<Result<Vec<_>>>()?;
     let names = ["sequence.toml", "body.toml", "start.csv"].map(String::from);
-    for name in names.iter().chain(&learnt_plates) {
+    let learnt_plates = cameras.iter().zip(&filmed).filter(|(_, filmed)| filmed.is_none());
+    for name in names.into_iter().chain(learnt_plates.map(|(camera, _)| learnt_plate(&camera.name))) {
         settings.overwrite.check(&folder.join(name))?;
     }
     let output = OutputFolder::open(folder)?;
     let manifest = output.file("sequence.toml")?;
-    let write_manifest = |plates: &[PathBuf], doubtful: &[f64], overwrite: Overwrite| {
-        let views = cameras.iter().zip(&settings.videos).enumerate();
+    let name = kept.name.as_deref().unwrap_or(&settings.name);
+    let write_manifest = |learnt: &[ViewPlate], overwrite: Overwrite| {
+        let views = cameras.iter().zip(&settings.videos).zip(&filmed);
         let views = views
-            .map(|(at, (camera, source))| ManifestView {
-                camera: &camera.name,
-                source,
-                plate: plates.get(at).cloned(),
-                doubtful: doubtful.get(at).copied().unwrap_or(0.0),
+            .map(|((camera, source), filmed)| {
+                let plate = of_camera(learnt, camera)
+                    .map(|plate| (output.path().join(learnt_plate(&camera.name)), plate.percent_doubtful()));
+                let plate = plate.or_else(|| filmed.clone());
+                ManifestView {
+                    camera: &camera.name,
+                    source,
+                    doubtful: plate.as_ref().map_or(0.0, |(_, doubtful)| *doubtful),
+                    plate: plate.map(|(file, _)| file),
+                    kept: kept.keys(&camera.name),
+                }
             })
             .collect();
-        let text = ManifestText { name: &settings.name, fps, cameras: &settings.cameras, height, scale, views };
+        let text = ManifestText { name, fps, cameras: &settings.cameras, height, scale, views, kept: &kept.whole };
         let text = text.text(output.path())?;
         write_atomically(&manifest, overwrite, |writer| Ok(writer.write_all(text.as_bytes())?))
     };
-    write_manifest(filmed.as_deref().unwrap_or_default(), &[], settings.overwrite)?;
+    write_manifest(&[], settings.overwrite)?;
     let (frame_count, learnt) = {
         let sequence = Sequence::open_unfitted(&manifest)?;
         remarks.extend(sequence.remarks());
         let plated = with_plates(&sequence, progress)?;
         remarks.extend(plated.remarks());
-        (sequence.frame_count, plated.learnt)
+        ensure!(
+            kept.learns_on() || plated.sequence.views.iter().all(|view| !view.learns_background()),
+            "the videos have {} frames, too few to learn the empty scene from, expected pictures of it with --plates",
+            sequence.frame_count
+        );
+        let learnt = plated.learnt;
+        (sequence.frame_count, learnt)
     };
-    ensure!(
-        filmed.is_some() || learnt.len() == cameras.len(),
-        "the videos have {frame_count} frames, too few to learn the empty scene from, expected pictures of it with --plates"
-    );
-    for (name, learnt) in learnt_plates.iter().zip(&learnt) {
-        output.write(name, |writer| Ok(learnt.plate.picture.write_with_encoder(PngEncoder::new(writer))?))?;
+    for ViewPlate { camera, plate } in &learnt {
+        output
+            .write(&learnt_plate(camera), |writer| Ok(plate.picture.write_with_encoder(PngEncoder::new(writer))?))?;
     }
-    let doubtful: Vec<f64> = learnt.iter().map(|learnt| learnt.plate.percent_doubtful()).collect();
-    if filmed.is_none() {
-        let plates: Vec<PathBuf> = learnt_plates.iter().map(|name| output.path().join(name)).collect();
-        write_manifest(&plates, &doubtful, Overwrite::Replace)?;
+    if !learnt.is_empty() {
+        write_manifest(&learnt, Overwrite::Replace)?;
     }
     let sequence = Sequence::open_unfitted(&manifest)?;
     let fit = fit_with(&sequence, &settings.fit, progress).map_err(|error| format!("{error:#}"));
@@ -181,17 +212,32 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
     }
     let frame = settings.fit.frames.within(frame_count, &sequence.path.display().to_string())?.start;
     let looks = look(&sequence, frame, fit.as_ref().ok(), &output)?;
-    let views = cameras.iter().zip(&footage).zip(heights).enumerate();
-    let views = views.map(|(at, ((camera, footage), person))| FirstView {
-        camera: camera.name.clone(),
-        video: PathBuf::from(&footage.shown),
-        size: footage.size,
-        fps: footage.fps,
-        person,
-        learnt_from: learnt.get(at).map(|learnt| learnt.plate.pictures),
-        doubtful: doubtful.get(at).copied().unwrap_or(0.0),
+    let views = cameras.iter().zip(&footage).zip(heights).zip(&filmed);
+    let views = views.map(|(((camera, footage), person), filmed)| {
+        let plate = of_camera(&learnt, camera);
+        FirstView {
+            camera: camera.name.clone(),
+            video: PathBuf::from(&footage.shown),
+            size: footage.size,
+            fps: footage.fps,
+            person,
+            learnt_from: plate.map(|plate| plate.pictures),
+            doubtful: plate
+                .map_or_else(|| filmed.as_ref().map_or(0.0, |(_, doubtful)| *doubtful), LearntPlate::percent_doubtful),
+        }
     });
-    Ok(FirstTry { manifest: manifest.clone(), fps, frame_count, scale, views: views.collect(), fit, looks, remarks })
+    let views = views.collect();
+    let mut made = FirstTry { manifest: manifest.clone(), fps, frame_count, scale, views, fit, looks, remarks };
+    if !made.fits() {
+        // What cannot be looked at says nothing; the first try is made all the same.
+        made.remarks.extend(misplaced_picture(&sequence, progress).unwrap_or_default());
+    }
+    Ok(made)
+}
+
+/// The plate that was learnt for a camera.
+fn of_camera<'a>(learnt: &'a [ViewPlate], camera: &Camera) -> Option<&'a LearntPlate> {
+    learnt.iter().find(|view| view.camera == camera.name).map(|view| &view.plate)
 }
 
 /// A sentence about cameras that no video is of.

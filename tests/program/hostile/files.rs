@@ -57,6 +57,18 @@ fn files_of(arguments: &[&'static str]) -> Vec<&'static str> {
     if arguments[0] == "study" && !arguments.contains(&"--plan") {
         files.extend(["truth.trc", "made/sequence.toml", "made/start.csv"]);
     }
+    if arguments.contains(&"film") {
+        files.extend(["film/sequence.toml", "film/videos/cam1.mp4"]);
+    }
+    if arguments.contains(&"session") {
+        files.extend(["session/Config.toml", "session/calibration/Calib.toml", "session/videos/cam1.mp4"]);
+    }
+    if arguments.contains(&"made/plates") {
+        files.push("made/plates/cam1.png");
+    }
+    if arguments[0] == "batch" {
+        files.extend(["made/body.toml", "made/start.csv"]);
+    }
     if arguments[0] == "track" {
         files.extend(["made/body.toml", "made/start.csv", "made/truth.trc"]);
     }

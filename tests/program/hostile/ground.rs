@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use crate::support::{pantin_in, program, stdout};
+use crate::support::{has_ffmpeg, pantin_in, program, stdout};
 
 /// A folder of sound files.
 pub(super) struct Ground {
@@ -14,6 +14,57 @@ pub(super) struct Ground {
 /// As little of a track as there is that goes from a frame to the next.
 pub(super) const TRACK: &[&str] =
     &["track", "made", "-o", "out", "--particles", "4", "--iterations", "1", "--backend", "cpu", "--frames", "0..2"];
+
+const FIT: &[&str] =
+    &["fit", "made", "-o", "out.toml", "--height", "1750", "--particles", "4", "--iterations", "1", "--frames", "0..1"];
+
+const BATCH: &[&str] = &[
+    "batch",
+    "made",
+    "-o",
+    "out",
+    "--particles",
+    "4",
+    "--iterations",
+    "1",
+    "--backend",
+    "cpu",
+    "--overlay-every",
+    "0",
+];
+
+const START: &[&str] = &[
+    "start",
+    "film/videos/cam1.mp4",
+    "film/videos/cam2.mp4",
+    "--cameras",
+    "film/cameras.toml",
+    "--height",
+    "1750",
+    "-o",
+    "out",
+    "--plates",
+    "made/plates",
+    "--particles",
+    "4",
+    "--iterations",
+    "1",
+];
+
+const POSE2SIM: &[&str] = &[
+    "pose2sim",
+    "session",
+    "--plates",
+    "made/plates",
+    "--particles",
+    "4",
+    "--iterations",
+    "1",
+    "--backend",
+    "cpu",
+    "--overlay-every",
+    "0",
+];
 
 /// A command that a case spoils, as it goes well.
 pub(super) struct Sound {
@@ -25,6 +76,14 @@ pub(super) struct Sound {
 
 const SCENE: &str = "name = 'small'\nframes = 4\n[rig]\nsize = [64, 48]\n[output]\nmasks = true\n\
     [features.silhouette]\nmin_area = 4\n[[actor]]\nheight = 1750.0\nmotion = { gait = 'stand' }\n[[camera]]\nname = 'cam2'\nshift = 0.5\n";
+
+/// The same rig filmed.
+const FILM: &str = "name = 'film'\nframes = 12\n[rig]\nsize = [64, 48]\n[output]\npictures = 'video'\n\
+    [features.silhouette]\nmin_area = 4\n[[actor]]\nheight = 1750.0\nmotion = { gait = 'straight' }\n";
+
+/// A project of Pose2Sim.
+const SESSION: &str = "[project]\nmulti_person = false\nparticipant_height = 1.75\nframe_rate = 25\nframe_range = [0, 2]\n\
+    [pose]\npose_model = 'Body_with_feet'\n";
 
 const STUDY: &str = "name = 'two'\nseeds = [1, 2]\nparticles = [8]\niterations = [1]\nsearches = ['pso']\nbackends = ['cpu']\nspread = 0.5\n\
     [[sequence]]\npath = 'made'\ntruth = 'truth.trc'\nframes = '0..2'\nname = 'made'\n[[table]]\nname = 'error'\nvalue = 'error'\nrows = ['particles']\n\
@@ -53,6 +112,16 @@ impl Ground {
         made(&["synth", "scene.toml", "-o", "made"]);
         made(&["convert", "made/truth_poses.csv", "walk.bvh", "--body", "made/body.toml", "--rate", "25"]);
         made(&["convert", "made/truth.trc", "joints.csv"]);
+        if has_ffmpeg("hostile videos") {
+            std::fs::write(at("film.toml"), FILM).unwrap();
+            made(&["synth", "film.toml", "-o", "film"]);
+            for folder in ["session/calibration", "session/videos"] {
+                std::fs::create_dir_all(at(folder)).unwrap();
+            }
+            std::fs::write(at("session/Config.toml"), SESSION).unwrap();
+            std::fs::copy(at("film/cameras.toml"), at("session/calibration/Calib.toml")).unwrap();
+            copy(&at("film/videos"), &at("session/videos"));
+        }
         for file in ["truth.trc", "truth.c3d"] {
             std::fs::copy(at("made").join(file), at(file)).unwrap();
         }
@@ -92,8 +161,29 @@ impl Ground {
 
     /// Every command on sound files.
     pub(super) fn commands() -> Vec<Sound> {
+        let mut commands = Self::commands_on_pictures();
+        if has_ffmpeg("hostile videos") {
+            commands.extend(Self::commands_on_videos());
+        }
+        commands
+    }
+
+    /// Those that read videos.
+    pub(super) fn commands_on_videos() -> Vec<Sound> {
         let sound = |arguments, output| Sound { arguments, output };
         vec![
+            sound(START, Some("out")),
+            sound(&["plate", "film/videos/cam1.mp4", "-o", "out.png"], Some("out.png")),
+            sound(POSE2SIM, Some("session")),
+            sound(&["check", "film", "--samples", "2"], None),
+        ]
+    }
+
+    fn commands_on_pictures() -> Vec<Sound> {
+        let sound = |arguments, output| Sound { arguments, output };
+        vec![
+            sound(FIT, Some("out.toml")),
+            sound(BATCH, Some("out")),
             sound(&["check", "made", "--samples", "2"], None),
             sound(&["convert", "truth.c3d", "out.csv"], Some("out.csv")),
             sound(&["convert", "truth.trc", "out.c3d"], Some("out.c3d")),
