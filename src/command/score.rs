@@ -22,8 +22,8 @@ const AT_THE_END: f64 = 0.01;
 
 /// Measures the error of tracked markers or joints against C3D, TRC or CSV truth, in mm: for every point its mean over
 /// frames, then the mean over points; the standard deviation is that of all errors of all points in all frames. Points
-/// are paired by name, joints by what other programs call them too (`RKnee` is `right_knee`; see --map), frames by index, or by time where
-/// the frame rates differ.
+/// are paired by name, without --map joints also by what other programs call them (`RKnee` is `right_knee`), frames by index, or by time
+/// where the frame rates differ.
 #[derive(clap::Args, Debug)]
 pub(super) struct ScoreArgs {
     /// A track's folder (its markers.c3d or joints.csv, the first that shares a name with the truth), or a file of

@@ -20,8 +20,8 @@ pub struct PointPairs {
 }
 
 impl PointPairs {
-    /// Pairs points of equal name, then joints that go by names of different programs (`RKnee` and `right_knee`); `map` (truth's name, our
-    /// name) comes before that.
+    /// Pairs points of equal name, and those that `map` (truth's name, our name) says, before that. Without a map also joints that go by
+    /// names of different programs (`RKnee` and `right_knee`): a map says which of such are meant.
     ///
     /// # Errors
     /// When a name of the map is unknown or stands twice, or when there is no pair at all: the sentence names some
@@ -61,7 +61,7 @@ impl PointPairs {
         };
         let (ours_meant, truth_meant) = (meant(&ours.names), meant(&truth.names));
         let namesake = |name: &String| {
-            let joint = joint(name)?;
+            let joint = joint(name).filter(|_| map.is_empty())?;
             truth_meant.get(&joint).copied().flatten()?;
             ours_meant.get(&joint).copied().flatten().filter(|column| !taken.contains(column))
         };
@@ -209,6 +209,10 @@ mod tests {
         assert!(pairs(&truth).is_err());
         truth.names = vec!["LKnee".into(), "RKNE".into()];
         assert!(pairs(&truth).is_err());
+        // A map names all that are meant.
+        truth.names = vec!["Head".into(), "RKnee".into()];
+        let mapped = PointPairs::find(&ours, &truth, &[("Head".into(), "head_top".into())]).unwrap();
+        assert_eq!(mapped.columns, [(0, 1)]);
     }
 
     #[test]

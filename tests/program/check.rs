@@ -241,47 +241,51 @@ fn cut(by: isize) -> tempfile::TempDir {
     folder
 }
 
+/// The one thing that is wrong where c2 was cut is said alone, with the whole delay.
+fn is_named_with_its_whole_delay_alone(by: isize) {
+    let folder = cut(by);
+    let (status, report, error) = check(folder.path());
+    let failed = failed(&report);
+    println!("c2 cut by {by}: {failed:?}");
+    assert_eq!((status, failed), (1, vec!["timing c2".to_string()]), "cut by {by}: {error}");
+    let timing = finding(&report, "timing", "c2");
+    assert!((timing["value"].as_f64().unwrap() + by as f64).abs() < 0.3, "cut by {by}: {timing}");
+    let advice = timing["advice"].as_str().unwrap();
+    assert!(advice.contains(&format!("write `delay = {}` into the [[view]]", -by)), "{advice}");
+    assert!(!advice.contains("Nothing beyond"), "{advice}");
+    for camera in cameras() {
+        let direction = finding(&report, "direction", &camera.name);
+        assert_eq!(direction["status"], "ok", "cut by {by}: {direction}");
+    }
+}
+
 #[test]
 fn a_camera_far_off_in_time_is_named_with_its_whole_delay_alone() {
-    for by in [0, 5, 8, 20, -8] {
-        let folder = cut(by);
-        let (status, report, error) = check(folder.path());
-        let failed = failed(&report);
-        println!("c2 cut by {by}: {failed:?}");
-        if by == 0 {
-            assert!(failed.is_empty(), "{failed:?}");
-            continue;
-        }
-        assert_eq!((status, failed), (1, vec!["timing c2".to_string()]), "cut by {by}: {error}");
-        let timing = finding(&report, "timing", "c2");
-        assert!((timing["value"].as_f64().unwrap() + by as f64).abs() < 0.3, "cut by {by}: {timing}");
-        let advice = timing["advice"].as_str().unwrap();
-        assert!(advice.contains(&format!("write `delay = {}` into the [[view]]", -by)), "{advice}");
-        assert!(!advice.contains("Nothing beyond"), "{advice}");
-        for camera in cameras() {
-            let direction = finding(&report, "direction", &camera.name);
-            assert_eq!(direction["status"], "ok", "cut by {by}: {direction}");
-        }
-        let early = format!("{} early", by.abs());
-        let out = stdout(&pantin(&["check", folder.path().to_str().unwrap()]));
-        assert_eq!(out.contains("frames early"), by > 0, "{early}: {out}");
-    }
+    [20, -8].into_iter().for_each(is_named_with_its_whole_delay_alone);
+}
+
+#[test]
+#[ignore = "a minute; the two hardest are tested always"]
+fn cameras_off_by_any_delay_are_named_and_one_in_time_is_not() {
+    let (_, report, _) = check(cut(0).path());
+    assert!(failed(&report).is_empty(), "{report}");
+    [5, 8, 20, -8, -20].into_iter().for_each(is_named_with_its_whole_delay_alone);
 }
 
 #[test]
 fn what_failed_comes_first_and_what_is_well_is_a_line() {
     let folder = cut(8);
-    let path = folder.path().to_str().unwrap();
-    let out = stdout(&pantin(&["check", path]));
+    let out = stdout(&pantin(&["check", folder.path().to_str().unwrap()]));
     let lines: Vec<&str> = out.lines().collect();
-    assert!(lines[1].starts_with("FAILED timing c2: "), "{out}");
+    assert!(lines[1].starts_with("FAILED timing c2: ") && lines[1].contains("frames early"), "{out}");
     let last = lines[lines.len() - 1];
     assert!(
         last.starts_with("ok     files, distortion (5), field of view (5)") && last.contains("timing (4)"),
         "{out}"
     );
     assert!(lines.len() < 8 && out.matches("\nok ").count() == 1, "{out}");
-    let all = stdout(&pantin(&["check", path, "--all"]));
+    let sane = sequence(&cameras(), None);
+    let all = stdout(&pantin(&["check", sane.path().to_str().unwrap(), "--all"]));
     assert!(all.lines().count() > 30 && all.contains("ok     direction c0: "), "{all}");
 }
 
