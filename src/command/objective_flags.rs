@@ -6,7 +6,8 @@ use crate::track::ObjectiveChoice;
 /// Flags over a sequence's `[objective]` table over the defaults.
 #[derive(clap::Args, Clone, Debug)]
 pub(super) struct ObjectiveFlags {
-    /// The objective function [default: the sequence's, else sp].
+    /// The objective function [default: the sequence's, else evidence for `fit` and, by `maes` off line, for `track`, sp for
+    /// all else].
     #[arg(long, value_name = "NAME")]
     objective: Option<ObjectiveKind>,
     /// Share of "observed silhouette covered" against "drawn silhouette on the observed one" [default: 0.5].

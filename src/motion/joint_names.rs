@@ -37,6 +37,14 @@ pub(super) fn joint(name: &str) -> Option<Joint> {
     })
 }
 
+/// Bones of skeletons for animation, where what is called `LeftShoulder` is a collar bone and `Head` the base of the skull.
+const OF_ANIMATION: [&str; 4] = ["leftarm", "rightarm", "leftupleg", "rightupleg"];
+
+/// Whether names that sound like joints are meant as joints among all these.
+pub(super) fn are_joints(names: &[String]) -> bool {
+    !names.iter().any(|name| OF_ANIMATION.contains(&name.to_lowercase().as_str()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

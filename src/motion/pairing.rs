@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use anyhow::{Result, bail, ensure};
 
-use super::joint_names::{Joint, joint};
+use super::joint_names::{Joint, are_joints, joint};
 use super::points::PointTrajectory;
 use crate::files::{listed, nearest, shortened};
 
@@ -21,7 +21,8 @@ pub struct PointPairs {
 
 impl PointPairs {
     /// Pairs points of equal name, and those that `map` (truth's name, our name) says, before that. Without a map also joints that go by
-    /// names of different programs (`RKnee` and `right_knee`): a map says which of such are meant.
+    /// names of different programs (`RKnee` and `right_knee`): a map says which of such are meant, and the bones of skeletons for animation
+    /// (BVH) are called alike and lie elsewhere.
     ///
     /// # Errors
     /// When a name of the map is unknown or stands twice, or when there is no pair at all: the sentence names some
@@ -60,8 +61,9 @@ impl PointPairs {
             meant
         };
         let (ours_meant, truth_meant) = (meant(&ours.names), meant(&truth.names));
+        let has_namesakes = map.is_empty() && are_joints(&truth.names) && are_joints(&ours.names);
         let namesake = |name: &String| {
-            let joint = joint(name).filter(|_| map.is_empty())?;
+            let joint = joint(name).filter(|_| has_namesakes)?;
             truth_meant.get(&joint).copied().flatten()?;
             ours_meant.get(&joint).copied().flatten().filter(|column| !taken.contains(column))
         };
@@ -208,6 +210,9 @@ mod tests {
         truth.names = vec!["RKnee".into(), "R_Knee".into()];
         assert!(pairs(&truth).is_err());
         truth.names = vec!["LKnee".into(), "RKNE".into()];
+        assert!(pairs(&truth).is_err());
+        // In a BVH that is the collar bone.
+        truth.names = vec!["RightKnee".into(), "RightArm".into()];
         assert!(pairs(&truth).is_err());
         // A map names all that are meant.
         truth.names = vec!["Head".into(), "RKnee".into()];
