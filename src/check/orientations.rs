@@ -52,17 +52,10 @@ impl Misplaced {
     /// What is to be written into the manifest, and why.
     pub(super) fn sentence(&self, sequence: &Sequence) -> String {
         let view = &sequence.views[self.view];
-        let how = match self.turn {
-            Turn::Mirrored => "mirrored".to_string(),
-            turn => turn.said().to_string(),
-        };
+        let how = self.turn.said();
         let orientation = view.source.turn().then(self.turn).and_then(Orientation::of).map_or_else(
             || "turn the video itself".to_string(),
-            |orientation| {
-                let name = orientation.name();
-                let value = if name.parse::<u32>().is_ok() { name.to_string() } else { format!("{name:?}") };
-                format!("write `orientation = {value}` into its [[view]]")
-            },
+            |orientation| format!("write `orientation = {}` into its [[view]]", orientation.value()),
         );
         format!(
             "{} agrees with the others when its picture is {how}: {orientation}; a plate that was learnt from it is to be learnt anew and the \

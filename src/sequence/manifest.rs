@@ -176,6 +176,12 @@ impl Orientation {
         Self::ALL.into_iter().find(|orientation| orientation.turn() == Some(turn))
     }
 
+    /// As a manifest has it: degrees as a number.
+    pub(crate) fn value(self) -> toml::Value {
+        let name = self.name();
+        name.parse::<i64>().map_or_else(|_| name.into(), toml::Value::from)
+    }
+
     /// Footage as a view wants it: as its manifest says, else as it fits the size that a camera is calibrated for, else upright.
     pub(crate) fn orient(own: Option<Self>, footage: Footage, size: Option<[u32; 2]>) -> Footage {
         match (own.map(Self::turn), size) {

@@ -169,6 +169,7 @@ fn the_lines_of_readme_and_guide_lead_to_a_track() {
     assert!(!folder.join("none").exists(), "nothing is made where nothing can begin");
     let (status, _, error) = start(&["-o", "walk"]);
     assert!(status == 1 && error.contains("sequence.toml exists") && error.contains("--force"), "{error}");
+    assert_eq!(fs::read_to_string(folder.join("walk/sequence.toml")).unwrap(), manifest);
     let first = fs::read_dir(folder.join("videos")).unwrap().next().unwrap().unwrap().path();
     fs::copy(&first, folder.join("GX0042.mp4")).unwrap();
     let first = first.to_str().unwrap();

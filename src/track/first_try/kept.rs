@@ -80,8 +80,7 @@ impl Kept {
                 let names = cameras.iter().map(|camera| camera.name.as_str());
                 bail!("--orientation names camera {camera:?}, expected one of {}", listed(names));
             }
-            let name = orientation.name();
-            let value = name.parse().map_or_else(|_| Value::from(name), |degrees: i64| Value::from(degrees));
+            let value = orientation.value();
             match self.views.iter_mut().find(|view| view.camera == *camera) {
                 Some(view) => drop(view.keys.insert("orientation".to_string(), value)),
                 None => {

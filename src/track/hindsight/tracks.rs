@@ -125,21 +125,16 @@ impl Track<'_> {
         if chosen.worth < most - POOR {
             return self.rescued(scorer, index, chosen);
         }
-        let limb = index % self.limbs.count().max(1);
-        if limb >= self.limbs.count() {
-            return Ok(Vec::new());
-        }
         let mut others = Vec::new();
+        let Some(limb) = index.checked_rem(self.limbs.count()) else { return Ok(others) };
         let mut elsewhere = self.limbs.anywhere(scorer, index, limb, &chosen.pose, self.turn(10 + limb as u64))?;
-        if elsewhere.worth > chosen.worth + CONVINCING {
+        let is_convincing = elsewhere.worth > chosen.worth + CONVINCING;
+        if is_convincing {
             std::mem::swap(chosen, &mut elsewhere);
-            others.push(elsewhere);
-            let settled = self.settled(scorer, index, &chosen.pose, 1)?;
-            if settled.worth > chosen.worth {
-                others.push(std::mem::replace(chosen, settled));
-            }
-        } else {
-            others.push(elsewhere);
+        }
+        others.push(elsewhere);
+        if is_convincing {
+            self.settle(scorer, index, chosen, &mut others)?;
         }
         Ok(others)
     }
@@ -149,10 +144,7 @@ impl Track<'_> {
     /// did without it.
     fn rescued(&self, scorer: &mut Scorer<'_>, index: usize, chosen: &mut Candidate) -> Result<Vec<Candidate>> {
         let mut others = Vec::new();
-        let settled = self.settled(scorer, index, &chosen.pose, 1)?;
-        if settled.worth > chosen.worth {
-            others.push(std::mem::replace(chosen, settled));
-        }
+        self.settle(scorer, index, chosen, &mut others)?;
         for attempt in 1..=RESCUES {
             let turn = |limb: usize| self.turn(100 * attempt + 10 + limb as u64);
             let mut found = (0..self.limbs.count())
@@ -170,6 +162,21 @@ impl Track<'_> {
             std::mem::swap(chosen, &mut others[best]);
         }
         Ok(others)
+    }
+
+    /// Searches round what is chosen; where that is worth more, what was chosen is one of the others.
+    fn settle(
+        &self,
+        scorer: &mut Scorer<'_>,
+        index: usize,
+        chosen: &mut Candidate,
+        others: &mut Vec<Candidate>,
+    ) -> Result<()> {
+        let settled = self.settled(scorer, index, &chosen.pose, 1)?;
+        if settled.worth > chosen.worth {
+            others.push(std::mem::replace(chosen, settled));
+        }
+        Ok(())
     }
 
     /// A pose with all of it searched round with the body's steps.
