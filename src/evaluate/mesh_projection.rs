@@ -20,6 +20,19 @@ pub const EDGE_BIAS: f32 = shaders::MESH_EDGE_BIAS;
 /// Vertices nearer than this along the camera's axis have no image, mm: depths stay between 0 and 1 with the bias, too.
 pub const NEAREST: f32 = shaders::MESH_NEAREST;
 
+/// A depth, 0.4 to 1, as the whole number that pixels are told apart by: the nearest of 2^24 times it, a tie upwards, at most
+/// 2^24 - 1.
+#[inline(always)]
+pub(crate) fn depth_number(depth: f32) -> u32 {
+    const MOST: f32 = 16_777_215.0;
+    // From 1/2 on the product is whole, below it a whole number or half of one.
+    let scaled = depth * 16_777_216.0;
+    let scaled = if scaled < MOST { scaled } else { MOST };
+    let scaled = if scaled > 0.0 { scaled } else { 0.0 };
+    let whole = scaled as i32;
+    (whole + i32::from(scaled - whole as f32 >= 0.5)) as u32
+}
+
 /// A vertex of the mesh model as one camera sees it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ProjectedVertex {
@@ -72,7 +85,8 @@ impl MeshProjector {
 
     /// The vertices of a pose (mm, radians, in state-vector order) in the world, mm.
     pub fn posed(&self, pose: &[f32]) -> Vec<[f32; 3]> {
-        let world = self.projector.bone_matrices(pose);
+        let mut world = Vec::new();
+        self.projector.bone_matrices(pose, &mut world);
         let skin: Vec<Affine> =
             world.iter().zip(&self.inverse_bind).map(|(world, inverse)| compose(world, inverse)).collect();
         let of_bone = |bone: u16| &skin[self.place_in_rig[usize::from(bone)]];

@@ -1,40 +1,51 @@
-//! The mesh model drawn by its definition in docs/RASTER.md, pixel by pixel: triangles with a depth a pixel, then silhouette
-//! edges against that depth.
+//! The mesh model drawn by its definition in docs/RASTER.md, pixel by pixel, in exact integers: triangles and silhouette edges, each
+//! with a depth a pixel.
 
 use crate::body::{Mesh, MeshEdge};
 
-use super::mesh_projection::ProjectedVertex;
+use super::mesh_projection::{ProjectedVertex, depth_number};
 use super::raster::{CandidateImage, for_each_line_pixel};
 
 /// Draws a mesh whose vertices one camera sees as `vertices`.
 pub fn draw_mesh(vertices: &[ProjectedVertex], mesh: &Mesh, width: u32, height: u32) -> CandidateImage {
     let mut image = CandidateImage { width, height, bytes: vec![0; width as usize * height as usize] };
-    // Nothing is farther.
-    let mut depths = vec![1.0_f32; image.bytes.len()];
+    let mut depths = vec![NOWHERE; image.bytes.len()];
+    // The nearest is shown; of what is at equal depth the larger byte: edges before triangles, then the larger label.
+    let mut show = |pixel: usize, depth: i64, byte: u8| {
+        if depth < depths[pixel] || (depth == depths[pixel] && byte > image.bytes[pixel]) {
+            depths[pixel] = depth;
+            image.bytes[pixel] = byte;
+        }
+    };
     for triangle in &mesh.triangles {
         let corners = triangle.map(|vertex| vertices[vertex as usize]);
         let label = mesh.vertices[triangle[0] as usize].label;
         if corners.iter().all(|corner| corner.has_image) && faces_camera(&corners) {
-            for_each_triangle_pixel(&corners, width, height, |pixel, depth| {
-                if depth <= depths[pixel] {
-                    depths[pixel] = depth;
-                    image.bytes[pixel] = label;
-                }
-            });
+            for_each_triangle_pixel(&corners, width, height, |pixel, depth| show(pixel, depth, label));
         }
     }
     for edge in mesh.edges.iter().filter(|edge| is_silhouette(edge, vertices)) {
         let [p, q] = edge.ends.map(|vertex| vertices[vertex as usize]);
         let label = mesh.vertices[edge.ends[0] as usize].label;
-        for_each_line_pixel([p.at, q.at], width, height, |pixel, along| {
-            let depth = (f64::from(p.edge_depth) * (1.0 - along) + f64::from(q.edge_depth) * along) as f32;
-            if depth <= depths[pixel] {
-                depths[pixel] = depth;
-                image.bytes[pixel] = label | 0x80;
-            }
+        let [first, last] = [p, q].map(|end| i64::from(depth_number(end.edge_depth)));
+        for_each_line_pixel([p.at, q.at], width, height, |pixel, [step, steps]| {
+            let depth = if steps == 0 {
+                first
+            } else {
+                nearest(i128::from(first * (steps - step) + last * step), i128::from(steps))
+            };
+            show(pixel, depth, label | 0x80);
         });
     }
     image
+}
+
+/// Farther than any depth.
+const NOWHERE: i64 = 1 << 24;
+
+/// `numerator / denominator` to the nearest integer, a tie upwards; the denominator is positive.
+fn nearest(numerator: i128, denominator: i128) -> i64 {
+    (2 * numerator + denominator).div_euclid(2 * denominator) as i64
 }
 
 /// Whether all of an edge's surroundings have an image and exactly one of its triangles faces the camera.
@@ -59,11 +70,11 @@ fn area(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i64 {
 
 /// Calls `paint` with the index and the depth of every pixel whose centre lies in a triangle that faces the camera: inside, or
 /// on a left edge or a horizontal top edge.
-fn for_each_triangle_pixel(corners: &[ProjectedVertex; 3], width: u32, height: u32, mut paint: impl FnMut(usize, f32)) {
+fn for_each_triangle_pixel(corners: &[ProjectedVertex; 3], width: u32, height: u32, mut paint: impl FnMut(usize, i64)) {
     // Clockwise to the eye, so that the inside is where all three areas are positive.
     let [a, c, b] = corners.map(|corner| corner.at.map(i64::from));
-    let depths = [corners[0], corners[2], corners[1]].map(|corner| f64::from(corner.depth));
-    let whole = area(a, b, c) as f64;
+    let depths = [corners[0], corners[2], corners[1]].map(|corner| i128::from(depth_number(corner.depth)));
+    let whole = i128::from(area(a, b, c));
     // On an edge that runs to the right along the top, or upwards on the left.
     let takes = |from: [i64; 2], to: [i64; 2]| to[1] < from[1] || (to[1] == from[1] && to[0] > from[0]);
     let sides = [(b, c), (c, a), (a, b)];
@@ -79,8 +90,8 @@ fn for_each_triangle_pixel(corners: &[ProjectedVertex; 3], width: u32, height: u
             let areas = sides.map(|(from, to)| area(from, to, centre));
             if areas.iter().zip(&least).all(|(area, least)| area >= least) {
                 // Each corner's depth by the share of the triangle opposite to it.
-                let sum: f64 = areas.iter().zip(&depths).map(|(area, depth)| *area as f64 / whole * depth).sum();
-                paint((y * i64::from(width) + x) as usize, sum as f32);
+                let sum = areas.iter().zip(&depths).map(|(area, depth)| i128::from(*area) * depth).sum();
+                paint((y * i64::from(width) + x) as usize, nearest(sum, whole));
             }
         }
     }

@@ -46,7 +46,8 @@ impl Projector {
     /// The parts of a pose (mm, radians, in state-vector order) in view `view`, in the body's order. A pose shorter than
     /// the body's degrees of freedom reads as zero there.
     pub fn quads(&self, pose: &[f32], view: usize) -> Vec<PartQuad> {
-        let world = self.bone_matrices(pose);
+        let mut world = Vec::new();
+        self.bone_matrices(pose, &mut world);
         let camera = &self.cameras[view];
         self.rig
             .parts
@@ -70,9 +71,9 @@ impl Projector {
             .collect()
     }
 
-    /// Global matrices of the rig's bones.
-    pub(crate) fn bone_matrices(&self, pose: &[f32]) -> Vec<Affine> {
-        let mut world: Vec<Affine> = Vec::with_capacity(self.rig.bones.len());
+    /// Global matrices of the rig's bones, in place of what is in `world`.
+    pub(crate) fn bone_matrices(&self, pose: &[f32], world: &mut Vec<Affine>) {
+        world.clear();
         for bone in &self.rig.bones {
             let value = |slot: usize| bone.slots[slot].and_then(|index| pose.get(index).copied());
             let translation = [0, 1, 2].map(|axis| value(axis).unwrap_or(0.0));
@@ -80,6 +81,5 @@ impl Projector {
             let local = local_matrix(bone, translation, turned.map(|t| t.0), turned.map(|t| t.1));
             world.push(bone.parent.map_or(local, |parent| compose(&world[parent], &local)));
         }
-        world
     }
 }

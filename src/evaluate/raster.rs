@@ -65,14 +65,18 @@ fn for_each_border_pixel(corners: &[[i32; 2]; 4], width: u32, height: u32, mut p
 }
 
 /// Calls `paint` with the index of every pixel of the line between two snapped corners that lies in the picture, and with how
-/// far along it is from the first end (0) to the second (1), in steps of the longer side.
-pub(super) fn for_each_line_pixel(ends: [[i32; 2]; 2], width: u32, height: u32, mut paint: impl FnMut(usize, f64)) {
+/// far along it is from the first end to the second: so many of so many steps of the longer side.
+pub(super) fn for_each_line_pixel(
+    ends: [[i32; 2]; 2],
+    width: u32,
+    height: u32,
+    mut paint: impl FnMut(usize, [i64; 2]),
+) {
     let [p, q] = ends.map(|end| end.map(|c| i64::from(c + 128).div_euclid(256)));
     let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
     let mut paint_inside = |x: i64, y: i64, step: i64, steps: i64| {
         if (0..i64::from(width)).contains(&x) && (0..i64::from(height)).contains(&y) {
-            let along = if steps == 0 { 0.0 } else { step as f64 / steps as f64 };
-            paint((y * i64::from(width) + x) as usize, along);
+            paint((y * i64::from(width) + x) as usize, [step.abs(), steps.abs()]);
         }
     };
     if dx.abs() >= dy.abs() {
