@@ -1,8 +1,8 @@
-//! Throughput of the mesh model on the graphics pipeline, poses in to fitness out, on every rung of the ladder and of a glTF
-//! person, with the time of each stage.
+//! Throughput of the mesh model, poses in to fitness out, on every rung of the ladder and of a glTF person: the reference, the processor
+//! with every instruction set, on one thread and on all, and the graphics pipeline with the time of each stage.
 //!
 //! Run by `cargo test` it evaluates a few candidates on the lowest rungs. Either way it checks them against the reference.
-//! Without Vulkan it says so and ends.
+//! Without Vulkan it says so and goes without the graphics pipeline.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark ends where something fails, and prints")]
 
 mod table;
@@ -12,8 +12,9 @@ use std::path::Path;
 
 use pantin::bench::{Contestant, Scene, pass_times, swarm};
 use pantin::body::{Body, Mesh, Model, Skinning};
+use pantin::evaluate::cpu::{Cpu, InstructionSet};
 use pantin::evaluate::device::{GraphicsSettings, open_device};
-use pantin::evaluate::{Components, Objective};
+use pantin::evaluate::{Components, Evaluator, Objective};
 use table::{Table, in_a_line, is_measuring, is_wanted};
 
 fn meshes(body: &Body) -> Vec<(String, Mesh)> {
@@ -32,36 +33,49 @@ fn meshes(body: &Body) -> Vec<(String, Mesh)> {
 fn main() {
     let device = open_device().map_err(|error| format!("{error:#}"));
     if let Err(error) = &device {
-        return println!("SKIPPED mesh: {error}");
+        println!("SKIPPED graphics: {error}");
     }
     let candidates = if is_measuring() { 304 } else { 4 };
     let scene = Scene::new([640, 480], 280.0).unwrap();
-    let poses = swarm(&scene.body, &scene.pose, candidates);
+    let poses = &swarm(&scene.body, &scene.pose, candidates);
     let images = candidates * scene.cameras.len();
     let objective = Objective::default();
     let mut table = Table::new(format!("{candidates} candidates x 4 cameras of 640x480, person 280 px"), "image");
     for (name, mesh) in meshes(&scene.body).into_iter().filter(|(name, _)| is_wanted(name)) {
+        println!("{name}: {} vertices, {} triangles", mesh.vertices.len(), mesh.triangles.len());
         let build = |contestant: Contestant| contestant.build(&scene, Some(&mesh), &device).unwrap();
-        let mut graphics = build(Contestant::Graphics(GraphicsSettings::default()));
-        let mut found = vec![Components::default(); images];
-        graphics.components(&poses, &mut found).unwrap();
         let mut expected = vec![Components::default(); scene.cameras.len()];
-        build(Contestant::Reference).components(&scene.pose, &mut expected).unwrap();
-        for (found, expected) in found.iter().zip(&expected) {
-            let off = found.area_model.abs_diff(expected.area_model);
-            assert!(off * 200 <= expected.area_model, "{name}: {found:?} is not {expected:?}");
+        let mut reference = build(Contestant::Reference);
+        reference.components(&scene.pose, &mut expected).unwrap();
+        let mut rows = vec![(format!("{name}, reference"), reference)];
+        for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+            let mut cpu = Cpu::of_mesh_with(&scene.body, mesh.clone(), &scene.cameras, set, 1).unwrap();
+            cpu.observe(&scene.observations).unwrap();
+            rows.push((format!("{name}, {}, one thread", set.name()), Box::new(cpu)));
+            rows.push((format!("{name}, {}", set.name()), build(Contestant::Cpu(set))));
         }
-        let mut fitness = vec![0.0; candidates];
-        let passes = pass_times(graphics.as_mut(), &poses, &objective, &mut fitness).unwrap();
-        let [width, height] = graphics.footprint().unwrap().tile;
-        println!(
-            "{name}: {} vertices, {} triangles, tiles of {width}x{height}; stages, ms: {}",
-            mesh.vertices.len(),
-            mesh.triangles.len(),
-            in_a_line(&passes)
-        );
-        let poses = &poses;
-        table.row(name, images, move || graphics.fitness(poses, &objective, &mut fitness).unwrap());
+        for (name, evaluator) in &mut rows[1..] {
+            let mut found = vec![Components::default(); scene.cameras.len()];
+            evaluator.components(&scene.pose, &mut found).unwrap();
+            assert_eq!(found, expected, "{name}");
+        }
+        if device.is_ok() {
+            let mut graphics = build(Contestant::Graphics(GraphicsSettings::default()));
+            let mut found = vec![Components::default(); images];
+            graphics.components(poses, &mut found).unwrap();
+            for (found, expected) in found.iter().zip(&expected) {
+                let off = found.area_model.abs_diff(expected.area_model);
+                assert!(off * 200 <= expected.area_model, "{name}: {found:?} is not {expected:?}");
+            }
+            let passes = pass_times(graphics.as_mut(), poses, &objective, &mut vec![0.0; candidates]).unwrap();
+            let [width, height] = graphics.footprint().unwrap().tile;
+            println!("{name}, graphics: tiles of {width}x{height}; stages, ms: {}", in_a_line(&passes));
+            rows.push((format!("{name}, graphics"), graphics));
+        }
+        for (name, mut evaluator) in rows {
+            let mut fitness = vec![0.0; candidates];
+            table.row(name, images, move || evaluator.fitness(poses, &objective, &mut fitness).unwrap());
+        }
     }
     table.run();
 }

@@ -10,7 +10,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
-use pantin::body::Body;
+use pantin::body::{Body, Mesh};
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
 use pantin::evaluate::{Evaluator as _, Objective};
 use pantin::features::Observation;
@@ -98,8 +98,12 @@ fn an_iteration_allocates_nothing() {
     let poses = centre.repeat(PARTICLES);
     let mut fitness = vec![0.0; PARTICLES];
     for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
-        for workers in [1, 3] {
-            let mut cpu = Cpu::with(&body, &cameras, set, workers).unwrap();
+        for (workers, mesh) in [(1, false), (3, false), (1, true), (3, true)] {
+            let mut cpu = if mesh {
+                Cpu::of_mesh_with(&body, Mesh::of_body(&body).unwrap(), &cameras, set, workers).unwrap()
+            } else {
+                Cpu::with(&body, &cameras, set, workers).unwrap()
+            };
             cpu.observe(&observations).unwrap();
             // The first batch warms up: a thread allocates when it starts.
             cpu.fitness(&poses, &objective, &mut fitness).unwrap();
@@ -109,7 +113,7 @@ fn an_iteration_allocates_nothing() {
                     cpu.fitness(&poses, &objective, &mut fitness).unwrap();
                 }
             });
-            assert_eq!(count, 0, "fitness of {PARTICLES} poses, {} with {workers} workers", set.name());
+            assert_eq!(count, 0, "fitness of {PARTICLES} poses, {} with {workers} workers, a mesh: {mesh}", set.name());
 
             let mut search = settings.build(&space).unwrap();
             search.start_frame(0, &centre, &spread).unwrap();
@@ -120,7 +124,7 @@ fn an_iteration_allocates_nothing() {
                     search.iterate(&mut score).unwrap();
                 }
             });
-            assert_eq!(count, 0, "swarm iterations, {} with {workers} workers", set.name());
+            assert_eq!(count, 0, "swarm iterations, {} with {workers} workers, a mesh: {mesh}", set.name());
         }
     }
 

@@ -64,10 +64,10 @@ impl Contestant {
 
     /// Everybody who draws meshes, the reference first.
     pub fn of_meshes() -> Vec<Self> {
-        vec![
-            Self::Reference,
-            Self::Graphics(GraphicsSettings { packing: Packing::Depth, ..GraphicsSettings::default() }),
-        ]
+        let mut all = vec![Self::Reference];
+        all.extend(InstructionSet::ALL.map(Self::Cpu));
+        all.push(Self::Graphics(GraphicsSettings { packing: Packing::Depth, ..GraphicsSettings::default() }));
+        all
     }
 
     /// The backend's name as `--backend` takes it.
@@ -112,6 +112,7 @@ impl Contestant {
             (Self::Reference, Some(mesh)) => Box::new(Reference::of_mesh(body, mesh.clone(), cameras)?),
             (Self::Yardstick(kind), None) => Box::new(Yardstick::new(body, cameras, kind, threads)),
             (Self::Cpu(set), None) => Box::new(Cpu::with(body, cameras, set, threads)?),
+            (Self::Cpu(set), Some(mesh)) => Box::new(Cpu::of_mesh_with(body, mesh.clone(), cameras, set, threads)?),
             (Self::Compute { subgroup }, None) => {
                 let device = if subgroup { device()?.clone() } else { device().and_then(|_| without_subgroups())? };
                 let compute = Compute::on(&device, body, cameras)?;

@@ -47,7 +47,8 @@ pub(super) struct EvaluateArgs {
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Also write every candidate image, images/pose_%06d_<camera>.png: bits 0-6 the label, bit 7 an edge. The backends
-    /// reference and graphics write what they drew; cpu and compute keep no picture, so the reference draws for them.
+    /// reference and graphics write what they drew, and so does cpu with a mesh; of the flat model cpu and compute keep no picture, so the
+    /// reference draws for them.
     #[arg(long, requires = "output")]
     images: bool,
     /// Replace what the folder holds.

@@ -18,7 +18,7 @@ choices! {
         "auto" #[default] Auto,
         /// The simplest code that is obviously right; slow.
         "reference" Reference,
-        /// The fast one on the processor.
+        /// The fast one on the processor, in the reference's integers.
         "cpu" Cpu,
         /// Drawing in compute on a Vulkan device, in the reference's integers.
         "compute" Compute,
@@ -52,7 +52,7 @@ impl Backend {
         }
         match mesh {
             None => self.build_flat(body, cameras, around),
-            Some(mesh) => self.build_mesh(body, mesh, cameras),
+            Some(mesh) => self.build_mesh(body, mesh, cameras, around),
         }
     }
 
@@ -80,63 +80,79 @@ impl Backend {
                 BuiltBackend { evaluator: Box::new(graphics), reason }
             }
             Self::Auto => {
-                let cpu = Cpu::new(body, cameras)?;
-                let with = cpu.variant();
-                if let Err(why) = is_device_worth_measuring() {
-                    let reason = format!("auto chose cpu, with {with} instructions: {why}");
-                    return Ok(BuiltBackend { evaluator: Box::new(cpu), reason });
-                }
-                let mut rivals: Vec<Box<dyn Evaluator>> = vec![Box::new(cpu)];
                 // All of them give the same integers for the flat model.
-                let others = [
-                    ("compute", Compute::new(body, cameras).map(|it| Box::new(it) as Box<dyn Evaluator>)),
-                    ("graphics", Graphics::new(body, cameras).map(|it| Box::new(it) as Box<dyn Evaluator>)),
-                ];
-                let mut failures = Vec::new();
-                for (name, other) in others {
-                    match other {
-                        Ok(evaluator) => rivals.push(evaluator),
-                        Err(error) => failures.push(format!("{name} failed ({error:#})")),
-                    }
-                }
-                if rivals.len() == 1 {
-                    let why = failures.join("; ");
-                    let reason = format!("auto chose cpu, with {with} instructions: {why}");
-                    return Ok(BuiltBackend { evaluator: rivals.swap_remove(0), reason });
-                }
-                let (evaluator, reason) = fastest(rivals, body, cameras, around)?;
-                let reason = format!("auto chose {}, {reason}", evaluator.name());
-                BuiltBackend { evaluator, reason }
+                let others = || -> Vec<(&str, Result<Box<dyn Evaluator>>)> {
+                    vec![
+                        ("compute", Compute::new(body, cameras).map(|it| Box::new(it) as Box<dyn Evaluator>)),
+                        ("graphics", Graphics::new(body, cameras).map(|it| Box::new(it) as Box<dyn Evaluator>)),
+                    ]
+                };
+                choose(Cpu::new(body, cameras)?, others, body, cameras, around)?
             }
         })
     }
 
-    fn build_mesh(self, body: &Body, mesh: &Mesh, cameras: &[Camera]) -> Result<BuiltBackend> {
-        let reason = match self {
-            Self::Reference => "the reference evaluator of the mesh model, as asked",
-            Self::Auto => {
-                "auto chose reference, which draws the mesh model on every machine; with Vulkan --backend graphics is faster"
+    fn build_mesh(self, body: &Body, mesh: &Mesh, cameras: &[Camera], around: &[f32]) -> Result<BuiltBackend> {
+        let graphics = || -> Result<Graphics> {
+            let device = open_device()?;
+            Graphics::of_mesh(&device, body, mesh.clone(), cameras, GraphicsSettings::default())
+        };
+        Ok(match self {
+            Self::Reference => BuiltBackend {
+                evaluator: Box::new(Reference::of_mesh(body, mesh.clone(), cameras)?),
+                reason: "the reference evaluator of the mesh model, as asked".to_string(),
+            },
+            Self::Cpu => {
+                let cpu = Cpu::of_mesh(body, mesh.clone(), cameras)?;
+                let reason = format!("the mesh model on the processor with {} instructions, as asked", cpu.variant());
+                BuiltBackend { evaluator: Box::new(cpu), reason }
             }
             Self::Graphics => {
-                let graphics = open_device()
-                    .and_then(|device| {
-                        Graphics::of_mesh(&device, body, mesh.clone(), cameras, GraphicsSettings::default())
-                    })
-                    .map_err(|error| without_vulkan(self, &error))?;
+                let graphics = graphics().map_err(|error| without_vulkan(self, &error))?;
                 let device = &graphics.facts().name;
                 let reason = format!("graphics of the mesh model on the Vulkan device {device}, as asked");
-                return Ok(BuiltBackend { evaluator: Box::new(graphics), reason });
+                BuiltBackend { evaluator: Box::new(graphics), reason }
             }
-            Self::Cpu | Self::Compute => {
-                bail!(
-                    "the backend {} draws the flat model alone, the mesh model needs graphics or reference",
-                    self.name()
-                )
+            Self::Compute => {
+                bail!("the backend compute draws the flat model alone, the mesh model needs cpu, graphics or reference")
             }
-        };
-        let evaluator = Reference::of_mesh(body, mesh.clone(), cameras)?;
-        Ok(BuiltBackend { evaluator: Box::new(evaluator), reason: reason.to_string() })
+            Self::Auto => {
+                let others = || vec![("graphics", graphics().map(|it| Box::new(it) as Box<dyn Evaluator>))];
+                choose(Cpu::of_mesh(body, mesh.clone(), cameras)?, others, body, cameras, around)?
+            }
+        })
     }
+}
+
+/// What `auto` takes: the processor, unless one of the `others`, on a device that is worth it, is measured to be faster.
+fn choose<'a>(
+    cpu: Cpu,
+    others: impl FnOnce() -> Vec<(&'a str, Result<Box<dyn Evaluator>>)>,
+    body: &Body,
+    cameras: &[Camera],
+    around: &[f32],
+) -> Result<BuiltBackend> {
+    let with = cpu.variant();
+    if let Err(why) = is_device_worth_measuring() {
+        let reason = format!("auto chose cpu, with {with} instructions: {why}");
+        return Ok(BuiltBackend { evaluator: Box::new(cpu), reason });
+    }
+    let mut rivals: Vec<Box<dyn Evaluator>> = vec![Box::new(cpu)];
+    let mut failures = Vec::new();
+    for (name, other) in others() {
+        match other {
+            Ok(evaluator) => rivals.push(evaluator),
+            Err(error) => failures.push(format!("{name} failed ({error:#})")),
+        }
+    }
+    if rivals.len() == 1 {
+        let why = failures.join("; ");
+        let reason = format!("auto chose cpu, with {with} instructions: {why}");
+        return Ok(BuiltBackend { evaluator: rivals.swap_remove(0), reason });
+    }
+    let (evaluator, reason) = fastest(rivals, body, cameras, around)?;
+    let reason = format!("auto chose {}, {reason}", evaluator.name());
+    Ok(BuiltBackend { evaluator, reason })
 }
 
 /// The sentence of a backend on a device that could not be made.
@@ -178,12 +194,24 @@ mod tests {
         let cameras = crate::synth::rig::four_cameras(glam::DVec2::splat(2000.0), [64, 48]);
         assert!(Model::Flat.mesh(&body).unwrap().is_none());
         let mesh = Model::Mesh.mesh(&body).unwrap();
-        let error = Backend::Cpu.build(mesh.as_ref(), &body, &cameras, &[]).err().unwrap().to_string();
-        assert_eq!(error, "the backend cpu draws the flat model alone, the mesh model needs graphics or reference");
-        for backend in [Backend::Auto, Backend::Reference] {
-            let built = backend.build(mesh.as_ref(), &body, &cameras, &[]).unwrap();
-            assert_eq!(built.evaluator.name(), "reference");
+        let error = Backend::Compute.build(mesh.as_ref(), &body, &cameras, &[]).err().unwrap().to_string();
+        assert_eq!(
+            error,
+            "the backend compute draws the flat model alone, the mesh model needs cpu, graphics or reference"
+        );
+        let around: Vec<f32> = body.standing_pose().iter().map(|value| *value as f32).collect();
+        for (backend, name) in [(Backend::Cpu, "cpu"), (Backend::Reference, "reference")] {
+            let built = backend.build(mesh.as_ref(), &body, &cameras, &around).unwrap();
+            assert_eq!(built.evaluator.name(), name);
+            assert!(built.reason.contains("the mesh model"), "{}", built.reason);
         }
+        // Nothing but a device that draws faster takes the processor's place.
+        let auto = Backend::Auto.build(mesh.as_ref(), &body, &cameras, &around).unwrap();
+        assert!(["cpu", "graphics"].contains(&auto.evaluator.name()), "{}", auto.reason);
+        if is_device_worth_measuring().is_err() {
+            assert_eq!(auto.evaluator.name(), "cpu");
+        }
+        assert!(auto.reason.starts_with(&format!("auto chose {}, ", auto.evaluator.name())), "{}", auto.reason);
         match Backend::Graphics.build(mesh.as_ref(), &body, &cameras, &[]) {
             Ok(built) => assert_eq!(built.evaluator.name(), "graphics"),
             Err(error) => {

@@ -16,6 +16,7 @@ mod compute;
 mod device;
 mod evidence;
 mod found;
+mod meshes;
 mod processors;
 #[path = "../scene/mod.rs"]
 mod scene;

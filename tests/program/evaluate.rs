@@ -148,9 +148,17 @@ fn the_mesh_model_is_drawn_and_scored() {
     let numbers: Vec<&str> = row.split(',').collect();
     assert_eq!((numbers[3], numbers[5]), (area.to_string().as_str(), edges.to_string().as_str()));
     refused(
-        &evaluate(&folder.path().join("cpu"), &[&of_frame[..], &["--backend", "cpu"]].concat()),
-        &["the backend cpu draws the flat model alone, the mesh model needs graphics or reference"],
+        &evaluate(&folder.path().join("compute"), &[&of_frame[..], &["--backend", "compute"]].concat()),
+        &["the backend compute draws the flat model alone, the mesh model needs cpu, graphics or reference"],
     );
+    // The processor gives the reference's bytes, and the picture is its own.
+    let files = |backend: &str| {
+        let output = folder.path().join(backend);
+        succeeded(&evaluate(&output, &[&of_frame[..], &["--images", "--backend", backend]].concat()));
+        let picture = fs::read(output.join("images/pose_000003_cam1.png")).unwrap();
+        [fs::read(output.join("components.csv")).unwrap(), fs::read(output.join("fitness.csv")).unwrap(), picture]
+    };
+    assert!(files("cpu") == files("reference"));
 }
 
 #[test]

@@ -12,7 +12,7 @@ use pantin::body::{Body, PoseTable};
 use pantin::motion::{read_bvh, read_points};
 use tempfile::TempDir;
 
-use super::support::{TRACK_FILES, has_vulkan, pantin, program, refused, sequence, stderr, succeeded};
+use super::support::{NO_DRIVER, TRACK_FILES, has_vulkan, pantin, program, refused, sequence, stderr, succeeded};
 use super::walk;
 
 /// Enough to follow the walk, little enough for the reference.
@@ -385,18 +385,28 @@ fn the_mesh_model_is_tracked_and_resumed_as_such() {
     let output = folder.path().join("mesh");
     // Few poses: the reference draws them one by one.
     let few = ["--frames", "0..2", "--particles", "12", "--iterations", "3"];
-    let run = |more: &[&str]| {
+    let run_to = |output: &Path, more: &[&str]| {
         let mut arguments = vec!["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap()];
         arguments.extend(few);
         arguments.extend(more);
-        pantin(&arguments)
+        program().args(arguments).envs(NO_DRIVER).output().unwrap()
     };
+    let run = |more: &[&str]| run_to(&output, more);
     let done = run(&["--model", "mesh", "--overlay-every", "1"]);
     succeeded(&done);
+    // Without a device auto takes the processor, whose poses are the reference's to the last byte.
+    let says = fs::read_to_string(output.join("run.toml")).unwrap();
+    assert!(says.contains("auto chose cpu, with "), "{says}");
+    for backend in ["cpu", "reference"] {
+        let output = folder.path().join(backend);
+        succeeded(&run_to(&output, &["--model", "mesh", "--backend", backend]));
+        let poses = |folder: &Path| fs::read(folder.join("poses.csv")).unwrap();
+        assert!(poses(&output) == poses(&folder.path().join("mesh")), "{backend}");
+    }
     let record = fs::read_to_string(output.join("run.toml")).unwrap();
     assert!(record.contains("model = \"mesh\"") && record.contains("--model mesh"), "{record}");
     assert!(output.join("overlay/cam1_000001.png").exists());
-    let flat = run(&["--overlay-every", "1", "--backend", "reference", "--resume"]);
+    let flat = run(&["--overlay-every", "1", "--backend", "cpu", "--resume"]);
     refused(&flat, &["another model: \"mesh\" there, \"flat\" now"]);
 }
 

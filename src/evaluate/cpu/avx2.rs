@@ -3,7 +3,7 @@
 use std::arch::x86_64::*;
 
 use super::instruction_set::Avx2;
-use super::simd::{Lanes, Simd, with_token};
+use super::simd::{Lanes, Ramp, Sides, Simd, Spans, with_token};
 
 /// Two registers, the first eight lanes and the others.
 type Pair = [__m256i; 2];
@@ -216,6 +216,55 @@ impl Simd for Avx2 {
             let halves = _mm_add_epi64(_mm256_castsi256_si128(sum), _mm256_extracti128_si256::<1>(sum));
             (_mm_cvtsi128_si64(halves) + _mm_extract_epi64::<1>(halves)) as u32
         })
+    }
+    #[inline(always)]
+    fn spans(self, sides: &Sides, ramp: &Ramp, first: i32, spans: &mut Spans) -> u32 {
+        let Sides { slopes, offsets, length } = sides;
+        let mut some = 0;
+        for half in 0..2 {
+            with_token!({
+                let rows = _mm256_add_pd(_mm256_set1_pd(f64::from(first)), self.first_rows().0[half]);
+                let a = _mm256_fmadd_pd(_mm256_set1_pd(slopes[0]), rows, _mm256_set1_pd(offsets[0]));
+                let b = _mm256_fmadd_pd(_mm256_set1_pd(slopes[1]), rows, _mm256_set1_pd(offsets[1]));
+                let c = _mm256_fmadd_pd(_mm256_set1_pd(slopes[2]), rows, _mm256_set1_pd(offsets[2]));
+                let d = _mm256_fmadd_pd(_mm256_set1_pd(slopes[3]), rows, _mm256_set1_pd(offsets[3]));
+                // The floor of the larger is the larger floor.
+                let start = _mm256_floor_pd(_mm256_max_pd(_mm256_max_pd(a, b), _mm256_setzero_pd()));
+                let end = _mm256_floor_pd(_mm256_min_pd(_mm256_min_pd(c, d), _mm256_set1_pd(*length)));
+                let depth = _mm256_fmadd_pd(_mm256_set1_pd(ramp.across), rows, _mm256_set1_pd(ramp.depth));
+                let depth = _mm256_floor_pd(_mm256_fmadd_pd(_mm256_set1_pd(ramp.along), start, depth));
+                let steps = _mm_slli_epi32::<8>(_mm256_cvttpd_epi32(depth));
+                let keys = _mm_add_epi32(steps, _mm_set1_epi32(ramp.base as i32));
+                // Half of eight aligned words each.
+                _mm_store_si128(spans.starts.as_mut_ptr().add(4 * half).cast(), _mm256_cvttpd_epi32(start));
+                _mm_store_si128(spans.ends.as_mut_ptr().add(4 * half).cast(), _mm256_cvttpd_epi32(end));
+                _mm_store_si128(spans.keys.as_mut_ptr().add(4 * half).cast(), keys);
+                some |= (_mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(start, end)) as u32) << (4 * half);
+            });
+        }
+        some
+    }
+    #[inline(always)]
+    fn nearer(self, keys: &mut [u32], count: usize, ramp: &Ramp, [place, row]: [i32; 2]) {
+        with_token!({
+            let along = _mm256_set1_pd(ramp.along);
+            let depth = _mm256_set1_pd(ramp.across * f64::from(row) + ramp.depth);
+            let base = _mm256_set1_epi32(ramp.base as i32);
+            let mut places = _mm256_add_pd(_mm256_set1_pd(f64::from(place)), self.first_rows().0[0]);
+            let mut left = _mm256_sub_epi32(_mm256_set1_epi32(count as i32), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+            for eight in keys[..count.next_multiple_of(8)].chunks_exact_mut(8) {
+                let low = _mm256_cvttpd_epi32(_mm256_floor_pd(_mm256_fmadd_pd(along, places, depth)));
+                places = _mm256_add_pd(places, _mm256_set1_pd(4.0));
+                let high = _mm256_cvttpd_epi32(_mm256_floor_pd(_mm256_fmadd_pd(along, places, depth)));
+                places = _mm256_add_pd(places, _mm256_set1_pd(4.0));
+                let new = _mm256_add_epi32(_mm256_slli_epi32::<8>(_mm256_set_m128i(high, low)), base);
+                let old = _mm256_loadu_si256(eight.as_ptr().cast());
+                let within = _mm256_cmpgt_epi32(left, _mm256_setzero_si256());
+                let both = _mm256_blendv_epi8(old, _mm256_min_epu32(old, new), within);
+                _mm256_storeu_si256(eight.as_mut_ptr().cast(), both);
+                left = _mm256_sub_epi32(left, _mm256_set1_epi32(8));
+            }
+        });
     }
     /// Into the first sum: bits of a nibble, by table times what they count, come to 240 a byte at most.
     #[inline(always)]

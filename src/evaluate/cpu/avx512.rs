@@ -3,7 +3,7 @@
 use std::arch::x86_64::*;
 
 use super::instruction_set::Avx512;
-use super::simd::{Lanes, Simd, with_token};
+use super::simd::{Lanes, Ramp, Sides, Simd, Spans, with_token};
 
 impl Simd for Avx512 {
     const SKIPS_EDGES: bool = false;
@@ -133,6 +133,48 @@ impl Simd for Avx512 {
     #[inline(always)]
     fn count(self, sum: __m512i, words: __m512i) -> __m512i {
         with_token!(_mm512_add_epi32(sum, _mm512_popcnt_epi32(words)))
+    }
+    #[inline(always)]
+    fn spans(self, sides: &Sides, ramp: &Ramp, first: i32, spans: &mut Spans) -> u32 {
+        const DOWN: i32 = _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC;
+        let Sides { slopes, offsets, length } = sides;
+        with_token!({
+            let rows = _mm512_add_pd(_mm512_set1_pd(f64::from(first)), self.first_rows().0.0);
+            let a = _mm512_fmadd_pd(_mm512_set1_pd(slopes[0]), rows, _mm512_set1_pd(offsets[0]));
+            let b = _mm512_fmadd_pd(_mm512_set1_pd(slopes[1]), rows, _mm512_set1_pd(offsets[1]));
+            let c = _mm512_fmadd_pd(_mm512_set1_pd(slopes[2]), rows, _mm512_set1_pd(offsets[2]));
+            let d = _mm512_fmadd_pd(_mm512_set1_pd(slopes[3]), rows, _mm512_set1_pd(offsets[3]));
+            // The floor of the larger is the larger floor.
+            let start = _mm512_roundscale_pd::<DOWN>(_mm512_max_pd(_mm512_max_pd(a, b), _mm512_setzero_pd()));
+            let end = _mm512_roundscale_pd::<DOWN>(_mm512_min_pd(_mm512_min_pd(c, d), _mm512_set1_pd(*length)));
+            let depth = _mm512_fmadd_pd(_mm512_set1_pd(ramp.across), rows, _mm512_set1_pd(ramp.depth));
+            let depth = _mm512_fmadd_pd(_mm512_set1_pd(ramp.along), start, depth);
+            let steps = _mm256_slli_epi32::<8>(_mm512_cvt_roundpd_epi32::<DOWN>(depth));
+            let keys = _mm256_add_epi32(steps, _mm256_set1_epi32(ramp.base as i32));
+            _mm256_store_si256(spans.starts.as_mut_ptr().cast(), _mm512_cvttpd_epi32(start));
+            _mm256_store_si256(spans.ends.as_mut_ptr().cast(), _mm512_cvttpd_epi32(end));
+            _mm256_store_si256(spans.keys.as_mut_ptr().cast(), keys);
+            u32::from(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(start, end))
+        })
+    }
+    #[inline(always)]
+    fn nearer(self, keys: &mut [u32], count: usize, ramp: &Ramp, [place, row]: [i32; 2]) {
+        const DOWN: i32 = _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC;
+        with_token!({
+            let along = _mm512_set1_pd(ramp.along);
+            let depth = _mm512_set1_pd(ramp.across * f64::from(row) + ramp.depth);
+            let base = _mm256_set1_epi32(ramp.base as i32);
+            let mut places = _mm512_add_pd(_mm512_set1_pd(f64::from(place)), self.first_rows().0.0);
+            for eight in keys[..count].chunks_mut(8) {
+                let mask = (0xff_u32 >> (8 - eight.len())) as __mmask8;
+                let steps = _mm512_cvt_roundpd_epi32::<DOWN>(_mm512_fmadd_pd(along, places, depth));
+                let new = _mm256_add_epi32(_mm256_slli_epi32::<8>(steps), base);
+                // The mask leaves out what lies behind the last key.
+                let old = _mm256_maskz_loadu_epi32(mask, eight.as_ptr().cast());
+                _mm256_mask_storeu_epi32(eight.as_mut_ptr().cast(), mask, _mm256_min_epu32(old, new));
+                places = _mm512_add_pd(places, _mm512_set1_pd(8.0));
+            }
+        });
     }
     #[inline(always)]
     fn total(self, sum: __m512i) -> u32 {

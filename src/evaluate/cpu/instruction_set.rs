@@ -3,15 +3,12 @@
 #[cfg(target_arch = "x86_64")]
 use std::arch::is_x86_feature_detected;
 
-use crate::evaluate::besides::Besides;
-use crate::evaluate::projection::Projector;
 use crate::files::choices;
 
-use super::group::{Scratch, evaluate_group};
-use super::planes::Planes;
 use super::portable::Portable;
+use super::simd::{Simd, Task};
 
-/// A token that only a processor with some features makes, and the evaluation compiled for them with the operations that
+/// A token that only a processor with some features makes, and tasks compiled for them with the operations that
 /// `$simd` makes of the token.
 #[cfg(target_arch = "x86_64")]
 macro_rules! token {
@@ -26,27 +23,13 @@ macro_rules! token {
                 ($(is_x86_feature_detected!($feature))&&+).then_some(Self(()))
             }
 
-            fn evaluate_group(
-                self,
-                projector: &Projector,
-                planes: &[Planes],
-                poses: &[f32],
-                besides: Besides,
-                scratch: &mut Scratch,
-            ) {
+            fn run(self, task: impl Task) {
                 $(#[target_feature(enable = $feature)])+
-                fn compiled(
-                    token: $name,
-                    projector: &Projector,
-                    planes: &[Planes],
-                    poses: &[f32],
-                    besides: Besides,
-                    scratch: &mut Scratch,
-                ) {
-                    evaluate_group(($simd)(token), projector, planes, poses, besides, scratch);
+                fn compiled(task: impl Task, simd: impl Simd) {
+                    task.run(simd);
                 }
                 // SAFETY: the token proves that the processor has these features.
-                unsafe { compiled(self, projector, planes, poses, besides, scratch) }
+                unsafe { compiled(task, ($simd)(self)) }
             }
         }
     };
@@ -123,23 +106,16 @@ impl Code {
         }
     }
 
-    /// Up to sixteen candidates in every view.
-    pub(super) fn evaluate_group(
-        self,
-        projector: &Projector,
-        planes: &[Planes],
-        poses: &[f32],
-        besides: Besides,
-        scratch: &mut Scratch,
-    ) {
+    /// Runs a task as it is compiled for this instruction set.
+    pub(super) fn run(self, task: impl Task) {
         match self {
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512(token) => token.evaluate_group(projector, planes, poses, besides, scratch),
+            Self::Avx512(token) => token.run(task),
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2(token) => token.evaluate_group(projector, planes, poses, besides, scratch),
+            Self::Avx2(token) => token.run(task),
             #[cfg(target_arch = "x86_64")]
-            Self::Sse(token) => token.evaluate_group(projector, planes, poses, besides, scratch),
-            Self::Portable => evaluate_group(Portable, projector, planes, poses, besides, scratch),
+            Self::Sse(token) => token.run(task),
+            Self::Portable => task.run(Portable),
         }
     }
 }

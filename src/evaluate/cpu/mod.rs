@@ -1,17 +1,20 @@
-//! The fast evaluator: no picture is ever drawn. Rows of a candidate lie in lanes, columns in bits; the comparison is bit
-//! operations and bit counts. It gives the reference's integers.
+//! The fast evaluator. It gives the reference's integers.
 //!
-//! Sixteen candidates are posed at a time, their sixteen parts projected at a time, each image drawn and counted in a
-//! few hundred bytes of bit columns. The work is shared by threads that stay; nothing is allocated in an iteration.
+//! Of the flat model no picture is ever drawn. Rows of a candidate lie in lanes, columns in bits; the comparison is bit operations and bit
+//! counts. Sixteen candidates are posed at a time, their sixteen parts projected at a time, each image drawn and counted in a few hundred
+//! bytes of bit columns. A mesh is drawn into keys of depth and label (`mesh/`). The work is shared by threads that stay; nothing is
+//! allocated in an iteration.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+mod flat;
 mod front;
 mod group;
 mod instruction_set;
 mod kernel;
+mod mesh;
 mod outline;
 mod planes;
 mod portable;
@@ -23,7 +26,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::{Result, bail, ensure};
 
-use crate::body::Body;
+use crate::body::{Body, Mesh};
 use crate::features::{Observation, PartClasses, Segments};
 use crate::geometry::Camera;
 
@@ -34,34 +37,37 @@ use super::evaluator::{Evaluator, Footprint, check_evidence_batch, check_segment
 use super::evidence::{best_sums, evidence_of, no_evidence};
 use super::objective::{AreaSums, Objective};
 use super::projection::Projector;
-use super::rig::Rig;
+use super::raster::CandidateImage;
 use super::segments::{SegmentSums, segments_of};
 
-use front::{Front, LANES, QuadChunk};
-use group::Scratch;
+use flat::FlatModel;
+use front::LANES;
+use group::Sums;
 use instruction_set::Code;
 pub use instruction_set::InstructionSet;
-use kernel::Canvas;
-use planes::Planes;
+use mesh::MeshModel;
 use workers::Workers;
 
-/// The fast evaluator on the processor.
+/// The fast evaluator on the processor, of the flat or of the mesh model.
 #[derive(Debug)]
 pub struct Cpu {
-    projector: Projector,
-    planes: Vec<Planes>,
+    model: Model,
     set: InstructionSet,
     code: Code,
     workers: Workers,
     /// One a worker; the locks are never contended.
-    scratch: Vec<Mutex<Scratch>>,
-    /// Labels of the parts in the body's order.
-    labels: Vec<u8>,
+    sums: Vec<Mutex<Sums>>,
     /// Those of the newest observations.
     segments: Option<Arc<Segments>>,
     classes: Option<Arc<PartClasses>>,
     /// The best evidence, one a view.
     best_evidence: Option<Arc<[u32]>>,
+}
+
+#[derive(Debug)]
+enum Model {
+    Flat(FlatModel),
+    Mesh(Box<MeshModel>),
 }
 
 impl Cpu {
@@ -79,69 +85,77 @@ impl Cpu {
     /// # Errors
     /// When the processor lacks the instruction set, a picture has no pixel, or a thread cannot be started.
     pub fn with(body: &Body, cameras: &[Camera], set: InstructionSet, workers: usize) -> Result<Self> {
+        Self::of(|| Ok(Model::Flat(FlatModel::new(body, cameras, workers))), cameras, set, workers)
+    }
+
+    /// The mesh model of a body, with the best instruction set and as many workers as [`Self::new`]; `mesh` is bound to this body.
+    ///
+    /// # Errors
+    /// As [`Self::of_mesh_with`].
+    pub fn of_mesh(body: &Body, mesh: Mesh, cameras: &[Camera]) -> Result<Self> {
+        Self::of_mesh_with(body, mesh, cameras, InstructionSet::best(), rayon::current_num_threads())
+    }
+
+    /// The same with a chosen instruction set and number of workers.
+    ///
+    /// # Errors
+    /// As [`Self::with`]; also when the mesh is bound to another number of bones.
+    pub fn of_mesh_with(
+        body: &Body,
+        mesh: Mesh,
+        cameras: &[Camera],
+        set: InstructionSet,
+        workers: usize,
+    ) -> Result<Self> {
+        Self::of(|| Ok(Model::Mesh(Box::new(MeshModel::new(body, mesh, cameras, workers)?))), cameras, set, workers)
+    }
+
+    fn of(
+        model: impl FnOnce() -> Result<Model>,
+        cameras: &[Camera],
+        set: InstructionSet,
+        count: usize,
+    ) -> Result<Self> {
         let Some(code) = Code::of(set) else {
             bail!("this processor has no {}: choose another instruction set", set.name());
         };
-        ensure!(workers > 0, "0 worker threads were asked for, expected at least 1");
+        ensure!(count > 0, "0 worker threads were asked for, expected at least 1");
         check_pictures(cameras)?;
-        let projector = Projector::new(body, cameras);
-        let planes: Vec<Planes> = cameras.iter().map(|camera| Planes::new(camera.size[0], camera.size[1])).collect();
-        let most_cells = planes.iter().map(Planes::canvas_cells).max().unwrap_or(0);
-        let scratch = (0..workers)
-            .map(|_| {
-                let front = Front::new(&projector.rig);
-                let chunks = front.chunk_count();
-                Mutex::new(Scratch {
-                    front,
-                    quads: vec![QuadChunk::default(); chunks],
-                    canvas: Canvas::new(chunks, most_cells, Vec::new()),
-                    components: vec![Components::default(); LANES * cameras.len()],
-                    segmented: None,
-                    segment_sums: Vec::new(),
-                    evidence: vec![0; LANES * cameras.len()],
-                })
+        let model = model()?;
+        let sums = || {
+            Mutex::new(Sums {
+                components: vec![Components::default(); LANES * cameras.len()],
+                segments: Vec::new(),
+                evidence: vec![0; LANES * cameras.len()],
             })
-            .collect();
-        let labels = body.parts.iter().map(|part| part.label).collect();
-        let workers = Workers::new(workers)?;
-        Ok(Self {
-            projector,
-            planes,
-            set,
-            code,
-            workers,
-            scratch,
-            labels,
-            segments: None,
-            classes: None,
-            best_evidence: None,
-        })
+        };
+        let sums = std::iter::repeat_with(sums).take(count).collect();
+        let workers = Workers::new(count)?;
+        Ok(Self { model, set, code, workers, sums, segments: None, classes: None, best_evidence: None })
     }
 
     /// Exchanges the body for another one of as many degrees of freedom and parts; what was observed stays.
     ///
     /// # Errors
-    /// When their numbers differ.
+    /// When their numbers differ, or a mesh is drawn: that is bound to its body.
     pub fn set_body(&mut self, body: &Body) -> Result<()> {
-        let rig = Rig::new(body);
-        let (old, new) = (&self.projector.rig, &rig);
-        ensure!(
-            (new.dof_count, new.parts.len()) == (old.dof_count, old.parts.len()),
-            "a body of {} degrees of freedom and {} parts cannot take the place of one of {} and {}",
-            new.dof_count,
-            new.parts.len(),
-            old.dof_count,
-            old.parts.len()
-        );
-        for scratch in &mut self.scratch {
-            scratch.get_mut().unwrap_or_else(PoisonError::into_inner).front = Front::new(&rig);
+        match &mut self.model {
+            Model::Flat(flat) => flat.set_body(body)?,
+            Model::Mesh(_) => {
+                bail!("a mesh is bound to the body it was made with: another body needs an evaluator of its own")
+            }
         }
-        self.projector.rig = rig;
-        self.labels = body.parts.iter().map(|part| part.label).collect();
         let (segments, classes) = (self.segments.take(), self.classes.take());
         self.set_segments(segments);
         self.set_classes(classes);
         Ok(())
+    }
+
+    fn projector(&self) -> &Projector {
+        match &self.model {
+            Model::Flat(flat) => &flat.projector,
+            Model::Mesh(mesh) => mesh.projector(),
+        }
     }
 
     /// Compares by these segments from now on; none for whole silhouettes.
@@ -149,16 +163,13 @@ impl Cpu {
         if segments == self.segments {
             return;
         }
-        let numbers: Option<Vec<u8>> =
-            segments.as_ref().map(|segments| self.labels.iter().map(|&label| segments.number(label)).collect());
-        let count = segments.as_ref().map_or(0, |segments| segments.as_slice().len());
-        let cells = self.planes.iter().map(Planes::canvas_cells).max().unwrap_or(0);
-        let views = self.planes.len();
-        for scratch in &mut self.scratch {
-            let scratch = scratch.get_mut().unwrap_or_else(PoisonError::into_inner);
-            let chunks = scratch.quads.len();
-            scratch.segmented = numbers.clone().map(|numbers| Canvas::new(chunks, cells, numbers));
-            scratch.segment_sums = vec![SegmentSums::default(); LANES * views * count];
+        let sums = LANES * self.view_count() * segments.as_ref().map_or(0, |segments| segments.as_slice().len());
+        for room in &mut self.sums {
+            room.get_mut().unwrap_or_else(PoisonError::into_inner).segments = vec![SegmentSums::default(); sums];
+        }
+        match &mut self.model {
+            Model::Flat(flat) => flat.set_segments(segments.as_ref()),
+            Model::Mesh(mesh) => mesh.set_segments(segments.as_ref()),
         }
         self.segments = segments;
     }
@@ -168,11 +179,9 @@ impl Cpu {
         if classes == self.classes {
             return;
         }
-        let of_part = |classes: &Arc<PartClasses>| self.labels.iter().map(|&label| classes.of_label(label)).collect();
-        let numbers: Vec<u8> = classes.as_ref().map(of_part).unwrap_or_default();
-        for scratch in &mut self.scratch {
-            let scratch = scratch.get_mut().unwrap_or_else(PoisonError::into_inner);
-            scratch.canvas.set_classes(numbers.clone());
+        match &mut self.model {
+            Model::Flat(flat) => flat.set_classes(classes.as_ref()),
+            Model::Mesh(mesh) => mesh.set_classes(classes.as_ref()),
         }
         self.classes = classes;
     }
@@ -185,22 +194,25 @@ impl Cpu {
         per_pose: usize,
         finish: impl Fn(&Group<'_>, &mut [T]) + Sync,
     ) -> Result<()> {
-        let (dof_count, views) = (self.projector.dof_count(), self.planes.len());
+        let (dof_count, views) = (self.dof_count(), self.view_count());
         let segments = self.segments.as_ref().map_or(0, |segments| segments.as_slice().len());
         let groups = Mutex::new(poses.chunks(LANES * dof_count).zip(results.chunks_mut(LANES * per_pose)));
-        let (projector, planes, code, scratch) = (&self.projector, &self.planes, self.code, &self.scratch);
+        let (model, code, sums) = (&self.model, self.code, &self.sums);
         let completed = self.workers.run(&|worker| {
-            let mut scratch = scratch[worker].lock().unwrap_or_else(PoisonError::into_inner);
+            let mut sums = sums[worker].lock().unwrap_or_else(PoisonError::into_inner);
             loop {
                 let Some((poses, results)) = groups.lock().unwrap_or_else(PoisonError::into_inner).next() else {
                     break;
                 };
-                code.evaluate_group(projector, planes, poses, besides, &mut scratch);
+                match model {
+                    Model::Flat(flat) => flat.evaluate(code, worker, poses, besides, &mut sums),
+                    Model::Mesh(mesh) => mesh.evaluate(code, worker, poses, besides, &mut sums),
+                }
                 let images = poses.len() / dof_count * views;
                 let group = Group {
-                    components: &scratch.components[..images],
-                    segments: &scratch.segment_sums[..images * segments],
-                    evidence: &scratch.evidence[..images],
+                    components: &sums.components[..images],
+                    segments: &sums.segments[..images * segments],
+                    evidence: &sums.evidence[..images],
                 };
                 finish(&group, results);
             }
@@ -230,21 +242,22 @@ impl Evaluator for Cpu {
     }
 
     fn view_count(&self) -> usize {
-        self.planes.len()
+        self.projector().view_count()
     }
 
     fn dof_count(&self) -> usize {
-        self.projector.dof_count()
+        self.projector().dof_count()
     }
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
-        check_observations(observations, self.planes.iter().map(|planes| [planes.width, planes.height]))?;
+        check_observations(observations, self.projector().cameras.iter().map(|camera| camera.size))?;
         let (segments, classes) = (segments_of(observations)?, evidence_of(observations)?);
         self.set_segments(segments);
         self.set_classes(classes);
         self.best_evidence = best_sums(observations);
-        for (planes, observation) in self.planes.iter_mut().zip(observations) {
-            planes.fill(observation);
+        match &mut self.model {
+            Model::Flat(flat) => flat.observe(observations),
+            Model::Mesh(mesh) => mesh.observe(observations),
         }
         Ok(())
     }
@@ -296,8 +309,23 @@ impl Evaluator for Cpu {
         self.run(what, sums, views, |found, results| results.copy_from_slice(found.evidence))
     }
 
+    fn drawn(&mut self, pose: &[f32], view: usize) -> Result<Option<CandidateImage>> {
+        check_batch(pose, self.dof_count(), 1, 1)?;
+        ensure!(view < self.view_count(), "there are {} views, and view {view} was asked for", self.view_count());
+        Ok(match &self.model {
+            Model::Flat(_) => None,
+            Model::Mesh(mesh) => Some(mesh.drawn(self.code, pose, view)),
+        })
+    }
+
     fn footprint(&self) -> Option<Footprint> {
-        // A bit for what is covered and one for what is an edge.
-        Some(Footprint { tile: [planes::CELL_COLUMNS, planes::CELL_ROWS], bytes_per_pixel: 0.25 })
+        match self.model {
+            // A bit for what is covered and one for what is an edge.
+            Model::Flat(_) => {
+                Some(Footprint { tile: [planes::CELL_COLUMNS, planes::CELL_ROWS], bytes_per_pixel: 0.25 })
+            }
+            // What is drawn in is as large as the candidate.
+            Model::Mesh(_) => None,
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes say so, and several rows share the index")]
 
-use super::simd::{Lanes, Simd};
+use super::simd::{Lanes, Ramp, Sides, Simd, Spans};
 
 /// No instruction set in particular.
 #[derive(Clone, Copy, Debug)]
@@ -155,6 +155,40 @@ impl Simd for Portable {
             .0
             .chunks_exact(2)
             .fold(sum, |sum, pair| sum + (u64::from(pair[0]) << 32 | u64::from(pair[1])).count_ones())
+    }
+    #[inline(always)]
+    fn spans(self, sides: &Sides, ramp: &Ramp, first: i32, spans: &mut Spans) -> u32 {
+        let (mut starts, mut ends) = ([0.0; 8], [0.0; 8]);
+        for lane in 0..8 {
+            let row = f64::from(first) + lane as f64;
+            let at = |line: usize| sides.slopes[line] * row + sides.offsets[line];
+            let larger = |a: f64, b: f64| if a > b { a } else { b };
+            let smaller = |a: f64, b: f64| if a < b { a } else { b };
+            // The floor of the larger is the larger floor.
+            starts[lane] = larger(larger(at(0), at(1)), 0.0).floor();
+            ends[lane] = smaller(smaller(at(2), at(3)), sides.length).floor();
+        }
+        let mut some = 0;
+        for lane in 0..8 {
+            spans.starts[lane] = starts[lane] as i32;
+            spans.ends[lane] = ends[lane] as i32;
+            some |= u32::from(starts[lane] < ends[lane]) << lane;
+        }
+        let mut left = some;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize & 7;
+            left &= left - 1;
+            spans.keys[lane] = ramp.key(spans.starts[lane], first + lane as i32);
+        }
+        some
+    }
+    #[inline(always)]
+    fn nearer(self, keys: &mut [u32], count: usize, ramp: &Ramp, [place, row]: [i32; 2]) {
+        let depth = ramp.across * f64::from(row) + ramp.depth;
+        for (key, place) in keys[..count].iter_mut().zip(place..) {
+            let steps = (ramp.along * f64::from(place) + depth).floor() as i32;
+            *key = (*key).min(ramp.base.wrapping_add((steps as u32) << 8));
+        }
     }
     #[inline(always)]
     fn total(self, sum: u32) -> u32 {

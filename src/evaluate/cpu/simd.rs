@@ -8,6 +8,50 @@
 #[repr(C, align(64))]
 pub(super) struct Lanes(pub(super) [u32; 16]);
 
+/// What is compiled anew for every instruction set.
+pub(super) trait Task {
+    /// Does it with the operations of `simd`; has to be inlined into a function that is compiled for these.
+    fn run<S: Simd>(self, simd: S);
+}
+
+/// Lines that bound what lies between them, in a row or in a column: its first pixel there is the larger of the floors of the first two,
+/// the one after its last the smaller of those of the others.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sides {
+    /// Pixels from one row to the next, and in row 0.
+    pub(super) slopes: [f64; 4],
+    pub(super) offsets: [f64; 4],
+    /// Pixels that a row has.
+    pub(super) length: f64,
+}
+
+/// Spans of eight rows, from `starts` to before `ends`, and the keys of their first pixels.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(align(32))]
+pub(super) struct Spans {
+    pub(super) starts: [i32; 8],
+    pub(super) ends: [i32; 8],
+    pub(super) keys: [u32; 8],
+}
+
+/// Keys in a plane: `base` plus 256 times the floor of `along * place + (across * row + depth)`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Ramp {
+    pub(super) along: f64,
+    pub(super) across: f64,
+    pub(super) depth: f64,
+    pub(super) base: u32,
+}
+
+impl Ramp {
+    /// The key of a pixel.
+    #[inline(always)]
+    pub(super) fn key(&self, place: i32, row: i32) -> u32 {
+        let depth = self.along * f64::from(place) + (self.across * f64::from(row) + self.depth);
+        self.base.wrapping_add((depth.floor() as i32 as u32) << 8)
+    }
+}
+
 /// An instruction set, by the operations the kernel needs. Lanes hold rows of one image, two's complement where signed.
 pub(super) trait Simd: Copy + Send + Sync + 'static {
     /// Whether a test for an edge that has no row in a block costs less than drawing nothing.
@@ -69,6 +113,13 @@ pub(super) trait Simd: Copy + Send + Sync + 'static {
     fn count(self, sum: Self::Sum, words: Self::Words) -> Self::Sum;
     fn total(self, sum: Self::Sum) -> u32;
 
+    /// The spans of the eight rows from `first` on between the floors of the lines of `sides`; a bit for each row that has a pixel. Those
+    /// of the others are anything.
+    fn spans(self, sides: &Sides, ramp: &Ramp, first: i32, spans: &mut Spans) -> u32;
+    /// The smaller of `keys` and those of a ramp from a place in a row on, for the first `count` of them. There are at least as many as
+    /// the next multiple of eight.
+    fn nearer(self, keys: &mut [u32], count: usize, ramp: &Ramp, place_and_row: [i32; 2]);
+
     /// The sums plus those of codes whose bits are the words', the lowest first.
     #[inline(always)]
     fn count_codes(self, mut sums: [Self::Sum; 4], bits: [Self::Words; 4]) -> [Self::Sum; 4] {
@@ -90,7 +141,7 @@ pub(super) trait Simd: Copy + Send + Sync + 'static {
 macro_rules! with_token {
     ($call:expr) => {
         // SAFETY: `self` exists, so `detect` found every instruction its file uses; the pointers come from references to sixteen
-        // aligned words, of which a register takes eight or all.
+        // aligned words, of which a register takes eight or all, or to as many as it takes.
         unsafe { $call }
     };
 }
