@@ -111,9 +111,15 @@ fn every_instruction_set_draws_meshes_as_the_reference_does() {
     let mut random = Random(21);
     let views = views(&cameras, &mut random);
     for (name, mesh) in meshes(&body) {
-        // More than a worker takes at a time.
-        let count = if mesh.vertices.len() < 3000 { 37 } else { 17 };
+        // More than a worker takes at a time; of large meshes fewer, with pixels that are ignored in every case but the last.
+        let is_large = mesh.vertices.len() > 3000;
+        let count = if is_large { 17 } else { 37 };
         let poses = poses(&body, count, &mut random);
+        let views: Vec<_> = views
+            .iter()
+            .filter(|(case, _)| !is_large || case.contains("in part") || *case == "silhouettes")
+            .cloned()
+            .collect();
         let drawn = hold((&name, &mesh), (&body, &cameras), &poses, &views);
         let some = drawn.components.iter().filter(|sums| sums.area_model > 0 && sums.edges > 0).count();
         assert!(some > count, "{name}: only {some} images show anything");
