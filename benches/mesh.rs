@@ -1,8 +1,8 @@
 //! Throughput of the mesh model, poses in to fitness out, on every rung of the ladder and of a glTF person: the reference, the processor
-//! with every instruction set, on one thread and on all, and the graphics pipeline with the time of each stage.
+//! with every instruction set, on one thread and on all, and compute and the graphics pipeline with the time of each stage.
 //!
 //! Run by `cargo test` it evaluates a few candidates on the lowest rungs. Either way it checks them against the reference.
-//! Without Vulkan it says so and goes without the graphics pipeline.
+//! Without Vulkan it says so and goes without them.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark ends where something fails, and prints")]
 
 mod table;
@@ -33,7 +33,7 @@ fn meshes(body: &Body) -> Vec<(String, Mesh)> {
 fn main() {
     let device = open_device().map_err(|error| format!("{error:#}"));
     if let Err(error) = &device {
-        println!("SKIPPED graphics: {error}");
+        println!("SKIPPED compute and graphics: {error}");
     }
     let candidates = if is_measuring() { 304 } else { 4 };
     let scene = Scene::new([640, 480], 280.0).unwrap();
@@ -60,6 +60,13 @@ fn main() {
             assert_eq!(found, expected, "{name}");
         }
         if device.is_ok() {
+            let mut compute = build(Contestant::Compute { subgroup: false });
+            let mut found = vec![Components::default(); scene.cameras.len()];
+            compute.components(&scene.pose, &mut found).unwrap();
+            assert_eq!(found, expected, "{name}, compute");
+            let passes = pass_times(compute.as_mut(), poses, &objective, &mut vec![0.0; candidates]).unwrap();
+            println!("{name}, compute: stages, ms: {}", in_a_line(&passes));
+            rows.push((format!("{name}, compute"), compute));
             let mut graphics = build(Contestant::Graphics(GraphicsSettings::default()));
             let mut found = vec![Components::default(); images];
             graphics.components(poses, &mut found).unwrap();

@@ -53,6 +53,16 @@ pub const MESH_EDGE_BIAS: f32 = 30.0;
 /// `MESH_NEAREST` of `evaluate/constants.glsl`.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const MESH_NEAREST: f32 = 200.0;
+/// Invocations of a workgroup that draws and compares tiles of an image of a mesh; the pixels that it keeps in shared memory, of which
+/// every device has 16 KiB, and the most words of them in a row.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const MESH_RASTER_GROUP: u32 = 64;
+/// `MESH_KEYS` of `evaluate/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const MESH_KEYS: u32 = 3584;
+/// `MESH_WORDS` of `evaluate/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const MESH_WORDS: u32 = 8;
 /// Vertices that a silhouette edge is drawn with: two triangles.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const OUTLINE_VERTICES: u32 = 6;
@@ -63,17 +73,16 @@ pub mod bind_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/bind.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<939, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<858, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/bind.comp.spv"))),
         workgroup_size: [64, 1, 1],
-        push_size: 24,
+        push_size: 32,
         bindings: &[
             crate::gpu::BindingLayout { name: "World", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "InverseBind", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "Cameras", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "Skin", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
             crate::gpu::BindingLayout { name: "AllBounds", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
-            crate::gpu::BindingLayout { name: "Counts", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
         ],
         constants: &[
         ],
@@ -97,19 +106,16 @@ pub mod bind_comp {
         pub skin: &'a crate::gpu::Buffer,
         /// Storage buffer `AllBounds`, written; set 0, binding 4.
         pub all_bounds: &'a crate::gpu::Buffer,
-        /// Storage buffer `Counts`, written; set 0, binding 5.
-        pub counts: &'a crate::gpu::Buffer,
     }
     impl<'a> Bindings<'a> {
         /// Each resource with the place it goes to.
-        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 6] {
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 5] {
             [
                 crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.world) },
                 crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.inverse_bind) },
                 crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.cameras) },
                 crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.skin) },
                 crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.all_bounds) },
-                crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.counts) },
             ]
         }
     }
@@ -1026,10 +1032,10 @@ pub mod mesh_edge_vert {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/mesh_edge.vert",
         kind: crate::gpu::ShaderKind::Vertex,
-        spirv: &crate::gpu::words::<2284, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<2296, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/mesh_edge.vert.spv"))),
         workgroup_size: [1, 1, 1],
-        push_size: 24,
+        push_size: 32,
         bindings: &[
             crate::gpu::BindingLayout { name: "Vertices", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "AllSeen", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
@@ -1094,10 +1100,10 @@ pub mod mesh_fill_vert {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/mesh_fill.vert",
         kind: crate::gpu::ShaderKind::Vertex,
-        spirv: &crate::gpu::words::<932, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<944, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/mesh_fill.vert.spv"))),
         workgroup_size: [1, 1, 1],
-        push_size: 24,
+        push_size: 32,
         bindings: &[
             crate::gpu::BindingLayout { name: "Vertices", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "AllSeen", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
@@ -1386,10 +1392,10 @@ pub mod outline_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/outline.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<1408, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<1420, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/outline.comp.spv"))),
         workgroup_size: [64, 1, 1],
-        push_size: 24,
+        push_size: 32,
         bindings: &[
             crate::gpu::BindingLayout { name: "Edges", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "AllSeen", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
@@ -1681,7 +1687,7 @@ pub mod raster_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4740, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<4737, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -1764,7 +1770,7 @@ pub mod raster_evidence_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_evidence.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5246, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5243, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_evidence.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -1852,6 +1858,297 @@ pub mod raster_evidence_comp {
         }
     }
 }
+/// The stage `evaluate/raster_mesh.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod raster_mesh_comp {
+    // Accesses are as declared: naga cannot read this stage (unsupported instruction UMulExtended at Function).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/raster_mesh.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<11051, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_mesh.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 32,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Cameras", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllSeen", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllBounds", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Planes", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Triangles", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllSums", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+            crate::gpu::BindingLayout { name: "Counted", set: 0, binding: 9, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Vertices", set: 0, binding: 10, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Edges", set: 0, binding: 11, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `IGNORES`, false by default.
+        pub ignores: bool,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { ignores: false, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(1, u32::from(constants.ignores)), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::MeshBatch;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Cameras`, read; set 0, binding 0.
+        pub cameras: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllSeen`, read; set 0, binding 1.
+        pub all_seen: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllBounds`, read; set 0, binding 2.
+        pub all_bounds: &'a crate::gpu::Buffer,
+        /// Storage buffer `Planes`, read; set 0, binding 3.
+        pub planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `Triangles`, read; set 0, binding 4.
+        pub triangles: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllSums`, read and written; set 0, binding 5.
+        pub all_sums: &'a crate::gpu::Buffer,
+        /// Storage buffer `Counted`, read; set 0, binding 9.
+        pub counted: &'a crate::gpu::Buffer,
+        /// Storage buffer `Vertices`, read; set 0, binding 10.
+        pub vertices: &'a crate::gpu::Buffer,
+        /// Storage buffer `Edges`, read; set 0, binding 11.
+        pub edges: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 9] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.cameras) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.all_seen) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.all_bounds) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.triangles) },
+                crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.all_sums) },
+                crate::gpu::Binding { layout: &SHADER.bindings[6], bound: crate::gpu::Bound::Buffer(self.counted) },
+                crate::gpu::Binding { layout: &SHADER.bindings[7], bound: crate::gpu::Bound::Buffer(self.vertices) },
+                crate::gpu::Binding { layout: &SHADER.bindings[8], bound: crate::gpu::Bound::Buffer(self.edges) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
+/// The stage `evaluate/raster_mesh_evidence.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod raster_mesh_evidence_comp {
+    // Accesses are as declared: naga cannot read this stage (unsupported instruction UMulExtended at Function).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/raster_mesh_evidence.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<11694, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_mesh_evidence.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 32,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Cameras", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllSeen", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllBounds", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Planes", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Triangles", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllSums", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+            crate::gpu::BindingLayout { name: "table", set: 0, binding: 6, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "EvidencePlanes", set: 0, binding: 7, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllEvidence", set: 0, binding: 8, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+            crate::gpu::BindingLayout { name: "Counted", set: 0, binding: 9, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Vertices", set: 0, binding: 10, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Edges", set: 0, binding: 11, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `IGNORES`, false by default.
+        pub ignores: bool,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { ignores: false, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(1, u32::from(constants.ignores)), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::MeshBatch;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Cameras`, read; set 0, binding 0.
+        pub cameras: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllSeen`, read; set 0, binding 1.
+        pub all_seen: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllBounds`, read; set 0, binding 2.
+        pub all_bounds: &'a crate::gpu::Buffer,
+        /// Storage buffer `Planes`, read; set 0, binding 3.
+        pub planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `Triangles`, read; set 0, binding 4.
+        pub triangles: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllSums`, read and written; set 0, binding 5.
+        pub all_sums: &'a crate::gpu::Buffer,
+        /// Storage buffer `EvidenceTable`, read; set 0, binding 6.
+        pub table: &'a crate::gpu::Buffer,
+        /// Storage buffer `EvidencePlanes`, read; set 0, binding 7.
+        pub evidence_planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllEvidence`, read and written; set 0, binding 8.
+        pub all_evidence: &'a crate::gpu::Buffer,
+        /// Storage buffer `Counted`, read; set 0, binding 9.
+        pub counted: &'a crate::gpu::Buffer,
+        /// Storage buffer `Vertices`, read; set 0, binding 10.
+        pub vertices: &'a crate::gpu::Buffer,
+        /// Storage buffer `Edges`, read; set 0, binding 11.
+        pub edges: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 12] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.cameras) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.all_seen) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.all_bounds) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.triangles) },
+                crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.all_sums) },
+                crate::gpu::Binding { layout: &SHADER.bindings[6], bound: crate::gpu::Bound::Buffer(self.table) },
+                crate::gpu::Binding { layout: &SHADER.bindings[7], bound: crate::gpu::Bound::Buffer(self.evidence_planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[8], bound: crate::gpu::Bound::Buffer(self.all_evidence) },
+                crate::gpu::Binding { layout: &SHADER.bindings[9], bound: crate::gpu::Bound::Buffer(self.counted) },
+                crate::gpu::Binding { layout: &SHADER.bindings[10], bound: crate::gpu::Bound::Buffer(self.vertices) },
+                crate::gpu::Binding { layout: &SHADER.bindings[11], bound: crate::gpu::Bound::Buffer(self.edges) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
+/// The stage `evaluate/raster_mesh_segments.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod raster_mesh_segments_comp {
+    // Accesses are as declared: naga cannot read this stage (unsupported instruction UMulExtended at Function).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/raster_mesh_segments.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<11667, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_mesh_segments.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 32,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Cameras", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllSeen", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllBounds", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Planes", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Triangles", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllSums", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+            crate::gpu::BindingLayout { name: "table", set: 0, binding: 6, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "SegmentPlanes", set: 0, binding: 7, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllSegmentSums", set: 0, binding: 8, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+            crate::gpu::BindingLayout { name: "Counted", set: 0, binding: 9, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Vertices", set: 0, binding: 10, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Edges", set: 0, binding: 11, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `IGNORES`, false by default.
+        pub ignores: bool,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { ignores: false, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(1, u32::from(constants.ignores)), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::MeshBatch;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Cameras`, read; set 0, binding 0.
+        pub cameras: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllSeen`, read; set 0, binding 1.
+        pub all_seen: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllBounds`, read; set 0, binding 2.
+        pub all_bounds: &'a crate::gpu::Buffer,
+        /// Storage buffer `Planes`, read; set 0, binding 3.
+        pub planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `Triangles`, read; set 0, binding 4.
+        pub triangles: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllSums`, read and written; set 0, binding 5.
+        pub all_sums: &'a crate::gpu::Buffer,
+        /// Storage buffer `SegmentTable`, read; set 0, binding 6.
+        pub table: &'a crate::gpu::Buffer,
+        /// Storage buffer `SegmentPlanes`, read; set 0, binding 7.
+        pub segment_planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllSegmentSums`, read and written; set 0, binding 8.
+        pub all_segment_sums: &'a crate::gpu::Buffer,
+        /// Storage buffer `Counted`, read; set 0, binding 9.
+        pub counted: &'a crate::gpu::Buffer,
+        /// Storage buffer `Vertices`, read; set 0, binding 10.
+        pub vertices: &'a crate::gpu::Buffer,
+        /// Storage buffer `Edges`, read; set 0, binding 11.
+        pub edges: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 12] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.cameras) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.all_seen) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.all_bounds) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.triangles) },
+                crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.all_sums) },
+                crate::gpu::Binding { layout: &SHADER.bindings[6], bound: crate::gpu::Bound::Buffer(self.table) },
+                crate::gpu::Binding { layout: &SHADER.bindings[7], bound: crate::gpu::Bound::Buffer(self.segment_planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[8], bound: crate::gpu::Bound::Buffer(self.all_segment_sums) },
+                crate::gpu::Binding { layout: &SHADER.bindings[9], bound: crate::gpu::Bound::Buffer(self.counted) },
+                crate::gpu::Binding { layout: &SHADER.bindings[10], bound: crate::gpu::Bound::Buffer(self.vertices) },
+                crate::gpu::Binding { layout: &SHADER.bindings[11], bound: crate::gpu::Bound::Buffer(self.edges) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
 /// The stage `evaluate/raster_segments.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod raster_segments_comp {
@@ -1859,7 +2156,7 @@ pub mod raster_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5390, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5387, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_segments.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -1954,7 +2251,7 @@ pub mod raster_shared_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_shared.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4679, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<4676, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_shared.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -2037,10 +2334,10 @@ pub mod skin_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/skin.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4820, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<4832, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/skin.comp.spv"))),
         workgroup_size: [64, 1, 1],
-        push_size: 24,
+        push_size: 32,
         bindings: &[
             crate::gpu::BindingLayout { name: "Vertices", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "Skin", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
@@ -2231,7 +2528,7 @@ pub mod layout {
     const _: () = assert!(size_of::<ListedHeader>() == 12);
     const _: () = assert!(std::mem::offset_of!(ListedHeader, listed_count) == 0);
     const _: () = assert!(std::mem::offset_of!(ListedHeader, listed_one) == 4);
-    /// `MeshBatch` in memory, 24 bytes.
+    /// `MeshBatch` in memory, 32 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
     pub struct MeshBatch {
@@ -2247,14 +2544,20 @@ pub mod layout {
         pub edges: u32,
         /// `most_outlines` at byte 20.
         pub most_outlines: u32,
+        /// `triangles` at byte 24.
+        pub triangles: u32,
+        /// `first` at byte 28.
+        pub first: u32,
     }
-    const _: () = assert!(size_of::<MeshBatch>() == 24);
+    const _: () = assert!(size_of::<MeshBatch>() == 32);
     const _: () = assert!(std::mem::offset_of!(MeshBatch, candidates) == 0);
     const _: () = assert!(std::mem::offset_of!(MeshBatch, views) == 4);
     const _: () = assert!(std::mem::offset_of!(MeshBatch, bones) == 8);
     const _: () = assert!(std::mem::offset_of!(MeshBatch, vertices) == 12);
     const _: () = assert!(std::mem::offset_of!(MeshBatch, edges) == 16);
     const _: () = assert!(std::mem::offset_of!(MeshBatch, most_outlines) == 20);
+    const _: () = assert!(std::mem::offset_of!(MeshBatch, triangles) == 24);
+    const _: () = assert!(std::mem::offset_of!(MeshBatch, first) == 28);
     /// `MeshEdge` in memory, 16 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -2469,4 +2772,4 @@ pub mod layout {
 /// Every stage of the folder, for tests that try them all.
 #[cfg(test)]
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
-pub static SHADERS: &[&crate::gpu::Shader] = &[&bind_comp::SHADER, &compare_shared_comp::SHADER, &compare_shared_segments_comp::SHADER, &compare_subgroup_comp::SHADER, &compare_subgroup_segments_comp::SHADER, &compare_texels_comp::SHADER, &compare_texels_segments_comp::SHADER, &draw_border_vert::SHADER, &draw_exact_frag::SHADER, &draw_exact_vert::SHADER, &draw_fill_vert::SHADER, &draw_plain_frag::SHADER, &evidence_comp::SHADER, &mesh_edge_vert::SHADER, &mesh_fill_vert::SHADER, &objective_comp::SHADER, &objective_evidence_comp::SHADER, &objective_segments_comp::SHADER, &order_comp::SHADER, &outline_comp::SHADER, &place_comp::SHADER, &pose_comp::SHADER, &project_comp::SHADER, &project_feedback_vert::SHADER, &raster_comp::SHADER, &raster_evidence_comp::SHADER, &raster_segments_comp::SHADER, &raster_shared_comp::SHADER, &skin_comp::SHADER];
+pub static SHADERS: &[&crate::gpu::Shader] = &[&bind_comp::SHADER, &compare_shared_comp::SHADER, &compare_shared_segments_comp::SHADER, &compare_subgroup_comp::SHADER, &compare_subgroup_segments_comp::SHADER, &compare_texels_comp::SHADER, &compare_texels_segments_comp::SHADER, &draw_border_vert::SHADER, &draw_exact_frag::SHADER, &draw_exact_vert::SHADER, &draw_fill_vert::SHADER, &draw_plain_frag::SHADER, &evidence_comp::SHADER, &mesh_edge_vert::SHADER, &mesh_fill_vert::SHADER, &objective_comp::SHADER, &objective_evidence_comp::SHADER, &objective_segments_comp::SHADER, &order_comp::SHADER, &outline_comp::SHADER, &place_comp::SHADER, &pose_comp::SHADER, &project_comp::SHADER, &project_feedback_vert::SHADER, &raster_comp::SHADER, &raster_evidence_comp::SHADER, &raster_mesh_comp::SHADER, &raster_mesh_evidence_comp::SHADER, &raster_mesh_segments_comp::SHADER, &raster_segments_comp::SHADER, &raster_shared_comp::SHADER, &skin_comp::SHADER];

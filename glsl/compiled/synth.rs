@@ -102,7 +102,7 @@ pub mod picture_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "synth/picture.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<64886, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<64766, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/synth/picture.comp.spv"))),
         workgroup_size: [8, 8, 1],
         push_size: 4,

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Bone matrices times inverse bind matrices (METHOD A4), one invocation a bone of a candidate; and an empty start for what the next
-// stages gather: bounds of images, counts of silhouette edges.
+// stage gathers, the bounds of images.
 
 #include "evaluate/constants.glsl"
 #include "evaluate/model.glsl"
@@ -16,8 +16,6 @@ layout(std430, set = 0, binding = 2) readonly buffer Cameras { Camera cameras[];
 // Three rows a bone, as `world`.
 layout(std430, set = 0, binding = 3) writeonly buffer Skin { vec4 skin[]; };
 layout(std430, set = 0, binding = 4) writeonly buffer AllBounds { Bounds bounds[]; };
-// Of each channel how a draw is counted: vertices, 1, 0, 0.
-layout(std430, set = 0, binding = 5) writeonly buffer Counts { uint counts[]; };
 
 vec4 compose_row(vec4 p, vec4 l0, vec4 l1, vec4 l2) {
     precise vec4 sum = (p.x * l0 + p.y * l1) + p.z * l2;
@@ -27,7 +25,6 @@ vec4 compose_row(vec4 p, vec4 l0, vec4 l1, vec4 l2) {
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
-    if (index < 16u) counts[index] = index % 4u == 1u ? 1u : 0u;
     if (index < batch.candidates * batch.views) {
         Bounds none;
         none.low = ivec2(cameras[index % batch.views].size);

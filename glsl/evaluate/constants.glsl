@@ -42,6 +42,11 @@ const uint MESH_GROUP = 64u;
 const float MESH_NEAR = 100.0;
 const float MESH_EDGE_BIAS = 30.0;
 const float MESH_NEAREST = 200.0;
+// Invocations of a workgroup that draws and compares tiles of an image of a mesh; the pixels that it keeps in shared memory, of which
+// every device has 16 KiB, and the most words of them in a row.
+const uint MESH_RASTER_GROUP = 64u;
+const uint MESH_KEYS = 3584u;
+const uint MESH_WORDS = 8u;
 // Vertices that a silhouette edge is drawn with: two triangles.
 const uint OUTLINE_VERTICES = 6u;
 

@@ -31,6 +31,26 @@ bool has_image(Seen vertex) {
     return vertex.depth != NO_IMAGE;
 }
 
+// Whether a triangle shows its outside: whether twice its area, in 1/256 pixel with y down, is negative. Differences take 24
+// bits and their products 46, hence the products by halves.
+bool faces_camera(ivec2 a, ivec2 b, ivec2 c) {
+    ivec2 u = b - a;
+    ivec2 v = c - a;
+    ivec2 u1 = u >> 12, u0 = u & 4095;
+    ivec2 v1 = v >> 12, v0 = v & 4095;
+    int low = u0.x * v0.y - u0.y * v0.x;
+    int middle = (u1.x * v0.y + u0.x * v1.y) - (u1.y * v0.x + u0.y * v1.x);
+    int high = u1.x * v1.y - u1.y * v1.x;
+    middle += low >> 12;
+    high += middle >> 12;
+    return high < 0;
+}
+
+// Whether exactly one of the triangles of an edge from p to q, whose third vertices are l and r, faces the camera.
+bool is_silhouette(ivec2 p, ivec2 q, ivec2 l, ivec2 r) {
+    return faces_camera(p, q, l) != faces_camera(q, p, r);
+}
+
 // The push constants of the mesh's stages.
 layout(push_constant) uniform MeshBatch {
     uint candidates; // in the batch
@@ -39,6 +59,8 @@ layout(push_constant) uniform MeshBatch {
     uint vertices;
     uint edges;
     uint most_outlines; // room for silhouette edges of one channel
+    uint triangles;
+    uint first; // the batch's first candidate in the buffers of sums
 } batch;
 
 #endif

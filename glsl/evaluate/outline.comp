@@ -21,21 +21,6 @@ layout(std430, set = 0, binding = 4) buffer Counts { uint counts[]; };
 shared uint found;
 shared uint first;
 
-// Whether a triangle shows its outside: whether twice its area, in 1/256 pixel with y down, is negative. Differences take 24
-// bits and their products 46, hence the products by halves.
-bool faces_camera(ivec2 a, ivec2 b, ivec2 c) {
-    ivec2 u = b - a;
-    ivec2 v = c - a;
-    ivec2 u1 = u >> 12, u0 = u & 4095;
-    ivec2 v1 = v >> 12, v0 = v & 4095;
-    int low = u0.x * v0.y - u0.y * v0.x;
-    int middle = (u1.x * v0.y + u0.x * v1.y) - (u1.y * v0.x + u0.y * v1.x);
-    int high = u1.x * v1.y - u1.y * v1.x;
-    middle += low >> 12;
-    high += middle >> 12;
-    return high < 0;
-}
-
 void main() {
     uint image = gl_WorkGroupID.y;
     uint channel = (image / batch.views) % CANDIDATES_A_TILE;
@@ -50,7 +35,7 @@ void main() {
         Seen l = seen[from + edge.opposite.x];
         Seen r = seen[from + edge.opposite.y];
         is_outline = has_image(p) && has_image(q) && has_image(l) && has_image(r)
-            && faces_camera(p.at, q.at, l.at) != faces_camera(q.at, p.at, r.at);
+            && is_silhouette(p.at, q.at, l.at, r.at);
     }
     barrier();
     uint place = 0u;

@@ -5,64 +5,19 @@
 // Bounds of spans are exact in 32-bit arithmetic, whatever the products do: a bound is estimated in floating point, off by one at
 // most, and what is left over, which always fits 32 bits although its terms do not, says which way.
 
-#include "evaluate/constants.glsl"
-#include "evaluate/model.glsl"
+#define SUMMED writeonly
+
 #include "evaluate/batch.glsl"
+#include "evaluate/raster_counts.glsl"
 
 layout(local_size_x = RASTER_GROUP) in;
 
 // Whether the images are those of the list, not all of the batch.
 layout(constant_id = 0) const bool LISTED = false;
-// Whether there are pixels that do not count.
-layout(constant_id = 1) const bool IGNORES = false;
 
-layout(std430, set = 0, binding = 0) readonly buffer Cameras { Camera cameras[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Quads { Quad quads[]; };
-layout(std430, set = 0, binding = 2) readonly buffer AllBounds { Bounds bounds[]; };
-// Two vectors for 32 pixels of a row: planes 0..=3, then planes 4..=6 and the silhouette.
-layout(std430, set = 0, binding = 3) readonly buffer Planes { uvec4 planes[]; };
 // Three words of a dispatch, then image numbers.
 layout(std430, set = 0, binding = 4) readonly buffer List { uint list[]; };
-layout(std430, set = 0, binding = 5) writeonly buffer AllSums { Sums sums[]; };
-// A word for 32 pixels of a row: those that count.
-layout(std430, set = 0, binding = 9) readonly buffer Counted { uint counted[]; };
-
-#ifdef SEGMENTED
-#include "evaluate/segments.glsl"
-
-layout(std430, set = 0, binding = 6) readonly buffer SegmentTable {
-    float weights[MOST_SEGMENTS];
-    uint numbers[LABELS]; // of each label, 0 for none
-    uint areas[];         // observed pixels, [view][segment]
-} table;
-// A word a segment for 32 pixels of a row.
-layout(std430, set = 0, binding = 7) readonly buffer SegmentPlanes { uint segment_planes[]; };
-// [candidate][view][segment]
-layout(std430, set = 0, binding = 8) writeonly buffer AllSegmentSums { SegmentSum segment_sums[]; };
-
-shared uint segment_areas[MOST_SEGMENTS];
-shared uint segment_overlaps[MOST_SEGMENTS];
-
-// The four bits of a segment number, each in every bit of a word.
-uvec4 number_bits(uint number) {
-    return mix(uvec4(0u), uvec4(0xffffffffu), notEqual(uvec4(number) & uvec4(1u, 2u, 4u, 8u), uvec4(0u)));
-}
-#endif
-
-#ifdef EVIDENCE
-layout(std430, set = 0, binding = 6) readonly buffer EvidenceTable {
-    uint classes[LABELS]; // of each label
-    uint count;           // classes
-    uint best[];          // [view]
-} table;
-// The bits of the codes of 32 pixels of a row, [group][class].
-layout(std430, set = 0, binding = 7) readonly buffer EvidencePlanes { uvec4 evidence_planes[]; };
-// [candidate][view]
-layout(std430, set = 0, binding = 8) writeonly buffer AllEvidence { int evidence[]; };
-
-// The codes of what the invocation's rows show, added up.
-uint codes = 0u;
-#endif
 
 // Parts that are kept at once.
 const uint TILE = 32u;
@@ -84,11 +39,6 @@ shared uint chunk_parts[MOST_CHUNKS];
 
 uint pack_range(int first, int end) {
     return first < end ? uint(first) | (uint(end) << 16) : 0u;
-}
-
-// Bits of the pixels left of n, of a word that begins at 0.
-uint below(int n) {
-    return n >= 32 ? 0xffffffffu : (1u << uint(max(n, 0))) - 1u;
 }
 
 uint span_bits(int low, int high) {
@@ -275,9 +225,7 @@ uvec4 rasterise(uint image) {
                         uint own = (lines | inner) & ~(filled[word] | edges[word]) & below(size.x - start);
                         if (own != 0u) {
                             uint group = camera.first_plane_word + uint(y) * camera.words + chunk * RASTER_WORDS + word;
-                            uvec4 bits = evidence_planes[group * table.count + part_numbers[part]];
-                            uvec4 counts = uvec4(1u, 2u, 4u, 8u) * uvec4(bitCount(bits & own));
-                            codes += counts.x + counts.y + counts.z + counts.w;
+                            count_codes(group, part_numbers[part], own);
                         }
 #endif
                         edges[word] |= lines & ~filled[word];
@@ -286,32 +234,14 @@ uvec4 rasterise(uint image) {
                 }
             }
             for (uint word = 0u; word < RASTER_WORDS; word++) {
-                // What lies right of the picture does not count.
-                uint inside = below(size.x - origin - int(32u * word));
                 uint group = camera.first_plane_word + uint(y) * camera.words + chunk * RASTER_WORDS + word;
-                if (IGNORES && inside != 0u) inside &= counted[group];
-                edges[word] &= inside;
-                uint drawn = (filled[word] & inside) | edges[word];
-                if (drawn != 0u) {
-                    uvec4 near = planes[2u * group];
-                    uvec4 far = planes[2u * group + 1u];
-                    uvec4 ones = uvec4(1u, 2u, 4u, 8u) * uvec4(bitCount(near & edges[word]));
-                    uvec3 sixteens = uvec3(16u, 32u, 64u) * uvec3(bitCount(far.xyz & edges[word]));
+                uint inside = counting(size.x - origin - int(32u * word), group);
+                uint drawn = (filled[word] | edges[word]) & inside;
 #ifdef SEGMENTED
-                    for (uint segment = 0u; segment < MOST_SEGMENTS; segment++) {
-                        uvec4 same = ~(shown[word] ^ number_bits(segment + 1u));
-                        uint own = same.x & same.y & same.z & same.w & drawn;
-                        if (own == 0u) continue;
-                        atomicAdd(segment_areas[segment], uint(bitCount(own)));
-                        uint both = own & segment_planes[MOST_SEGMENTS * group + segment];
-                        atomicAdd(segment_overlaps[segment], uint(bitCount(both)));
-                    }
+                count_drawn(sum, group, drawn, edges[word] & inside, shown[word]);
+#else
+                count_drawn(sum, group, drawn, edges[word] & inside);
 #endif
-                    sum.x += uint(bitCount(drawn));
-                    sum.y += uint(bitCount(drawn & far.w));
-                    sum.z += uint(bitCount(edges[word]));
-                    sum.w += ones.x + ones.y + ones.z + ones.w + sixteens.x + sixteens.y + sixteens.z;
-                }
             }
         }
     }

@@ -5,7 +5,7 @@
 // invocation an element of Y; a workgroup keeps the words that its rows and columns need at a time.
 
 #include "matrix/constants.glsl"
-#include "matrix/words64.glsl"
+#include "arithmetic/words64.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 

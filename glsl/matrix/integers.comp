@@ -5,7 +5,7 @@
 // keeps a square of A and one of B at a time.
 
 #include "matrix/constants.glsl"
-#include "matrix/words64.glsl"
+#include "arithmetic/words64.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 

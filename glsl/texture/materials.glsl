@@ -5,7 +5,7 @@
 #define TEXTURE_MATERIALS
 
 #include "texture/noise.glsl"
-#include "texture/word64.glsl"
+#include "texture/mixed64.glsl"
 #include "texture/constants.glsl"
 
 struct Material {

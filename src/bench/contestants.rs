@@ -66,6 +66,7 @@ impl Contestant {
     pub fn of_meshes() -> Vec<Self> {
         let mut all = vec![Self::Reference];
         all.extend(InstructionSet::ALL.map(Self::Cpu));
+        all.push(Self::Compute { subgroup: false });
         all.push(Self::Graphics(GraphicsSettings { packing: Packing::Depth, ..GraphicsSettings::default() }));
         all
     }
@@ -121,6 +122,10 @@ impl Contestant {
                     "the device lacks what it needs: pantin devices says what"
                 );
                 Box::new(compute)
+            }
+            // Sums meet in shared memory on every device.
+            (Self::Compute { subgroup: false }, Some(mesh)) => {
+                Box::new(Compute::of_mesh(device()?, body, mesh.clone(), cameras)?)
             }
             (Self::Graphics(settings), None) => Box::new(Graphics::on(device()?, body, cameras, settings)?),
             (Self::Graphics(settings), Some(mesh)) => {

@@ -93,10 +93,8 @@ impl Backend {
     }
 
     fn build_mesh(self, body: &Body, mesh: &Mesh, cameras: &[Camera], around: &[f32]) -> Result<BuiltBackend> {
-        let graphics = || -> Result<Graphics> {
-            let device = open_device()?;
-            Graphics::of_mesh(&device, body, mesh.clone(), cameras, GraphicsSettings::default())
-        };
+        let compute = || Compute::of_mesh(&open_device()?, body, mesh.clone(), cameras);
+        let graphics = || Graphics::of_mesh(&open_device()?, body, mesh.clone(), cameras, GraphicsSettings::default());
         Ok(match self {
             Self::Reference => BuiltBackend {
                 evaluator: Box::new(Reference::of_mesh(body, mesh.clone(), cameras)?),
@@ -107,17 +105,25 @@ impl Backend {
                 let reason = format!("the mesh model on the processor with {} instructions, as asked", cpu.variant());
                 BuiltBackend { evaluator: Box::new(cpu), reason }
             }
+            Self::Compute => {
+                let compute = compute().map_err(|error| without_vulkan(self, &error))?;
+                let device = &compute.facts().name;
+                let reason = format!("compute of the mesh model on the Vulkan device {device}, as asked");
+                BuiltBackend { evaluator: Box::new(compute), reason }
+            }
             Self::Graphics => {
                 let graphics = graphics().map_err(|error| without_vulkan(self, &error))?;
                 let device = &graphics.facts().name;
                 let reason = format!("graphics of the mesh model on the Vulkan device {device}, as asked");
                 BuiltBackend { evaluator: Box::new(graphics), reason }
             }
-            Self::Compute => {
-                bail!("the backend compute draws the flat model alone, the mesh model needs cpu, graphics or reference")
-            }
             Self::Auto => {
-                let others = || vec![("graphics", graphics().map(|it| Box::new(it) as Box<dyn Evaluator>))];
+                let others = || {
+                    vec![
+                        ("compute", compute().map(|it| Box::new(it) as Box<dyn Evaluator>)),
+                        ("graphics", graphics().map(|it| Box::new(it) as Box<dyn Evaluator>)),
+                    ]
+                };
                 choose(Cpu::of_mesh(body, mesh.clone(), cameras)?, others, body, cameras, around)?
             }
         })
@@ -194,11 +200,6 @@ mod tests {
         let cameras = crate::synth::rig::four_cameras(glam::DVec2::splat(2000.0), [64, 48]);
         assert!(Model::Flat.mesh(&body).unwrap().is_none());
         let mesh = Model::Mesh.mesh(&body).unwrap();
-        let error = Backend::Compute.build(mesh.as_ref(), &body, &cameras, &[]).err().unwrap().to_string();
-        assert_eq!(
-            error,
-            "the backend compute draws the flat model alone, the mesh model needs cpu, graphics or reference"
-        );
         let around: Vec<f32> = body.standing_pose().iter().map(|value| *value as f32).collect();
         for (backend, name) in [(Backend::Cpu, "cpu"), (Backend::Reference, "reference")] {
             let built = backend.build(mesh.as_ref(), &body, &cameras, &around).unwrap();
@@ -207,16 +208,18 @@ mod tests {
         }
         // Nothing but a device that draws faster takes the processor's place.
         let auto = Backend::Auto.build(mesh.as_ref(), &body, &cameras, &around).unwrap();
-        assert!(["cpu", "graphics"].contains(&auto.evaluator.name()), "{}", auto.reason);
+        assert!(["cpu", "compute", "graphics"].contains(&auto.evaluator.name()), "{}", auto.reason);
         if is_device_worth_measuring().is_err() {
             assert_eq!(auto.evaluator.name(), "cpu");
         }
         assert!(auto.reason.starts_with(&format!("auto chose {}, ", auto.evaluator.name())), "{}", auto.reason);
-        match Backend::Graphics.build(mesh.as_ref(), &body, &cameras, &[]) {
-            Ok(built) => assert_eq!(built.evaluator.name(), "graphics"),
-            Err(error) => {
-                assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
-                assert!(format!("{error:#}").starts_with("the backend graphics cannot be used: "), "{error:#}");
+        for backend in [Backend::Compute, Backend::Graphics] {
+            match backend.build(mesh.as_ref(), &body, &cameras, &[]) {
+                Ok(built) => assert_eq!(built.evaluator.name(), backend.name()),
+                Err(error) => {
+                    assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
+                    assert!(format!("{error:#}").starts_with("the backend graphics cannot be used: "), "{error:#}");
+                }
             }
         }
         let error = Model::from_name("solid").unwrap_err().to_string();

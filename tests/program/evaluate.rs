@@ -147,10 +147,6 @@ fn the_mesh_model_is_drawn_and_scored() {
     let edges = drawn.bytes.iter().filter(|byte| **byte & 0x80 != 0).count();
     let numbers: Vec<&str> = row.split(',').collect();
     assert_eq!((numbers[3], numbers[5]), (area.to_string().as_str(), edges.to_string().as_str()));
-    refused(
-        &evaluate(&folder.path().join("compute"), &[&of_frame[..], &["--backend", "compute"]].concat()),
-        &["the backend compute draws the flat model alone, the mesh model needs cpu, graphics or reference"],
-    );
     // The processor gives the reference's bytes, and the picture is its own.
     let files = |backend: &str| {
         let output = folder.path().join(backend);
@@ -158,7 +154,12 @@ fn the_mesh_model_is_drawn_and_scored() {
         let picture = fs::read(output.join("images/pose_000003_cam1.png")).unwrap();
         [fs::read(output.join("components.csv")).unwrap(), fs::read(output.join("fitness.csv")).unwrap(), picture]
     };
-    assert!(files("cpu") == files("reference"));
+    let reference = files("reference");
+    assert!(files("cpu") == reference);
+    if has_vulkan("the_mesh_model_is_drawn_and_scored") {
+        // So does compute; a device's powers may be off in the last place, and pictures are the reference's.
+        assert!(files("compute")[0] == reference[0]);
+    }
 }
 
 #[test]

@@ -4,7 +4,9 @@
 use anyhow::Result;
 
 use super::backend::DeviceBackend;
+use super::drawn_mesh::{DrawnMesh, MESH_TILE};
 use super::evidence::DeviceEvidence;
+use super::mesh::bound_to_its_body;
 use super::open::open_compute_device;
 use super::passes::{self, Images, RASTER_TILE, raster_stage};
 use super::rasteriser::Rasteriser;
@@ -13,11 +15,12 @@ use super::scene::{DeviceScene, Share};
 use super::segments::DeviceSegments;
 use super::summed::Summed;
 use super::workspace::Workspace;
-use crate::body::Body;
+use crate::body::{Body, Mesh};
+use crate::evaluate::MeshProjector;
 use crate::evaluate::evaluator::Footprint;
 use crate::evaluate::shaders::{
     objective_comp, objective_evidence_comp, objective_segments_comp, pose_comp, project_comp, raster_evidence_comp,
-    raster_segments_comp,
+    raster_mesh_evidence_comp, raster_mesh_segments_comp, raster_segments_comp,
 };
 use crate::geometry::Camera;
 use crate::gpu::{Device, Recorder};
@@ -29,6 +32,8 @@ pub type Compute = DeviceBackend<ComputeRasteriser>;
 #[derive(Debug)]
 pub struct ComputeRasteriser {
     has_subgroups: bool,
+    /// What is drawn instead of the flat model.
+    mesh: Option<Box<DrawnMesh>>,
 }
 
 impl Compute {
@@ -48,7 +53,19 @@ impl Compute {
         Self::with(DeviceScene::new(device, body, cameras)?, |_| {
             let raster = raster_stage(device, false, false);
             device.compile(&[raster, pose_comp::stage(), project_comp::stage(), objective_comp::stage()])?;
-            Ok(ComputeRasteriser { has_subgroups: device.capabilities().subgroup_arithmetic })
+            Ok(ComputeRasteriser { has_subgroups: device.capabilities().subgroup_arithmetic, mesh: None })
+        })
+    }
+
+    /// The mesh model of a body, for its cameras at working size; `mesh` is bound to this body.
+    ///
+    /// # Errors
+    /// As [`Self::on`], and when the mesh is bound to another number of bones or too large for the device.
+    pub fn of_mesh(device: &Device, body: &Body, mesh: Mesh, cameras: &[Camera]) -> Result<Self> {
+        Self::with(DeviceScene::new(device, body, cameras)?, |scene| {
+            let mesh = DrawnMesh::new(scene, &MeshProjector::new(body, mesh, cameras)?)?;
+            device.compile(&[pose_comp::stage(), objective_comp::stage()])?;
+            Ok(ComputeRasteriser { has_subgroups: false, mesh: Some(Box::new(mesh)) })
         })
     }
 }
@@ -61,8 +78,17 @@ impl Rasteriser for ComputeRasteriser {
     }
 
     fn footprint(&self) -> Footprint {
-        // Bits in registers: no pixel of a candidate is written to memory.
-        Footprint { tile: RASTER_TILE, bytes_per_pixel: 0.0 }
+        // Bits in registers, or keys in shared memory: no pixel of a candidate is written to memory.
+        let tile = if self.mesh.is_some() { MESH_TILE } else { RASTER_TILE };
+        Footprint { tile, bytes_per_pixel: 0.0 }
+    }
+
+    fn reserve(&mut self, scene: &DeviceScene, candidates: u32) -> Result<()> {
+        self.mesh.as_mut().map_or(Ok(()), |mesh| mesh.reserve(scene, candidates))
+    }
+
+    fn batch(&self, workspace: &Workspace) -> u32 {
+        self.mesh.as_ref().map_or(workspace.batch, |mesh| mesh.most().min(workspace.batch))
     }
 
     fn set_segments(
@@ -71,14 +97,15 @@ impl Rasteriser for ComputeRasteriser {
         _workspace: &Workspace,
         segments: Option<&DeviceSegments>,
     ) -> Result<()> {
-        if segments.is_some() {
-            let raster = raster_segments_comp::stage(raster_segments_comp::Constants {
-                listed: false,
-                ignores: scene.counted.is_some(),
-            });
-            scene.device.compile(&[raster, objective_segments_comp::stage()])?;
+        if segments.is_none() {
+            return Ok(());
         }
-        Ok(())
+        let ignores = scene.counted.is_some();
+        let raster = match &self.mesh {
+            None => raster_segments_comp::stage(raster_segments_comp::Constants { listed: false, ignores }),
+            Some(_) => raster_mesh_segments_comp::stage(raster_mesh_segments_comp::Constants { ignores }),
+        };
+        scene.device.compile(&[raster, objective_segments_comp::stage()])
     }
 
     fn set_evidence(
@@ -87,14 +114,19 @@ impl Rasteriser for ComputeRasteriser {
         _workspace: &Workspace,
         evidence: Option<&DeviceEvidence>,
     ) -> Result<()> {
-        if evidence.is_some() {
-            let raster = raster_evidence_comp::stage(raster_evidence_comp::Constants {
-                listed: false,
-                ignores: scene.counted.is_some(),
-            });
-            scene.device.compile(&[raster, objective_evidence_comp::stage()])?;
+        if evidence.is_none() {
+            return Ok(());
         }
-        Ok(())
+        let ignores = scene.counted.is_some();
+        let raster = match &self.mesh {
+            None => raster_evidence_comp::stage(raster_evidence_comp::Constants { listed: false, ignores }),
+            Some(_) => raster_mesh_evidence_comp::stage(raster_mesh_evidence_comp::Constants { ignores }),
+        };
+        scene.device.compile(&[raster, objective_evidence_comp::stage()])
+    }
+
+    fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
+        self.mesh.as_ref().map_or(Ok(()), |mesh| mesh.record_upload(recorder))
     }
 
     fn record_share(
@@ -105,7 +137,14 @@ impl Rasteriser for ComputeRasteriser {
         share: Share,
     ) -> Result<()> {
         let Resources { scene, workspace, .. } = resources;
+        if let Some(mesh) = &self.mesh {
+            return mesh.record(recorder, (scene, workspace), summed, share);
+        }
         passes::project(recorder, scene, workspace, share)?;
         passes::raster(recorder, (scene, workspace), summed, Images::All, share)
+    }
+
+    fn check_exchange(&self) -> Result<()> {
+        if self.mesh.is_some() { Err(bound_to_its_body()) } else { Ok(()) }
     }
 }

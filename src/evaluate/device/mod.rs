@@ -5,9 +5,13 @@
 mod any_device_tests;
 mod backend;
 mod compute;
+mod drawn_mesh;
 mod evidence;
 mod graphics;
 mod host_buffers;
+mod mesh;
+#[cfg(test)]
+mod mesh_tests;
 mod open;
 mod passes;
 #[cfg(test)]

@@ -4,11 +4,12 @@
 use anyhow::Result;
 
 use super::framebuffer::Framebuffer;
-use super::mesh::{DeviceMesh, MeshWorkspace};
+use super::outlines::Outlines;
 use super::tiles::CANDIDATES_A_TILE;
+use crate::evaluate::device::mesh::{DeviceMesh, MeshWorkspace};
 use crate::evaluate::device::scene::{DeviceScene, Share};
-use crate::evaluate::shaders::{PACK_DEPTH, draw_plain_frag, mesh_edge_vert, mesh_fill_vert, outline_comp};
-use crate::gpu::{Device, Draw, Drawing, Format, Groups, Pipeline, Recorder, ShaderStage, Viewport};
+use crate::evaluate::shaders::{PACK_DEPTH, draw_plain_frag, mesh_edge_vert, mesh_fill_vert};
+use crate::gpu::{Device, Draw, Drawing, Format, Pipeline, Recorder, ShaderStage, Viewport};
 
 /// The pipelines of triangles and silhouette edges, one pair a channel, in the order in which they are drawn: an edge is compared
 /// with its own candidate's fills before the next channel's nearer depths cover them.
@@ -41,20 +42,12 @@ pub(super) fn draw_mesh(
     recorder: &mut Recorder,
     pipelines: &MeshPipelines,
     (scene, mesh): (&DeviceScene, &DeviceMesh),
-    own: &MeshWorkspace,
+    (own, outlines): (&MeshWorkspace, &Outlines),
     framebuffer: &Framebuffer,
     share: Share,
 ) -> Result<()> {
-    let push = own.push(scene.counts, mesh, share);
-    let images = share.candidates * scene.counts.views;
-    let bindings = outline_comp::Bindings {
-        edges: &mesh.edges.buffer,
-        all_seen: &own.seen,
-        placements: &framebuffer.placements,
-        outlines: &own.outlines,
-        counts: &own.counts,
-    };
-    recorder.run(bindings.dispatch(push, Groups::Over([mesh.edge_count, images, 1])))?;
+    outlines.record(recorder, (scene, mesh), own, framebuffer, share)?;
+    let push = outlines.push(scene.counts, mesh, share);
     let push = bytemuck::bytes_of(&push);
     let fill = mesh_fill_vert::Bindings {
         vertices: &mesh.vertices.buffer,
@@ -69,7 +62,7 @@ pub(super) fn draw_mesh(
         placements: &framebuffer.placements,
         tiles: &framebuffer.tiles,
         edges: &mesh.edges.buffer,
-        outlines: &own.outlines,
+        outlines: &outlines.listed,
     }
     .bound();
     let [width, height] = framebuffer.layout.size;
@@ -93,7 +86,7 @@ pub(super) fn draw_mesh(
             pipeline: edges,
             bindings: &edge,
             indices: None,
-            indirect: Some((&own.counts, 16 * u64::from(channel))),
+            indirect: Some((&outlines.counts, 16 * u64::from(channel))),
             ..fills
         });
     }

@@ -5,16 +5,17 @@ use anyhow::Result;
 use super::draw::FlatDrawing;
 use super::draw_mesh::{MeshPipelines, draw_mesh, mesh_pipelines};
 use super::framebuffer::Framebuffer;
-use super::mesh::{DeviceMesh, MeshWorkspace};
-use super::passes::{place, project_by_feedback, skin, skin_stages};
+use super::outlines::Outlines;
+use super::passes::{place, project_by_feedback};
 use super::settings::{Coverage, Packing};
 use crate::evaluate::MeshProjector;
+use crate::evaluate::device::mesh::{DeviceMesh, MeshWorkspace, skin, skin_stages};
 use crate::evaluate::device::passes::{Images, project, raster, raster_stage};
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::summed::Summed;
 use crate::evaluate::device::workspace::Workspace;
 use crate::evaluate::shaders::{LABELS, SHORT_CODES, outline_comp, project_comp};
-use crate::gpu::{Buffer, Device, Recorder};
+use crate::gpu::{Buffer, Device, OutOfMemory, Recorder};
 
 /// The stages of one model, and the memory that it alone needs.
 #[derive(Debug)]
@@ -28,6 +29,23 @@ pub(super) struct DrawnMesh {
     mesh: DeviceMesh,
     pipelines: MeshPipelines,
     workspace: MeshWorkspace,
+    outlines: Outlines,
+}
+
+impl DrawnMesh {
+    /// Room for batches of `candidates`, or as many as fit.
+    fn room(scene: &DeviceScene, mesh: &DeviceMesh, candidates: u32) -> Result<(MeshWorkspace, Outlines)> {
+        let (device, counts) = (&scene.device, scene.counts);
+        let mut candidates = candidates.min(Outlines::most_candidates(device, counts, mesh)?);
+        loop {
+            let workspace = MeshWorkspace::new(device, counts, mesh, (candidates, Outlines::bytes(counts, mesh)))?;
+            candidates = workspace.batch;
+            match Outlines::new(device, counts, mesh, candidates) {
+                Err(error) if candidates > 1 && error.is::<OutOfMemory>() => candidates = candidates.div_ceil(2),
+                outlines => return Ok((workspace, outlines?)),
+            }
+        }
+    }
 }
 
 impl Drawn {
@@ -42,17 +60,15 @@ impl Drawn {
         let mesh = DeviceMesh::new(device, projector)?;
         let [bind, skin] = skin_stages(mesh.skinning);
         device.compile(&[bind, skin, outline_comp::stage()])?;
-        Ok(Self::Mesh(Box::new(DrawnMesh {
-            pipelines: mesh_pipelines(device)?,
-            workspace: MeshWorkspace::new(device, scene.counts, &mesh, 1)?,
-            mesh,
-        })))
+        let pipelines = mesh_pipelines(device)?;
+        let (workspace, outlines) = DrawnMesh::room(scene, &mesh, 1)?;
+        Ok(Self::Mesh(Box::new(DrawnMesh { mesh, pipelines, workspace, outlines })))
     }
 
     /// Makes room for batches of `candidates`, or as many as fit.
     pub(super) fn reserve(&mut self, scene: &DeviceScene, candidates: u32) -> Result<()> {
         if let Self::Mesh(drawn) = self {
-            drawn.workspace = MeshWorkspace::new(&scene.device, scene.counts, &drawn.mesh, candidates)?;
+            (drawn.workspace, drawn.outlines) = DrawnMesh::room(scene, &drawn.mesh, candidates)?;
         }
         Ok(())
     }
@@ -108,10 +124,10 @@ impl Drawn {
                 draw.record(recorder, (scene, workspace), framebuffer, share)
             }
             Self::Mesh(drawn) => {
-                let DrawnMesh { mesh, pipelines, workspace: own } = &**drawn;
+                let DrawnMesh { mesh, pipelines, workspace: own, outlines } = &**drawn;
                 skin(recorder, (scene, mesh), (workspace, own), share)?;
                 place(recorder, (scene, workspace), framebuffer, 0, share)?;
-                draw_mesh(recorder, pipelines, (scene, mesh), own, framebuffer, share)
+                draw_mesh(recorder, pipelines, (scene, mesh), (own, outlines), framebuffer, share)
             }
         }
     }

@@ -8,9 +8,9 @@ mod draw_mesh;
 mod drawn;
 mod evidence;
 mod framebuffer;
-mod mesh;
 #[cfg(test)]
 mod mesh_tests;
+mod outlines;
 mod passes;
 mod rasteriser;
 mod readback;

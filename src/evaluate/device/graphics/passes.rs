@@ -1,17 +1,13 @@
-//! The passes between bone matrices and a framebuffer: the projection by transform feedback, the mesh's vertices, every image's place.
+//! The passes between bone matrices and a framebuffer: the projection by transform feedback, every image's place.
 
 use anyhow::Result;
 
 use super::framebuffer::Framebuffer;
-use super::mesh::{DeviceMesh, MeshWorkspace};
-use crate::body::Skinning;
 use crate::evaluate::device::passes::image_groups;
 use crate::evaluate::device::scene::{Counts, DeviceScene, Share};
 use crate::evaluate::device::workspace::Workspace;
-use crate::evaluate::shaders::{bind_comp, layout, order_comp, place_comp, project_feedback_vert, skin_comp};
-use crate::gpu::{
-    Buffer, Device, Draw, Drawing, Feedback, Groups, Memory, Pipeline, Recorder, ShaderStage, Topology, Viewport,
-};
+use crate::evaluate::shaders::{layout, order_comp, place_comp, project_feedback_vert};
+use crate::gpu::{Buffer, Device, Draw, Drawing, Feedback, Groups, Memory, Pipeline, Recorder, Topology, Viewport};
 
 /// The pipeline whose vertices' outputs [`project_by_feedback`] captures.
 pub(super) fn feedback_pipeline(device: &Device) -> Result<Pipeline> {
@@ -88,49 +84,4 @@ pub(super) fn place(
     };
     let push = place_comp::Push { parts, ..scene.batch(share) };
     recorder.run(bindings.dispatch(push, Groups::Over([share.candidates * scene.counts.views, 1, 1])))
-}
-
-/// What [`skin`] runs.
-pub(super) fn skin_stages(skinning: Skinning) -> [ShaderStage; 2] {
-    [bind_comp::stage(), skin_comp::stage(skin_constants(skinning))]
-}
-
-fn skin_constants(skinning: Skinning) -> skin_comp::Constants {
-    skin_comp::Constants { is_smooth: u32::from(skinning == Skinning::Smooth) }
-}
-
-/// Records every vertex of the mesh of every candidate into every camera (METHOD A4, A2): `workspace.world` to snapped places and depths
-/// in `own.seen`, and `workspace.bounds`; `own.counts` are emptied.
-pub(super) fn skin(
-    recorder: &mut Recorder,
-    (scene, mesh): (&DeviceScene, &DeviceMesh),
-    (workspace, own): (&Workspace, &MeshWorkspace),
-    share: Share,
-) -> Result<()> {
-    let push = own.push(scene.counts, mesh, share);
-    // Counts and bounds are started by the same invocations.
-    let starts = (share.candidates * scene.counts.bones.max(scene.counts.views)).max(16);
-    let bind = bind_comp::Bindings {
-        world: &workspace.world,
-        inverse_bind: &mesh.inverse_bind.buffer,
-        cameras: &scene.cameras.buffer,
-        skin: &own.skin,
-        all_bounds: &workspace.bounds,
-        counts: &own.counts,
-    };
-    let skin = skin_comp::Bindings {
-        vertices: &mesh.vertices.buffer,
-        skin: &own.skin,
-        cameras: &scene.cameras.buffer,
-        all_seen: &own.seen,
-        all_bounds: &workspace.bounds,
-    };
-    let vertices = Groups::Over([mesh.vertex_count, share.candidates, 1]);
-    recorder.compute(
-        "skin",
-        &[
-            bind.dispatch(push, Groups::Over([starts, 1, 1])),
-            skin.dispatch(skin_constants(mesh.skinning), push, vertices),
-        ],
-    )
 }

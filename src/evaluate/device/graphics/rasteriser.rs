@@ -15,6 +15,7 @@ use crate::body::{Body, Mesh};
 use crate::evaluate::device::backend::DeviceBackend;
 use crate::evaluate::device::evidence::DeviceEvidence;
 use crate::evaluate::device::host_buffers::HostCounts;
+use crate::evaluate::device::mesh::bound_to_its_body;
 use crate::evaluate::device::open::open_device;
 use crate::evaluate::device::passes;
 use crate::evaluate::device::rasteriser::Rasteriser;
@@ -431,10 +432,6 @@ impl Rasteriser for GraphicsRasteriser {
     }
 
     fn check_exchange(&self) -> Result<()> {
-        ensure!(
-            self.drawn.scores_what_fits_no_tile(),
-            "a mesh is bound to the body it was made with: another body needs an evaluator of its own"
-        );
-        Ok(())
+        if self.drawn.scores_what_fits_no_tile() { Ok(()) } else { Err(bound_to_its_body()) }
     }
 }
