@@ -106,11 +106,19 @@ def test_what_is_wrong_is_one_sentence(body, cameras, work, sentence):
     assert "\n" not in str(raised.value)
 
 
-def test_a_backend_that_is_unknown_or_draws_nothing(body, cameras):
+def test_a_backend_that_is_unknown_is_named(body, cameras):
     with pytest.raises(pantin.PantinError, match="unknown backend `cup`, the nearest is `cpu`"):
         pantin.Evaluator(body, cameras, backend="cup")
-    with pytest.raises(pantin.PantinError, match="the mesh model"):
-        pantin.Evaluator(body, cameras, backend="cpu", model="mesh")
+
+
+def test_a_mesh_is_drawn_by_cpu_as_by_the_reference(walk, body, cameras):
+    _, truth = body.read_poses(walk / "truth_poses.csv")
+    pictures = {
+        (backend, model): pantin.Evaluator(body, cameras, backend=backend, model=model).drawn(truth[0], 1)
+        for backend, model in [("cpu", "mesh"), ("reference", "mesh"), ("reference", "flat")]
+    }
+    assert np.array_equal(pictures["cpu", "mesh"], pictures["reference", "mesh"])
+    assert not np.array_equal(pictures["cpu", "mesh"], pictures["reference", "flat"])
 
 
 def test_pictures_show_the_pose(walk, body, cameras):

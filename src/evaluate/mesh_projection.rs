@@ -1,7 +1,7 @@
 //! The vertices of the mesh model in one view: posed, projected and given a depth, in the single precision of the
 //! flat model (`rig.rs`). What a graphics device computes in its vertex stages is held to this.
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, anyhow, ensure};
 
 use crate::body::{Body, Mesh, Skinning};
 use crate::geometry::Camera;
@@ -31,6 +31,11 @@ pub(crate) fn depth_number(depth: f32) -> u32 {
     let scaled = if scaled > 0.0 { scaled } else { 0.0 };
     let whole = scaled as i32;
     (whole + i32::from(scaled - whole as f32 >= 0.5)) as u32
+}
+
+/// Why another body cannot take the place of a mesh's own.
+pub(crate) fn bound_to_its_body() -> anyhow::Error {
+    anyhow!("a mesh is bound to the body it was made with: another body needs an evaluator of its own")
 }
 
 /// A vertex of the mesh model as one camera sees it.

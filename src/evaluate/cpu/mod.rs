@@ -35,6 +35,7 @@ use super::besides::Besides;
 use super::components::Components;
 use super::evaluator::{Evaluator, Footprint, check_evidence_batch, check_segment_batch};
 use super::evidence::{best_sums, evidence_of, no_evidence};
+use super::mesh_projection::bound_to_its_body;
 use super::objective::{AreaSums, Objective};
 use super::projection::Projector;
 use super::raster::CandidateImage;
@@ -141,9 +142,7 @@ impl Cpu {
     pub fn set_body(&mut self, body: &Body) -> Result<()> {
         match &mut self.model {
             Model::Flat(flat) => flat.set_body(body)?,
-            Model::Mesh(_) => {
-                bail!("a mesh is bound to the body it was made with: another body needs an evaluator of its own")
-            }
+            Model::Mesh(_) => return Err(bound_to_its_body()),
         }
         let (segments, classes) = (self.segments.take(), self.classes.take());
         self.set_segments(segments);

@@ -6,7 +6,6 @@ use anyhow::Result;
 use super::backend::DeviceBackend;
 use super::drawn_mesh::{DrawnMesh, MESH_TILE};
 use super::evidence::DeviceEvidence;
-use super::mesh::bound_to_its_body;
 use super::open::open_compute_device;
 use super::passes::{self, Images, RASTER_TILE, raster_stage};
 use super::rasteriser::Rasteriser;
@@ -18,6 +17,7 @@ use super::workspace::Workspace;
 use crate::body::{Body, Mesh};
 use crate::evaluate::MeshProjector;
 use crate::evaluate::evaluator::Footprint;
+use crate::evaluate::mesh_projection::bound_to_its_body;
 use crate::evaluate::shaders::{
     objective_comp, objective_evidence_comp, objective_segments_comp, pose_comp, project_comp, raster_evidence_comp,
     raster_mesh_evidence_comp, raster_mesh_segments_comp, raster_segments_comp,

@@ -1,6 +1,6 @@
 //! The mesh model on the device: the mesh itself, the memory that a batch of its candidates works in, and its vertices in every camera.
 
-use anyhow::{Result, anyhow, ensure};
+use anyhow::{Result, ensure};
 
 use super::scene::{Counts, DeviceScene, Share};
 use super::workspace::Workspace;
@@ -117,11 +117,6 @@ impl MeshWorkspace {
             seen: device.buffer::<layout::Seen>("seen vertices", vertices, Memory::Device)?,
         })
     }
-}
-
-/// Why another body cannot take the place of a mesh's own.
-pub(super) fn bound_to_its_body() -> anyhow::Error {
-    anyhow!("a mesh is bound to the body it was made with: another body needs an evaluator of its own")
 }
 
 /// The push constants of a share of the candidates.
