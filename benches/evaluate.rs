@@ -84,6 +84,7 @@ fn contestants(in_segments: bool) -> Vec<(String, Contestant)> {
             Contestant::Cpu(set) if !set.is_available() => continue,
             Contestant::Graphics(settings) if settings.packing == Packing::Depth && settings != depth => continue,
             Contestant::Compute { .. } => "compute subgroup".to_string(),
+            Contestant::Spans => "compute spans".to_string(),
             Contestant::Graphics(settings) => format!("graphics-{}", settings.name()),
             Contestant::Yardstick(_) | Contestant::Cpu(_) => contestant.variant().to_string(),
         };

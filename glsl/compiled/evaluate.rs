@@ -1687,7 +1687,7 @@ pub mod raster_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4737, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<4770, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -1770,7 +1770,7 @@ pub mod raster_evidence_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_evidence.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5243, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5276, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_evidence.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -1866,7 +1866,7 @@ pub mod raster_mesh_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_mesh.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<11051, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<11035, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_mesh.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 32,
@@ -1955,7 +1955,7 @@ pub mod raster_mesh_evidence_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_mesh_evidence.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<11694, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<11595, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_mesh_evidence.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 32,
@@ -2056,7 +2056,7 @@ pub mod raster_mesh_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_mesh_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<11667, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<11632, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_mesh_segments.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 32,
@@ -2156,7 +2156,7 @@ pub mod raster_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5387, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5420, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_segments.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -2251,7 +2251,7 @@ pub mod raster_shared_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_shared.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4676, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<4709, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_shared.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -2315,6 +2315,270 @@ pub mod raster_shared_comp {
                 crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.list) },
                 crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.all_sums) },
                 crate::gpu::Binding { layout: &SHADER.bindings[6], bound: crate::gpu::Bound::Buffer(self.counted) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
+/// The stage `evaluate/raster_spans.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod raster_spans_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [33] '' is invalid: Initializer must be a const-expression).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/raster_spans.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<5301, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_spans.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 24,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Cameras", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Quads", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllBounds", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Planes", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllSums", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+            crate::gpu::BindingLayout { name: "Counted", set: 0, binding: 9, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 2, default: 64 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `IGNORES`, false by default.
+        pub ignores: bool,
+        /// `local_size_x`, 64 by default.
+        pub local_size_x: u32,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { ignores: false, local_size_x: 64, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(1, u32::from(constants.ignores)), (2, constants.local_size_x), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::Batch;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Cameras`, read; set 0, binding 0.
+        pub cameras: &'a crate::gpu::Buffer,
+        /// Storage buffer `Quads`, read; set 0, binding 1.
+        pub quads: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllBounds`, read; set 0, binding 2.
+        pub all_bounds: &'a crate::gpu::Buffer,
+        /// Storage buffer `Planes`, read; set 0, binding 3.
+        pub planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllSums`, read and written; set 0, binding 5.
+        pub all_sums: &'a crate::gpu::Buffer,
+        /// Storage buffer `Counted`, read; set 0, binding 9.
+        pub counted: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 6] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.cameras) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.quads) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.all_bounds) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.all_sums) },
+                crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.counted) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
+/// The stage `evaluate/raster_spans_evidence.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod raster_spans_evidence_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [35] '' is invalid: Initializer must be a const-expression).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/raster_spans_evidence.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<5746, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_spans_evidence.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 24,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Cameras", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Quads", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllBounds", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Planes", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllSums", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+            crate::gpu::BindingLayout { name: "table", set: 0, binding: 6, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "EvidencePlanes", set: 0, binding: 7, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllEvidence", set: 0, binding: 8, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+            crate::gpu::BindingLayout { name: "Counted", set: 0, binding: 9, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 2, default: 64 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `IGNORES`, false by default.
+        pub ignores: bool,
+        /// `local_size_x`, 64 by default.
+        pub local_size_x: u32,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { ignores: false, local_size_x: 64, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(1, u32::from(constants.ignores)), (2, constants.local_size_x), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::Batch;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Cameras`, read; set 0, binding 0.
+        pub cameras: &'a crate::gpu::Buffer,
+        /// Storage buffer `Quads`, read; set 0, binding 1.
+        pub quads: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllBounds`, read; set 0, binding 2.
+        pub all_bounds: &'a crate::gpu::Buffer,
+        /// Storage buffer `Planes`, read; set 0, binding 3.
+        pub planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllSums`, read and written; set 0, binding 5.
+        pub all_sums: &'a crate::gpu::Buffer,
+        /// Storage buffer `EvidenceTable`, read; set 0, binding 6.
+        pub table: &'a crate::gpu::Buffer,
+        /// Storage buffer `EvidencePlanes`, read; set 0, binding 7.
+        pub evidence_planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllEvidence`, read and written; set 0, binding 8.
+        pub all_evidence: &'a crate::gpu::Buffer,
+        /// Storage buffer `Counted`, read; set 0, binding 9.
+        pub counted: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 9] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.cameras) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.quads) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.all_bounds) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.all_sums) },
+                crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.table) },
+                crate::gpu::Binding { layout: &SHADER.bindings[6], bound: crate::gpu::Bound::Buffer(self.evidence_planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[7], bound: crate::gpu::Bound::Buffer(self.all_evidence) },
+                crate::gpu::Binding { layout: &SHADER.bindings[8], bound: crate::gpu::Bound::Buffer(self.counted) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
+/// The stage `evaluate/raster_spans_segments.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod raster_spans_segments_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [37] '' is invalid: Initializer must be a const-expression).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/raster_spans_segments.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<5948, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_spans_segments.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 24,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Cameras", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Quads", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllBounds", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Planes", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllSums", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+            crate::gpu::BindingLayout { name: "table", set: 0, binding: 6, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "SegmentPlanes", set: 0, binding: 7, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllSegmentSums", set: 0, binding: 8, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+            crate::gpu::BindingLayout { name: "Counted", set: 0, binding: 9, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 2, default: 64 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `IGNORES`, false by default.
+        pub ignores: bool,
+        /// `local_size_x`, 64 by default.
+        pub local_size_x: u32,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { ignores: false, local_size_x: 64, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(1, u32::from(constants.ignores)), (2, constants.local_size_x), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::Batch;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Cameras`, read; set 0, binding 0.
+        pub cameras: &'a crate::gpu::Buffer,
+        /// Storage buffer `Quads`, read; set 0, binding 1.
+        pub quads: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllBounds`, read; set 0, binding 2.
+        pub all_bounds: &'a crate::gpu::Buffer,
+        /// Storage buffer `Planes`, read; set 0, binding 3.
+        pub planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllSums`, read and written; set 0, binding 5.
+        pub all_sums: &'a crate::gpu::Buffer,
+        /// Storage buffer `SegmentTable`, read; set 0, binding 6.
+        pub table: &'a crate::gpu::Buffer,
+        /// Storage buffer `SegmentPlanes`, read; set 0, binding 7.
+        pub segment_planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllSegmentSums`, read and written; set 0, binding 8.
+        pub all_segment_sums: &'a crate::gpu::Buffer,
+        /// Storage buffer `Counted`, read; set 0, binding 9.
+        pub counted: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 9] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.cameras) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.quads) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.all_bounds) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.all_sums) },
+                crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.table) },
+                crate::gpu::Binding { layout: &SHADER.bindings[6], bound: crate::gpu::Bound::Buffer(self.segment_planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[7], bound: crate::gpu::Bound::Buffer(self.all_segment_sums) },
+                crate::gpu::Binding { layout: &SHADER.bindings[8], bound: crate::gpu::Bound::Buffer(self.counted) },
             ]
         }
     }
@@ -2772,4 +3036,4 @@ pub mod layout {
 /// Every stage of the folder, for tests that try them all.
 #[cfg(test)]
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
-pub static SHADERS: &[&crate::gpu::Shader] = &[&bind_comp::SHADER, &compare_shared_comp::SHADER, &compare_shared_segments_comp::SHADER, &compare_subgroup_comp::SHADER, &compare_subgroup_segments_comp::SHADER, &compare_texels_comp::SHADER, &compare_texels_segments_comp::SHADER, &draw_border_vert::SHADER, &draw_exact_frag::SHADER, &draw_exact_vert::SHADER, &draw_fill_vert::SHADER, &draw_plain_frag::SHADER, &evidence_comp::SHADER, &mesh_edge_vert::SHADER, &mesh_fill_vert::SHADER, &objective_comp::SHADER, &objective_evidence_comp::SHADER, &objective_segments_comp::SHADER, &order_comp::SHADER, &outline_comp::SHADER, &place_comp::SHADER, &pose_comp::SHADER, &project_comp::SHADER, &project_feedback_vert::SHADER, &raster_comp::SHADER, &raster_evidence_comp::SHADER, &raster_mesh_comp::SHADER, &raster_mesh_evidence_comp::SHADER, &raster_mesh_segments_comp::SHADER, &raster_segments_comp::SHADER, &raster_shared_comp::SHADER, &skin_comp::SHADER];
+pub static SHADERS: &[&crate::gpu::Shader] = &[&bind_comp::SHADER, &compare_shared_comp::SHADER, &compare_shared_segments_comp::SHADER, &compare_subgroup_comp::SHADER, &compare_subgroup_segments_comp::SHADER, &compare_texels_comp::SHADER, &compare_texels_segments_comp::SHADER, &draw_border_vert::SHADER, &draw_exact_frag::SHADER, &draw_exact_vert::SHADER, &draw_fill_vert::SHADER, &draw_plain_frag::SHADER, &evidence_comp::SHADER, &mesh_edge_vert::SHADER, &mesh_fill_vert::SHADER, &objective_comp::SHADER, &objective_evidence_comp::SHADER, &objective_segments_comp::SHADER, &order_comp::SHADER, &outline_comp::SHADER, &place_comp::SHADER, &pose_comp::SHADER, &project_comp::SHADER, &project_feedback_vert::SHADER, &raster_comp::SHADER, &raster_evidence_comp::SHADER, &raster_mesh_comp::SHADER, &raster_mesh_evidence_comp::SHADER, &raster_mesh_segments_comp::SHADER, &raster_segments_comp::SHADER, &raster_shared_comp::SHADER, &raster_spans_comp::SHADER, &raster_spans_evidence_comp::SHADER, &raster_spans_segments_comp::SHADER, &skin_comp::SHADER];

@@ -1,14 +1,12 @@
 // Drawing and comparison without any framebuffer (docs/RASTER.md, METHOD A6): the whole of both compute variants but for how a
 // workgroup sums. A workgroup takes an image, an invocation a row. A chunk of the row is two sets of bits kept in registers, what
 // fills cover and where borders show; the observation is bit planes, so everything counted is a bit count.
-//
-// Bounds of spans are exact in 32-bit arithmetic, whatever the products do: a bound is estimated in floating point, off by one at
-// most, and what is left over, which always fits 32 bits although its terms do not, says which way.
 
 #define SUMMED writeonly
 
 #include "evaluate/batch.glsl"
 #include "evaluate/raster_counts.glsl"
+#include "evaluate/spans.glsl"
 
 layout(local_size_x = RASTER_GROUP) in;
 
@@ -37,76 +35,6 @@ shared uint part_numbers[TILE];
 #endif
 shared uint chunk_parts[MOST_CHUNKS];
 
-uint pack_range(int first, int end) {
-    return first < end ? uint(first) | (uint(end) << 16) : 0u;
-}
-
-uint span_bits(int low, int high) {
-    return below(high) & ~below(low);
-}
-
-// 1 where true.
-ivec4 count(bvec4 condition) {
-    return mix(ivec4(0), ivec4(1), condition);
-}
-
-// Fill: in row y the part covers the pixels from x on to before y of the result, none when they are not in order. An edge is
-// crossed at X = top + dx m / dy, and its bound is the first pixel c with 256 c >= X.
-ivec2 fill_span(ivec4 x, ivec4 y, int row) {
-    ivec4 next_x = x.yzwx;
-    ivec4 next_y = y.yzwx;
-    bvec4 down = lessThanEqual(y, next_y);
-    ivec4 top = mix(next_x, x, down);
-    ivec4 dx = mix(x, next_x, down) - top;
-    ivec4 dy = abs(next_y - y);
-    ivec4 m = 256 * row - min(y, next_y);
-    // At most 3 units off, of the 2^22 that a corner may be away.
-    vec4 crossing = vec4(top) + vec4(dx) * vec4(m) / vec4(max(dy, 1));
-    ivec4 bound = ivec4(ceil(crossing * (1.0 / 256.0)));
-    // (256 c - X) dy, which is to be from 0 to 256 dy, with 8 dy added: below 2^32.
-    uvec4 rest = uvec4((256 * bound - top) * dy - dx * m + 8 * dy);
-    bound += count(lessThan(rest, uvec4(8 * dy))) - count(greaterThanEqual(rest, 264u * uvec4(dy)));
-    // No edge is crossed by a row above or below it, nor a level one.
-    bvec4 crosses = lessThan(uvec4(m), uvec4(dy));
-    ivec4 low = mix(ivec4(0x7fffffff), bound, crosses);
-    ivec4 high = mix(ivec4(-0x7fffffff), bound, crosses);
-    return ivec2(min(min(low.x, low.y), min(low.z, low.w)), max(max(high.x, high.y), max(high.z, high.w)));
-}
-
-// floor(numerator / d) for d > 0, where the numerator may have wrapped and `wide` is about what it is.
-ivec4 floor_divide(ivec4 numerator, vec4 wide, ivec4 d) {
-    ivec4 quotient = ivec4(floor(wide / vec4(d)));
-    ivec4 rest = numerator - quotient * d;
-    return quotient + count(greaterThanEqual(rest, d)) - count(lessThan(rest, ivec4(0)));
-}
-
-// Border: in row y the four lines cover the pixels from `from` on to before `to`. Corners are whole pixels here.
-void line_spans(ivec4 x, ivec4 y, int row, out ivec4 from, out ivec4 to) {
-    ivec4 next_x = x.yzwx;
-    ivec4 next_y = y.yzwx;
-    bvec4 down = lessThanEqual(y, next_y);
-    ivec4 top = mix(next_x, x, down);
-    ivec4 dx = mix(x, next_x, down) - top;
-    ivec4 dy = abs(next_y - y);
-    ivec4 k = row - min(y, next_y);
-    bvec4 steep = greaterThan(dy, abs(dx));
-    bvec4 level = equal(dy, ivec4(0));
-    ivec4 d = 2 * max(dy, 1);
-    // Steep: the nearest column, a tie to the larger. Flat: the columns whose nearest row this is begin at the ceiling of the
-    // crossing with row - 1/2 when x grows with the row, and end after its floor when x falls; then the next row goes on.
-    ivec4 start = mix(d - dx - count(greaterThan(dx, ivec4(0))), dy, steep);
-    ivec4 numerator = 2 * dx * k + start;
-    vec4 wide = 2.0 * vec4(dx) * vec4(k) + vec4(start);
-    ivec4 begin = top + floor_divide(numerator, wide, d);
-    ivec4 after = top + floor_divide(numerator + 2 * dx, wide + 2.0 * vec4(dx), d);
-    after = mix(after, begin + 1, steep);
-    ivec4 left = min(x, next_x);
-    ivec4 right = max(x, next_x) + 1;
-    from = mix(max(min(begin, after), left), left, level);
-    to = mix(min(max(begin, after), right), right, level);
-    to = mix(from, to, lessThanEqual(uvec4(k), uvec4(dy)));
-}
-
 void load_tile(uint image, uint tile, ivec2 size, uint chunks) {
     barrier();
     for (uint slot = gl_LocalInvocationID.x; slot < TILE; slot += RASTER_GROUP) {
@@ -125,14 +53,8 @@ void load_tile(uint image, uint tile, ivec2 size, uint chunks) {
 #endif
             part_y[slot] = y;
             if (quads[image * batch.parts + part].drawn != 0u) {
-                x = (x + 128) >> 8;
-                y = (y + 128) >> 8;
-                int left = clamp(min(min(x.x, x.y), min(x.z, x.w)), 0, size.x);
-                int right = clamp(max(max(x.x, x.y), max(x.z, x.w)) + 1, 0, size.x);
-                int top = clamp(min(min(y.x, y.y), min(y.z, y.w)), 0, size.y);
-                int bottom = clamp(max(max(y.x, y.y), max(y.z, y.w)) + 1, 0, size.y);
-                rows = pack_range(top, bottom);
-                columns = pack_range(left, right);
+                rows = touched(y, 0, size.y);
+                columns = touched(x, 0, size.x);
             }
         }
         part_rows[slot >> 2][slot & 3u] = rows;
@@ -207,10 +129,10 @@ uvec4 rasterise(uint image) {
                     parts_left &= parts_left - 1u;
                     ivec4 x = part_x[part];
                     ivec4 y_corners = part_y[part];
-                    ivec2 fill = fill_span(x, y_corners, y);
+                    ivec2 fill = fill_span(edges_between(x, y_corners), y);
                     ivec4 from;
                     ivec4 to;
-                    line_spans((x + 128) >> 8, (y_corners + 128) >> 8, y, from, to);
+                    line_spans(lines_between((x + 128) >> 8, (y_corners + 128) >> 8), y, from, to);
                     for (uint word = 0u; word < RASTER_WORDS; word++) {
                         int start = origin + int(32u * word);
                         uint lines = span_bits(from.x - start, to.x - start) | span_bits(from.y - start, to.y - start) |

@@ -33,7 +33,6 @@ const uint MOST_LARGE = 256u;
 shared uint keys[MESH_KEYS];
 shared uint large[MOST_LARGE];
 shared uint large_count;
-shared uint totals[4];
 
 // The pixels of the tile, first and past the last, and keys of one of its rows.
 ivec2 tile_low;
@@ -336,25 +335,4 @@ uvec4 rasterise(uint image) {
         }
     }
     return sum;
-}
-
-uint own_image() {
-    return gl_WorkGroupID.x;
-}
-
-void begin_totals() {
-    if (gl_LocalInvocationID.x < 4u) totals[gl_LocalInvocationID.x] = 0u;
-    barrier();
-}
-
-// Adds the invocations' sums to the image's.
-void add_sums(uint image, uvec4 sum) {
-    for (uint part = 0u; part < 4u; part++) atomicAdd(totals[part], sum[part]);
-    barrier();
-    if (gl_LocalInvocationID.x != 0u || totals[0] == 0u) return;
-    uint place = batch.first * batch.views + image;
-    atomicAdd(sums[place].area_model, totals[0]);
-    atomicAdd(sums[place].overlap, totals[1]);
-    atomicAdd(sums[place].edges, totals[2]);
-    atomicAdd(sums[place].proximity, totals[3]);
 }

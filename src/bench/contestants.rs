@@ -8,7 +8,7 @@ use super::yardstick::{Yardstick, YardstickKind};
 use crate::body::Mesh;
 use crate::evaluate::cpu::{Cpu, InstructionSet};
 use crate::evaluate::device::{
-    Comparison, Compute, Graphics, GraphicsSettings, Packing, Tiling, device_settings, open_instance,
+    Comparison, Compute, Graphics, GraphicsSettings, Packing, RasterKernel, Tiling, device_settings, open_instance,
 };
 use crate::evaluate::{Evaluator, Reference};
 use crate::gpu::{Capabilities, Device, DeviceSettings};
@@ -40,6 +40,8 @@ pub enum Contestant {
         /// Whether subgroups have arithmetic.
         subgroup: bool,
     },
+    /// The compute backend in two phases: spans first, then pixels.
+    Spans,
     /// The graphics backend so set.
     Graphics(GraphicsSettings),
 }
@@ -53,6 +55,7 @@ impl Contestant {
         all.extend(YardstickKind::ALL.map(Self::Yardstick));
         all.extend(InstructionSet::ALL.map(Self::Cpu));
         all.extend([true, false].map(|subgroup| Self::Compute { subgroup }));
+        all.push(Self::Spans);
         for packing in Packing::ALL {
             all.extend(
                 Comparison::all().map(|comparison| Self::Graphics(GraphicsSettings { packing, comparison, ..usual })),
@@ -76,7 +79,7 @@ impl Contestant {
         match self {
             Self::Reference => "reference",
             Self::Yardstick(_) | Self::Cpu(_) => "cpu",
-            Self::Compute { .. } => "compute",
+            Self::Compute { .. } | Self::Spans => "compute",
             Self::Graphics(_) => "graphics",
         }
     }
@@ -89,6 +92,7 @@ impl Contestant {
             Self::Cpu(set) => set.name(),
             Self::Compute { subgroup: true } => "subgroup",
             Self::Compute { subgroup: false } => "shared",
+            Self::Spans => "spans",
             Self::Graphics(settings) => settings.name(),
         }
     }
@@ -123,6 +127,7 @@ impl Contestant {
                 );
                 Box::new(compute)
             }
+            (Self::Spans, None) => Box::new(Compute::with_kernel(device()?, body, cameras, SPANS)?),
             // Sums meet in shared memory on every device.
             (Self::Compute { subgroup: false }, Some(mesh)) => {
                 Box::new(Compute::of_mesh(device()?, body, mesh.clone(), cameras)?)
@@ -137,6 +142,9 @@ impl Contestant {
         Ok(evaluator)
     }
 }
+
+/// Workgroups of the row in two phases; `pantin devices` tells what others take.
+const SPANS: RasterKernel = RasterKernel::Spans { group: 64, workgroups: 2 };
 
 /// The device that the program would open, opened once more without arithmetic in subgroups.
 fn without_subgroups() -> Result<Device> {

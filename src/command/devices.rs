@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use super::output::say;
 use crate::bench::Scene;
+use crate::evaluate::device::kept_kernels;
 use crate::gpu::{DeviceFacts, Instance, Validation, devices};
 use crate::track::Backend;
 
@@ -55,6 +56,7 @@ fn object(device: &DeviceFacts) -> Value {
         "memory_mb": device.capabilities.memory / (1 << 20),
         "usable": device.usable,
         "reasons": device.reasons,
+        "drawing": kept_kernels(device),
     })
 }
 
@@ -86,8 +88,9 @@ fn print_table(found: &[DeviceFacts]) {
         let cells: Vec<String> = row.iter().zip(widths).map(|(cell, width)| format!("{cell:width$}")).collect();
         say!("{}", cells.join("  ").trim_end());
         let reasons = index.checked_sub(1).map_or(&[][..], |device| &found[device].reasons);
-        for reason in reasons {
-            say!("       - {reason}");
+        let kept = index.checked_sub(1).map(|device| kept_kernels(&found[device])).unwrap_or_default();
+        for sentence in reasons.iter().chain(&kept) {
+            say!("       - {sentence}");
         }
     }
 }

@@ -1,6 +1,7 @@
 //! An open device: its queue, memory, clock and what it is known to have lost.
 
 use std::fs;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
@@ -14,7 +15,7 @@ use rayon::prelude::*;
 use super::buffer::Buffer;
 use super::capability::{Capabilities, DeviceFacts, PORTABILITY_SUBSET, devices};
 use super::compiled::{Compiled, Source};
-use super::device_shared::{DeviceSettings, DeviceShared, cache_file};
+use super::device_shared::{DeviceSettings, DeviceShared, PIPELINES, kept_file};
 use super::image::{Format, Image, ImageUse};
 use super::instance::Instance;
 use super::memory::Memory;
@@ -154,7 +155,8 @@ impl Device {
         };
         // SAFETY: the family was found on this device, and one queue of it was asked for.
         let queue = unsafe { raw.get_device_queue(family, 0) };
-        let saved = settings.pipeline_cache.as_ref().and_then(|folder| fs::read(cache_file(folder, &facts)).ok());
+        let saved =
+            settings.pipeline_cache.as_ref().and_then(|folder| fs::read(kept_file(folder, &facts, PIPELINES)).ok());
         let info = vk::PipelineCacheCreateInfo::default().initial_data(saved.as_deref().unwrap_or_default());
         // A driver refuses data that is not its own, and no cache is as good as an empty one.
         // SAFETY: the data is a byte slice that lives through the call, and drivers check its header.
@@ -195,6 +197,12 @@ impl Device {
     /// What it can do, as lowered by the settings.
     pub fn capabilities(&self) -> &Capabilities {
         &self.shared.facts.capabilities
+    }
+
+    /// Where something of this device and driver is kept beside its pipelines, `kind-DEVICE.ending`; none where those are not kept.
+    pub fn kept_file(&self, kind: &str, ending: &str) -> Option<PathBuf> {
+        let folder = self.shared.settings.pipeline_cache.as_ref()?;
+        Some(kept_file(folder, &self.shared.facts, [kind, ending]))
     }
 
     /// The validation log of its instance.

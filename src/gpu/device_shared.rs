@@ -262,19 +262,22 @@ impl DeviceShared {
         let Ok(data) = (unsafe { self.raw.get_pipeline_cache_data(self.pipelines) }) else { return };
         // A cache that cannot be kept costs time in the next run, nothing else.
         let _ = fs::create_dir_all(folder).map_err(anyhow::Error::from).and_then(|()| {
-            let path = cache_file(folder, &self.facts);
+            let path = kept_file(folder, &self.facts, PIPELINES);
             write_atomically(&path, Overwrite::Replace, |file| Ok(file.write_all(&data)?))
         });
     }
 }
 
-/// The pipeline cache of a device and driver: another driver version has another file.
-pub(super) fn cache_file(folder: &Path, facts: &DeviceFacts) -> PathBuf {
+/// Kind and ending of the file of compiled pipelines.
+pub(super) const PIPELINES: [&str; 2] = ["pipelines", "bin"];
+
+/// A file of a device and driver: another driver version has another one.
+pub(crate) fn kept_file(folder: &Path, facts: &DeviceFacts, [kind, ending]: [&str; 2]) -> PathBuf {
     let plain: String = format!("{} {}", facts.name, facts.driver)
         .chars()
         .map(|c| if c.is_ascii_alphanumeric() || c == '.' { c.to_ascii_lowercase() } else { '-' })
         .collect();
-    folder.join(format!("pipelines-{plain}.bin"))
+    folder.join(format!("{kind}-{plain}.{ending}"))
 }
 
 impl Drop for DeviceShared {

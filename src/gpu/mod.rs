@@ -37,6 +37,7 @@ mod validation;
 pub use buffer::Buffer;
 pub use capability::{Capabilities, DeviceFacts, DeviceKind, devices};
 pub use device::Device;
+pub(crate) use device_shared::kept_file;
 pub use device_shared::{Breadcrumbs, DeviceSettings};
 pub use image::{Format, Image, ImageUse};
 pub use instance::Instance;

@@ -3,6 +3,7 @@
 use anyhow::{Result, anyhow, bail};
 
 use super::auto::{fastest, is_device_worth_measuring};
+use crate::bench::swarm;
 use crate::body::{Body, Mesh};
 use crate::evaluate::cpu::Cpu;
 use crate::evaluate::device::{Compute, Graphics, GraphicsSettings, open_device};
@@ -68,9 +69,10 @@ impl Backend {
                 BuiltBackend { evaluator: Box::new(cpu), reason }
             }
             Self::Compute => {
-                let compute = Compute::new(body, cameras).map_err(|error| without_vulkan(self, &error))?;
-                let device = &compute.facts().name;
-                let reason = format!("compute on the Vulkan device {device} ({} sums), as asked", compute.variant());
+                let compute = compute(body, cameras, around).map_err(|error| without_vulkan(self, &error))?;
+                let (device, kernel) = (&compute.facts().name, compute.kernel());
+                let reason =
+                    format!("compute on the Vulkan device {device} ({}, {kernel}), as asked", compute.variant());
                 BuiltBackend { evaluator: Box::new(compute), reason }
             }
             Self::Graphics => {
@@ -83,7 +85,7 @@ impl Backend {
                 // All of them give the same integers for the flat model.
                 let others = || -> Vec<(&str, Result<Box<dyn Evaluator>>)> {
                     vec![
-                        ("compute", Compute::new(body, cameras).map(|it| Box::new(it) as Box<dyn Evaluator>)),
+                        ("compute", compute(body, cameras, around).map(|it| Box::new(it) as Box<dyn Evaluator>)),
                         ("graphics", Graphics::new(body, cameras).map(|it| Box::new(it) as Box<dyn Evaluator>)),
                     ]
                 };
@@ -128,6 +130,16 @@ impl Backend {
             }
         })
     }
+}
+
+/// Poses by which the way to draw is chosen.
+const TUNED_BY: usize = 64;
+
+/// The flat model in compute, drawn the way that is fastest on the device.
+fn compute(body: &Body, cameras: &[Camera], around: &[f32]) -> Result<Compute> {
+    let mut compute = Compute::new(body, cameras)?;
+    compute.tune(&swarm(body, around, TUNED_BY))?;
+    Ok(compute)
 }
 
 /// What `auto` takes: the processor, unless one of the `others`, on a device that is worth it, is measured to be faster.

@@ -2,7 +2,7 @@
 
 use pantin::evaluate::Evaluator;
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
-use pantin::evaluate::device::{Compute, Graphics};
+use pantin::evaluate::device::{Compute, Graphics, RasterKernel};
 use pantin::gpu::{Capabilities, DeviceSettings};
 
 use crate::cases::{CASES, Case, Kind, Stage, USUAL};
@@ -108,6 +108,19 @@ fn compute_agrees() {
             Box::new(Compute::on(&device, body, cameras).unwrap())
         };
         hold(kind, &format!("compute, {name}"), &make);
+        // All strips by a workgroup, and some workgroups to share them, whole subgroups and not.
+        let group_and_workgroups = match name {
+            "as it is" => Some((64, 1)),
+            "few groups" => Some((20, 40)),
+            _ => None,
+        };
+        if let Some((group, workgroups)) = group_and_workgroups {
+            let kernel = RasterKernel::Spans { group, workgroups };
+            let make = |Stage { body, cameras }: &Stage| -> Box<dyn Evaluator> {
+                Box::new(Compute::with_kernel(&device, body, cameras, kernel).unwrap())
+            };
+            hold(kind, &format!("compute, {name}, {kernel}"), &make);
+        }
         drop(device);
         assert_eq!(log.messages(), Vec::<String>::new(), "{name}");
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pantin::body::{Body, Mesh};
 use pantin::evaluate::cpu::Cpu;
 use pantin::evaluate::device::{
-    Comparison, Compute, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Tiling,
+    Comparison, Compute, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, RasterKernel, Tiling,
 };
 use pantin::evaluate::{Evaluator, Objective, ObjectiveKind, Reference, SegmentSums};
 use pantin::features::{Evidence, Observation, PartClasses, Segment, Segmentation, Segments};
@@ -35,12 +35,16 @@ pub(crate) fn seen(cameras: &[Camera], classes: &Arc<PartClasses>, random: &mut 
     scene::observations(cameras, &mut Random(5)).into_iter().map(view).collect()
 }
 
+/// Spans first, by several workgroups an image.
+const SPANS: RasterKernel = RasterKernel::Spans { group: 64, workgroups: 2 };
+
 /// Every backend.
 fn one_of_each(test: &str, body: &Body, cameras: &[Camera]) -> Vec<Box<dyn Evaluator>> {
     let mut all: Vec<Box<dyn Evaluator>> =
         vec![Box::new(Reference::new(body, cameras)), Box::new(Cpu::new(body, cameras).unwrap())];
     if let Some((device, _)) = device(test, DeviceSettings::default()) {
         all.push(Box::new(Compute::on(&device, body, cameras).unwrap()));
+        all.push(Box::new(Compute::with_kernel(&device, body, cameras, SPANS).unwrap()));
         all.push(Box::new(Graphics::on(&device, body, cameras, GraphicsSettings::default()).unwrap()));
     }
     all
@@ -125,8 +129,9 @@ fn a_search_on_the_device_finds_what_the_host_finds() {
     }
     let usual = GraphicsSettings::default();
     let graphics = |settings| Box::new(Graphics::on(&device, &body, &cameras, settings).unwrap());
-    let evaluators: [(&str, Box<dyn Evaluator>); 3] = [
+    let evaluators: [(&str, Box<dyn Evaluator>); 4] = [
         ("compute", Box::new(Compute::on(&device, &body, &cameras).unwrap())),
+        ("compute, spans first", Box::new(Compute::with_kernel(&device, &body, &cameras, SPANS).unwrap())),
         ("graphics", graphics(usual)),
         ("graphics, depth", graphics(GraphicsSettings { packing: Packing::Depth, ..usual })),
     ];

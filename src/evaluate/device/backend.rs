@@ -82,6 +82,12 @@ impl<R: Rasteriser> DeviceBackend<R> {
         Ok(())
     }
 
+    /// Records anew from now on: what is drawn is drawn otherwise.
+    pub(super) fn forget_runs(&mut self) {
+        self.runs.clear();
+        self.is_outgrown |= self.is_recorded;
+    }
+
     /// Host to host: the poses, all stages, fitness or sums. One recording, or with the comparison on the host one a batch.
     fn record_run(&self, asked: Asked, candidates: u32) -> Result<Vec<Recording>> {
         let Resources { scene, workspace, host, .. } = &self.resources;

@@ -1,18 +1,21 @@
 //! The backend that draws in compute: every candidate compared row by row in registers, in the reference's integers, with no
 //! framebuffer.
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 
 use super::backend::DeviceBackend;
 use super::drawn_mesh::{DrawnMesh, MESH_TILE};
 use super::evidence::DeviceEvidence;
 use super::open::open_compute_device;
 use super::passes::{self, Images, RASTER_TILE, raster_stage};
+use super::raster_kernel::RasterKernel;
 use super::rasteriser::Rasteriser;
 use super::resources::Resources;
 use super::scene::{DeviceScene, Share};
 use super::segments::DeviceSegments;
+use super::spans;
 use super::summed::Summed;
+use super::tuning::fastest_kernel;
 use super::workspace::Workspace;
 use crate::body::{Body, Mesh};
 use crate::evaluate::MeshProjector;
@@ -20,10 +23,11 @@ use crate::evaluate::evaluator::Footprint;
 use crate::evaluate::mesh_projection::bound_to_its_body;
 use crate::evaluate::shaders::{
     objective_comp, objective_evidence_comp, objective_segments_comp, pose_comp, project_comp, raster_evidence_comp,
-    raster_mesh_evidence_comp, raster_mesh_segments_comp, raster_segments_comp,
+    raster_mesh_evidence_comp, raster_mesh_segments_comp, raster_segments_comp, raster_spans_comp,
+    raster_spans_evidence_comp, raster_spans_segments_comp,
 };
 use crate::geometry::Camera;
-use crate::gpu::{Device, Recorder};
+use crate::gpu::{Device, Recorder, ShaderStage};
 
 /// The evaluator that draws in compute, on a Vulkan device.
 pub type Compute = DeviceBackend<ComputeRasteriser>;
@@ -32,6 +36,8 @@ pub type Compute = DeviceBackend<ComputeRasteriser>;
 #[derive(Debug)]
 pub struct ComputeRasteriser {
     has_subgroups: bool,
+    /// How the flat model is drawn.
+    kernel: RasterKernel,
     /// What is drawn instead of the flat model.
     mesh: Option<Box<DrawnMesh>>,
 }
@@ -50,11 +56,57 @@ impl Compute {
     /// # Errors
     /// When a picture has no pixel or is too large, the body has no or too many parts, or the device fails.
     pub fn on(device: &Device, body: &Body, cameras: &[Camera]) -> Result<Self> {
-        Self::with(DeviceScene::new(device, body, cameras)?, |_| {
-            let raster = raster_stage(device, false, false);
-            device.compile(&[raster, pose_comp::stage(), project_comp::stage(), objective_comp::stage()])?;
-            Ok(ComputeRasteriser { has_subgroups: device.capabilities().subgroup_arithmetic, mesh: None })
+        Self::with(DeviceScene::new(device, body, cameras)?, |scene| {
+            let kernel = spans::drawable(scene, RasterKernel::Rows);
+            device.compile(&[
+                flat_stage(device, kernel),
+                pose_comp::stage(),
+                project_comp::stage(),
+                objective_comp::stage(),
+            ])?;
+            Ok(ComputeRasteriser { has_subgroups: device.capabilities().subgroup_arithmetic, kernel, mesh: None })
         })
+    }
+
+    /// On a device, drawn so. The bits are the same, the time is not.
+    ///
+    /// # Errors
+    /// As [`Self::on`], and when the device allows no workgroups so large.
+    pub fn with_kernel(device: &Device, body: &Body, cameras: &[Camera], kernel: RasterKernel) -> Result<Self> {
+        let mut compute = Self::on(device, body, cameras)?;
+        compute.set_kernel(kernel)?;
+        Ok(compute)
+    }
+
+    /// Draws the flat model from now on the way that this device was measured to be fastest with, or is measured now on poses like
+    /// those to come, where it was not yet and keeps its pipelines ([`crate::gpu::DeviceSettings::pipeline_cache`]). The bits are the
+    /// same, the time is not.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub fn tune(&mut self, poses: &[f32]) -> Result<()> {
+        if self.rasteriser.mesh.is_some() || poses.len() < self.resources.scene.counts.dofs as usize {
+            return Ok(());
+        }
+        self.set_kernel(fastest_kernel(&self.resources.scene, poses)?)
+    }
+
+    /// How it draws the flat model.
+    pub fn kernel(&self) -> RasterKernel {
+        self.rasteriser.kernel
+    }
+
+    fn set_kernel(&mut self, kernel: RasterKernel) -> Result<()> {
+        let scene = &self.resources.scene;
+        let kernel = spans::drawable(scene, kernel);
+        if let RasterKernel::Spans { group, .. } = kernel {
+            let most = scene.device.capabilities().max_workgroup;
+            ensure!((1..=most).contains(&group), "{kernel}: this device has workgroups of 1 to {most} invocations");
+        }
+        scene.device.compile(&[flat_stage(&scene.device, kernel)])?;
+        self.rasteriser.kernel = kernel;
+        self.forget_runs();
+        Ok(())
     }
 
     /// The mesh model of a body, for its cameras at working size; `mesh` is bound to this body.
@@ -65,8 +117,19 @@ impl Compute {
         Self::with(DeviceScene::new(device, body, cameras)?, |scene| {
             let mesh = DrawnMesh::new(scene, &MeshProjector::new(body, mesh, cameras)?)?;
             device.compile(&[pose_comp::stage(), objective_comp::stage()])?;
-            Ok(ComputeRasteriser { has_subgroups: false, mesh: Some(Box::new(mesh)) })
+            let mesh = Some(Box::new(mesh));
+            Ok(ComputeRasteriser { has_subgroups: false, kernel: RasterKernel::Rows, mesh })
         })
+    }
+}
+
+/// The stage that draws and compares whole silhouettes so.
+fn flat_stage(device: &Device, kernel: RasterKernel) -> ShaderStage {
+    match kernel {
+        RasterKernel::Rows => raster_stage(device, false, false),
+        RasterKernel::Spans { group, .. } => {
+            raster_spans_comp::stage(raster_spans_comp::Constants { ignores: false, local_size_x: group })
+        }
     }
 }
 
@@ -74,7 +137,11 @@ impl Rasteriser for ComputeRasteriser {
     const NAME: &'static str = "compute";
 
     fn variant(&self) -> &'static str {
-        if self.has_subgroups { "subgroup" } else { "shared" }
+        match (self.kernel, self.has_subgroups) {
+            (RasterKernel::Spans { .. }, _) => "spans",
+            (RasterKernel::Rows, true) => "subgroup",
+            (RasterKernel::Rows, false) => "shared",
+        }
     }
 
     fn footprint(&self) -> Footprint {
@@ -102,7 +169,17 @@ impl Rasteriser for ComputeRasteriser {
         }
         let ignores = scene.counted.is_some();
         let raster = match &self.mesh {
-            None => raster_segments_comp::stage(raster_segments_comp::Constants { listed: false, ignores }),
+            None => match self.kernel {
+                RasterKernel::Rows => {
+                    raster_segments_comp::stage(raster_segments_comp::Constants { listed: false, ignores })
+                }
+                RasterKernel::Spans { group, .. } => {
+                    raster_spans_segments_comp::stage(raster_spans_segments_comp::Constants {
+                        ignores,
+                        local_size_x: group,
+                    })
+                }
+            },
             Some(_) => raster_mesh_segments_comp::stage(raster_mesh_segments_comp::Constants { ignores }),
         };
         scene.device.compile(&[raster, objective_segments_comp::stage()])
@@ -119,7 +196,17 @@ impl Rasteriser for ComputeRasteriser {
         }
         let ignores = scene.counted.is_some();
         let raster = match &self.mesh {
-            None => raster_evidence_comp::stage(raster_evidence_comp::Constants { listed: false, ignores }),
+            None => match self.kernel {
+                RasterKernel::Rows => {
+                    raster_evidence_comp::stage(raster_evidence_comp::Constants { listed: false, ignores })
+                }
+                RasterKernel::Spans { group, .. } => {
+                    raster_spans_evidence_comp::stage(raster_spans_evidence_comp::Constants {
+                        ignores,
+                        local_size_x: group,
+                    })
+                }
+            },
             Some(_) => raster_mesh_evidence_comp::stage(raster_mesh_evidence_comp::Constants { ignores }),
         };
         scene.device.compile(&[raster, objective_evidence_comp::stage()])
@@ -141,7 +228,10 @@ impl Rasteriser for ComputeRasteriser {
             return mesh.record(recorder, (scene, workspace), summed, share);
         }
         passes::project(recorder, scene, workspace, share)?;
-        passes::raster(recorder, (scene, workspace), summed, Images::All, share)
+        match self.kernel {
+            RasterKernel::Rows => passes::raster(recorder, (scene, workspace), summed, Images::All, share),
+            RasterKernel::Spans { .. } => spans::raster(recorder, (scene, workspace), summed, self.kernel, share),
+        }
     }
 
     fn check_exchange(&self) -> Result<()> {

@@ -4,7 +4,8 @@ use anyhow::Result;
 
 use super::mesh::{DeviceMesh, MeshWorkspace, mesh_batch, skin, skin_stages};
 use super::scene::{DeviceScene, Share};
-use super::summed::Summed;
+use super::spans::MOST_ROUNDS;
+use super::summed::{Summed, clear_sums};
 use super::workspace::Workspace;
 use crate::evaluate::MeshProjector;
 use crate::evaluate::shaders::{
@@ -35,9 +36,12 @@ impl DrawnMesh {
         let [bind, skin] = skin_stages(mesh.skinning);
         device.compile(&[bind, skin, raster_mesh_comp::stage(raster_mesh_comp::Constants { ignores: false })])?;
         let workspace = MeshWorkspace::new(device, scene.counts, &mesh, (1, 0))?;
-        // Tiles of the largest picture, four a workgroup: lavapipe ends an invocation's loops after 65,535 rounds in all.
+        // Some tiles of the largest picture a workgroup, as many as rounds allow where a triangle takes four and an edge two.
         let tiles = |&[width, height]: &[u32; 2]| width.div_ceil(MESH_TILE[0]) * height.div_ceil(MESH_TILE[1]);
-        let workgroups = scene.sizes.iter().map(tiles).max().unwrap_or(1).div_ceil(4);
+        let rounds = (4 * u64::from(mesh.triangle_count) + 2 * u64::from(mesh.edge_count))
+            / u64::from(device.capabilities().subgroup_size.max(4));
+        let of_one = (MOST_ROUNDS / rounds.max(1)).clamp(1, 4) as u32;
+        let workgroups = scene.sizes.iter().map(tiles).max().unwrap_or(1).div_ceil(of_one);
         Ok(Self { mesh, workspace, workgroups })
     }
 
@@ -69,12 +73,7 @@ impl DrawnMesh {
         let Self { mesh, workspace: own, .. } = self;
         // Workgroups add to them, and so do batches.
         if share.first == 0 {
-            recorder.fill("clear sums", &workspace.sums, 0)?;
-            match summed {
-                Summed::Nothing => (),
-                Summed::Segments(segments) => recorder.fill("clear segments", &segments.sums, 0)?,
-                Summed::Evidence(evidence) => recorder.fill("clear evidence", &evidence.sums, 0)?,
-            }
+            clear_sums(recorder, workspace, summed)?;
         }
         skin(recorder, (scene, mesh), (workspace, own), share)?;
         let push = mesh_batch(scene.counts, mesh, share);

@@ -14,6 +14,7 @@ mod mesh;
 mod mesh_tests;
 mod open;
 mod passes;
+mod raster_kernel;
 #[cfg(test)]
 mod raster_tests;
 mod rasteriser;
@@ -21,9 +22,11 @@ mod resources;
 mod runs;
 mod scene;
 mod segments;
+mod spans;
 mod summed;
 #[cfg(test)]
 mod tests;
+mod tuning;
 mod workspace;
 
 pub use backend::DeviceBackend;
@@ -32,3 +35,5 @@ pub use graphics::{
     Comparison, Coverage, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
 };
 pub use open::{device_settings, open_device, open_instance};
+pub use raster_kernel::RasterKernel;
+pub use tuning::kept_kernels;

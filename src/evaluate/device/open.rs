@@ -72,7 +72,7 @@ fn shown(value: std::result::Result<&str, &env::VarError>) -> String {
 }
 
 /// None where the user has no home: pipelines are then compiled in every run.
-fn cache_folder() -> Option<PathBuf> {
+pub(super) fn cache_folder() -> Option<PathBuf> {
     // The base-directory convention has relative paths ignored.
     let absolute = |name: &str| env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let base = absolute("XDG_CACHE_HOME").or_else(|| Some(absolute("HOME")?.join(".cache")))?;

@@ -7,7 +7,9 @@
 )]
 
 use super::passes::{Images, raster, raster_stage};
+use super::raster_kernel::RasterKernel;
 use super::scene::{DeviceScene, Share};
+use super::spans;
 use super::summed::Summed;
 use super::tests::{cameras, device, fetch, set_up_with};
 use super::workspace::Workspace;
@@ -201,6 +203,19 @@ fn check(name: &str, settings: &DeviceSettings, parts: usize, candidates: usize)
         assert_eq!(expected, found, "image {image} of {size:?}: {:?}", images[image]);
     }
 
+    for kernel in RasterKernel::all(128) {
+        let RasterKernel::Spans { .. } = kernel else { continue };
+        let mut recorder = device.recorder(Timing::Off).unwrap();
+        recorder.fill("spoil", &workspace.sums, 0xffff_ffff).unwrap();
+        spans::raster(&mut recorder, (&scene, &workspace), Summed::Nothing, kernel, share).unwrap();
+        recorder.finish().unwrap().run().unwrap();
+        let sums = found(&fetch::<layout::Sums>(&device, &workspace.sums, images.len()));
+        for (image, (expected, found)) in expected.iter().zip(&sums).enumerate() {
+            let size = scene.sizes[image % scene.sizes.len()];
+            assert_eq!(expected, found, "{kernel}: image {image} of {size:?}: {:?}", images[image]);
+        }
+    }
+
     // Every third image of a list, in the place of a candidate further on.
     let list: Vec<u32> = (0..images.len() as u32).step_by(3).collect();
     let words: Vec<u32> = [list.len() as u32, 1, 1].into_iter().chain(list.iter().copied()).collect();
@@ -229,4 +244,38 @@ fn odd_quads_give_the_reference_s_integers() {
 fn odd_quads_agree_without_subgroup_arithmetic() {
     let settings = DeviceSettings { lower: Some(|c| c.subgroup_arithmetic = false), ..DeviceSettings::default() };
     check("odd_quads_agree_without_subgroup_arithmetic", &settings, 16, 200);
+}
+
+/// More rows and columns, all covered by all parts, than an invocation of lavapipe may go through by itself.
+#[test]
+fn a_picture_too_large_for_a_workgroup_is_shared() {
+    let name = "a_picture_too_large_for_a_workgroup_is_shared";
+    let Some((device, log)) = device(name, DeviceSettings::default()) else { return };
+    let size = [6144, 6144];
+    let large = vec![Camera { size, ..cameras()[0].clone() }];
+    let body = body_of(16);
+    let (_, mut scene, workspace, share) = set_up_with(&device, &body, &large, &vec![0.0; body.dof_count()]);
+    assert_eq!(
+        spans::drawable(&scene, RasterKernel::Spans { group: 128, workgroups: 3 }).to_string(),
+        "spans first (3 x 128 an image)"
+    );
+    let kernel = spans::drawable(&scene, RasterKernel::Rows);
+    assert!(matches!(kernel, RasterKernel::Spans { .. }), "{kernel}");
+    let corner = 6200 * 256;
+    let everywhere = PartQuad {
+        corners: [[-corner, -corner], [corner, -corner], [corner, corner], [-corner, corner]],
+        depth_squared: 1.0,
+        drawn: true,
+    };
+    let images = vec![vec![everywhere; 16]];
+    let mut random = Random(8);
+    let seen = observations(&mut random, &scene);
+    scene.observe(&seen).unwrap();
+    put(&device, &workspace, &scene, &images);
+    let mut recorder = device.recorder(Timing::Off).unwrap();
+    spans::raster(&mut recorder, (&scene, &workspace), Summed::Nothing, kernel, share).unwrap();
+    recorder.finish().unwrap().run().unwrap();
+    assert_eq!(found(&fetch::<layout::Sums>(&device, &workspace.sums, 1)), expected(&images, &seen));
+    drop((workspace, scene, device));
+    assert_eq!(log.messages(), Vec::<String>::new());
 }

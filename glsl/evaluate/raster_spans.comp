@@ -1,0 +1,7 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// The flat model drawn and compared, in two phases.
+
+#include "evaluate/raster_spans.glsl"
+#include "evaluate/raster_sums.glsl"
