@@ -1,6 +1,6 @@
 //! Two evaluators as one writes them first, kept to measure the fast one against: a byte depth buffer over the whole
-//! picture, and byte row spans inside the bounding box with a comparison the compiler vectorises. Both give the
-//! reference's integers.
+//! picture, and byte row spans inside the bounding box with a comparison the compiler vectorises. Edges are followed from row
+//! to row by additions. Both give the reference's integers.
 
 use anyhow::{Result, ensure};
 
@@ -195,20 +195,59 @@ fn row_span(
     sums
 }
 
+/// floor((numerator + n change) / divisor) for n = 0, 1 and so on, by additions once the first is divided.
+struct Quotients {
+    value: i64,
+    rest: i64,
+    step: i64,
+    rest_step: i64,
+    divisor: i64,
+}
+
+impl Quotients {
+    /// For a divisor above 0.
+    fn new(numerator: i64, change: i64, divisor: i64) -> Self {
+        Self {
+            value: numerator.div_euclid(divisor),
+            rest: numerator.rem_euclid(divisor),
+            step: change.div_euclid(divisor),
+            rest_step: change.rem_euclid(divisor),
+            divisor,
+        }
+    }
+}
+
+impl Iterator for Quotients {
+    type Item = i64;
+
+    fn next(&mut self) -> Option<i64> {
+        let value = self.value;
+        let carries = self.rest + self.rest_step >= self.divisor;
+        self.rest += self.rest_step - if carries { self.divisor } else { 0 };
+        self.value += self.step + i64::from(carries);
+        Some(value)
+    }
+}
+
 /// The filled pixels of a quad, a row at a time.
 fn rows(quad: &PartQuad, width: usize, height: usize, mut row: impl FnMut(usize, usize, usize)) {
-    let ys = quad.corners.map(|c| c[1]);
-    let top = ((ys.iter().min().unwrap_or(&0) + 255) >> 8).max(0);
-    let bottom = ((ys.iter().max().unwrap_or(&0) + 255) >> 8).min(height as i32);
+    // The first row whose middle is not above a corner.
+    let row_of = |y: i64| ((y + 255) >> 8).clamp(0, height as i64);
+    let ys = quad.corners.map(|c| row_of(i64::from(c[1])));
+    let (top, bottom) = (ys.into_iter().min().unwrap_or(0), ys.into_iter().max().unwrap_or(0));
+    let mut edges: [_; 4] = std::array::from_fn(|corner| {
+        let (p, q) = (quad.corners[corner].map(i64::from), quad.corners[(corner + 1) % 4].map(i64::from));
+        let (p, q) = if p[1] <= q[1] { (p, q) } else { (q, p) };
+        let (first, dx, dy) = (row_of(p[1]), q[0] - p[0], q[1] - p[1]);
+        let divisor = 256 * dy.max(1);
+        (first..row_of(q[1]), Quotients::new(p[0] * dy + dx * (256 * first - p[1]) + divisor - 1, 256 * dx, divisor))
+    });
     for y in top..bottom {
-        let centre = i64::from(256 * y);
         let (mut from, mut to) = (i64::MAX, i64::MIN);
-        for corner in 0..4 {
-            let (p, q) = (quad.corners[corner].map(i64::from), quad.corners[(corner + 1) % 4].map(i64::from));
-            let (p, q) = if p[1] <= q[1] { (p, q) } else { (q, p) };
-            if p[1] <= centre && centre < q[1] {
-                let dy = q[1] - p[1];
-                let x = (p[0] * dy + (q[0] - p[0]) * (centre - p[1]) + 256 * dy - 1).div_euclid(256 * dy);
+        for (rows, bounds) in &mut edges {
+            if rows.contains(&y)
+                && let Some(x) = bounds.next()
+            {
                 (from, to) = (from.min(x), to.max(x));
             }
         }
@@ -228,19 +267,66 @@ fn border(quad: &PartQuad, width: usize, height: usize, mut paint: impl FnMut(us
         let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
         if dx.abs() >= dy.abs() {
             let (p, dx, dy) = if dx < 0 { (q, -dx, -dy) } else { (p, dx, dy) };
-            for x in p[0].max(0)..=(p[0] + dx).min(w - 1) {
-                let y = if dx == 0 { p[1] } else { p[1] + (2 * dy * (x - p[0]) + dx).div_euclid(2 * dx) };
+            let first = p[0].max(0);
+            let across = Quotients::new(2 * dy * (first - p[0]) + dx, 2 * dy, (2 * dx).max(1));
+            for (x, moved) in (first..=(p[0] + dx).min(w - 1)).zip(across) {
+                let y = p[1] + moved;
                 if (0..h).contains(&y) {
                     paint(x as usize, y as usize);
                 }
             }
         } else {
             let (p, dx, dy) = if dy < 0 { (q, -dx, -dy) } else { (p, dx, dy) };
-            for y in p[1].max(0)..=(p[1] + dy).min(h - 1) {
-                let x = p[0] + (2 * dx * (y - p[1]) + dy).div_euclid(2 * dy);
+            let first = p[1].max(0);
+            let across = Quotients::new(2 * dx * (first - p[1]) + dy, 2 * dx, 2 * dy);
+            for (y, moved) in (first..=(p[1] + dy).min(h - 1)).zip(across) {
+                let x = p[0] + moved;
                 if (0..w).contains(&x) {
                     paint(x as usize, y as usize);
                 }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+    use super::super::{Scene, swarm};
+    use super::*;
+    use crate::evaluate::Reference;
+
+    #[test]
+    fn quotients_are_those_of_division() {
+        for (numerator, change, divisor) in
+            [(0_i64, 0_i64, 1_i64), (-7, 3, 5), (7, -3, 5), (1 << 40, -(1 << 33) - 1, 511), (4, 12, 4)]
+        {
+            let expected = (0..50).map(|n| (numerator + n * change).div_euclid(divisor));
+            assert!(Quotients::new(numerator, change, divisor).take(50).eq(expected), "{numerator} {change} {divisor}");
+        }
+    }
+
+    #[test]
+    fn yardsticks_count_as_the_reference_does() {
+        for size in [[480, 270], [97, 300], [1, 40], [640, 33]] {
+            let Scene { body, cameras, pose, observations } = Scene::new(size, 0.6 * f64::from(size[1])).unwrap();
+            // Calm, and so wild that parts lie across the borders and beyond.
+            let mut poses = swarm(&body, &pose, 20);
+            for (row, pose) in poses.chunks_exact_mut(body.dof_count()).enumerate().skip(8) {
+                pose.iter_mut().for_each(|value| *value *= 1.0 + row as f32);
+            }
+            let mut expected = vec![Components::default(); 20 * cameras.len()];
+            let mut reference = Reference::new(&body, &cameras);
+            reference.observe(&observations).unwrap();
+            reference.components(&poses, &mut expected).unwrap();
+            assert!(expected.iter().filter(|sums| sums.area_model > 0).count() > cameras.len());
+            for kind in YardstickKind::ALL {
+                let mut yardstick = Yardstick::new(&body, &cameras, kind, 2);
+                yardstick.observe(&observations).unwrap();
+                let mut found = vec![Components::default(); expected.len()];
+                yardstick.components(&poses, &mut found).unwrap();
+                assert_eq!(found, expected, "{kind:?} {size:?}");
             }
         }
     }
