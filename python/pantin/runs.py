@@ -206,7 +206,7 @@ def _frames(frames: Union[str, int, range]) -> str:
 
 
 #: Options that are pairs or more numbers, and what stands between them on the command line.
-_JOINED = {"size": "x", "offset": ","}
+_JOINED = {"size": "x", "offset": ",", "patch": "x"}
 
 
 def _options(options: Dict[str, Any]) -> List[Tuple[str, Any]]:
