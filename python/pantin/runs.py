@@ -177,7 +177,7 @@ def features(sequence: Path, frames: Union[str, int, range] = "..") -> Iterator[
 
 
 def texture(material: Optional[str] = None, **options: Any) -> NDArray[Any]:
-    """A procedural material, a texture after an example (`example=`), or without either a sheet of all materials (`pantin texture`):
+    """A procedural material, a texture after one example or several (`example=`), or without either a sheet of all materials (`pantin texture`):
     uint8 or uint16 [height, width, 3], or [height, width] of a `height_map`. `size` is (width, height); with `output` the picture is
     written too.
 

@@ -5,9 +5,9 @@ use std::collections::BinaryHeap;
 
 use anyhow::Result;
 
-use super::RADIUS;
 use super::canvas::Canvas;
 use super::colour::{Known, Weighted};
+use super::settings::RADIUS;
 use crate::arithmetic::exp_of_negative;
 
 /// Standard deviation of the bell by which a neighbourhood's support falls off at borders of patches, pixels.

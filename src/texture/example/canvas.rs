@@ -3,11 +3,11 @@
 use anyhow::Result;
 use image::RgbImage;
 
+use super::border::Border;
 use super::colour::{COLOUR_WEIGHTS, Known, Weighted, squared_error};
-use super::keeping::Border;
 use super::pictures::{self, Owner};
+use super::settings::{RADIUS, Settings, Synthesis};
 use super::sources::{Place, Sources};
-use super::{RADIUS, Settings, Synthesis};
 use crate::texture::noise::mixed;
 
 /// Most placements that are tried as guesses of a patch's.

@@ -3,7 +3,7 @@
 use anyhow::{Result, bail, ensure};
 use image::GrayImage;
 
-use super::{Example, RADIUS, Settings};
+use super::settings::{Example, RADIUS, Settings};
 
 /// Most pixels of a result.
 const MOST_PIXELS: u64 = 1 << 26;

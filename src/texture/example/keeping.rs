@@ -2,49 +2,11 @@
 
 use image::{GrayImage, RgbImage};
 
+use super::border::Border;
 use super::canvas::Canvas;
 use super::checks::is_bright;
-use super::colour::{COLOUR_WEIGHTS, Weighted, weighted};
+use super::colour::{COLOUR_WEIGHTS, weighted};
 use super::sources::Place;
-
-/// A patch where it meets pixels that are kept.
-pub(super) struct Border {
-    size: [usize; 2],
-    /// Pixels over which a difference fades.
-    reach: usize,
-    /// What the patch newly filled: column and row in the region, and index on the canvas.
-    pub(super) within: Vec<(usize, usize, usize)>,
-    /// Of each pixel of the region that is kept and fits: how much it differs from the patch.
-    differences: Vec<Option<Weighted>>,
-}
-
-impl Border {
-    /// Nothing yet, of a region of `size`.
-    pub(super) fn new(size: [usize; 2], reach: usize) -> Self {
-        Self { size, reach, within: Vec::new(), differences: Vec::new() }
-    }
-
-    /// Notes a pixel that is kept, and what the patch has there.
-    pub(super) fn differ(&mut self, u: usize, v: usize, kept: Weighted, new: Weighted) {
-        self.differences.resize(self.size[0] * self.size[1], None);
-        self.differences[v * self.size[0] + u] = Some(std::array::from_fn(|c| kept[c] - new[c]));
-    }
-
-    /// The mean difference of the pixels at most `radius` columns and rows away; none where there are none.
-    fn mean(&self, [u, v]: [usize; 2], radius: usize) -> Option<Weighted> {
-        let (mut sum, mut count) = ([0.0; 3], 0.0);
-        for y in v.saturating_sub(radius)..(v + radius + 1).min(self.size[1]) {
-            for x in u.saturating_sub(radius)..(u + radius + 1).min(self.size[0]) {
-                let Some(difference) = self.differences[y * self.size[0] + x] else { continue };
-                for (sum, difference) in sum.iter_mut().zip(difference) {
-                    *sum += difference;
-                }
-                count += 1.0;
-            }
-        }
-        (count > 0.0).then(|| sum.map(|sum| sum / count))
-    }
-}
 
 impl Canvas {
     /// Takes the pixels of a picture as large as the canvas as known for good, but where `holes` are dark.
@@ -64,15 +26,13 @@ impl Canvas {
 
     /// Lets a patch go over into what is kept beside it: the mean difference near its border, less the farther in.
     pub(super) fn fade(&mut self, border: &Border) {
-        if border.differences.is_empty() {
+        if border.is_clear() {
             return;
         }
         for &(u, v, i) in &border.within {
-            let Some(away) = (1..=border.reach).find(|&away| border.mean([u, v], away).is_some()) else { continue };
-            let Some(difference) = border.mean([u, v], away + 1) else { continue };
-            let share = 1.0 - away as f32 / (border.reach + 1) as f32;
+            let change = border.change([u, v]);
             for c in 0..3 {
-                let moved = self.colours[i][c] + difference[c] * share;
+                let moved = self.colours[i][c] + change[c];
                 self.colours[i][c] = moved.clamp(0.0, COLOUR_WEIGHTS[c].sqrt());
             }
         }

@@ -3,10 +3,10 @@
 use anyhow::Result;
 use image::GrayImage;
 
-use super::Example;
 use super::checks::is_bright;
 use super::colour::{Known, Weighted};
 use super::matching::Matcher;
+use super::settings::Example;
 use crate::gpu::Device;
 
 /// A pixel of an example, or a region by its upper left pixel.

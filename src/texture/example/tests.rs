@@ -5,7 +5,7 @@ use crate::gpu::DeviceSettings;
 use crate::gpu::test_device::device;
 use crate::texture::materials::Parameters;
 use crate::texture::noise::mixed;
-use image::{Luma, Rgb};
+use image::{Luma, Rgb, RgbImage};
 
 mod holes;
 mod several;
