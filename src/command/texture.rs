@@ -4,6 +4,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
+use clap::builder::NonEmptyStringValueParser;
 use image::codecs::png::PngEncoder;
 use image::{DynamicImage, GrayImage, RgbImage};
 
@@ -82,6 +83,7 @@ pub(super) struct TextureArgs {
     /// From an example: a picture of its size, dark where it may not be used. Masks go with the examples in their order: ALL uses one
     /// whole, as one without a mask is, IGNORE not at all
     #[arg(long, value_name = "PICTURE|ALL|IGNORE", requires = "example", alias = "sample-masks")]
+    #[arg(value_parser = NonEmptyStringValueParser::new())]
     mask: Vec<String>,
     /// Fill in the first example: a picture of its size, dark where it is to be synthesised, bright where it stays as it is
     #[arg(long, value_name = "PICTURE", requires = "example", conflicts_with_all = ["size", "inpaint_channel"])]

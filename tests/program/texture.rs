@@ -143,6 +143,7 @@ fn bad_holes_and_masks_are_one_sentence() {
         (&["--example", "nowhere.png"], 1, "nowhere.png"),
         (&["--patch", "24"], 1, "patches of 24 pixels a side, expected powers of two"),
         (&["--patch", "16x0"], 1, "patches of 16 x 0 pixels, expected powers of two"),
+        (&["--mask="], 2, "a value is required for '--mask"),
         (&["--patch", "wide"], 2, "expected a side in pixels, 32 say, or a width and a height, 32x16 say"),
         (&["--inpaint", "dark.png", "--size", "12x12"], 2, "--size"),
         (&["--inpaint-channel", "x"], 2, "unknown channel `x`"),
