@@ -7,7 +7,7 @@ mod table;
 use std::hint::black_box;
 
 use noise::{MultiFractal, NoiseFn};
-use pantin::texture::example::{Settings, synthesise};
+use pantin::texture::example::{Example, Settings, synthesise};
 use pantin::texture::materials::{Material, Parameters};
 use pantin::texture::noise::{HashLattice, Octaves, Perlin, TableLattice, Tables, Value};
 use table::{Table, is_measuring};
@@ -101,9 +101,10 @@ fn from_example() {
             for delta_max in [0.0, 0.004, 1.0] {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
                 let settings = Settings { size: [side, side], delta_max, ..Settings::default() };
-                let (name, example) = (format!("{side} x {side}, delta_max {delta_max}, {threads} threads"), &example);
+                let name = format!("{side} x {side}, delta_max {delta_max}, {threads} threads");
+                let examples = [Example { picture: &example, mask: None }];
                 table.row(name, (side * side) as usize, move || {
-                    pool.install(|| synthesise(black_box(example), None, &settings, None, || ()))
+                    pool.install(|| synthesise(black_box(&examples), None, &settings, None, || ()))
                 });
             }
         }

@@ -38,15 +38,16 @@ pub mod matching_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "texture/matching.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<593, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<649, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/texture/matching.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 0,
         bindings: &[
             crate::gpu::BindingLayout { name: "Example", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "KnownPixels", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
-            crate::gpu::BindingLayout { name: "request", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
-            crate::gpu::BindingLayout { name: "Errors", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+            crate::gpu::BindingLayout { name: "KnownWeights", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "request", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Errors", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
         ],
         constants: &[
         ],
@@ -62,19 +63,22 @@ pub mod matching_comp {
         pub example: &'a crate::gpu::Buffer,
         /// Storage buffer `KnownPixels`, read; set 0, binding 1.
         pub known_pixels: &'a crate::gpu::Buffer,
-        /// Storage buffer `Request`, read; set 0, binding 2.
+        /// Storage buffer `KnownWeights`, read; set 0, binding 2.
+        pub known_weights: &'a crate::gpu::Buffer,
+        /// Storage buffer `Request`, read; set 0, binding 3.
         pub request: &'a crate::gpu::Buffer,
-        /// Storage buffer `Errors`, written; set 0, binding 3.
+        /// Storage buffer `Errors`, written; set 0, binding 4.
         pub errors: &'a crate::gpu::Buffer,
     }
     impl<'a> Bindings<'a> {
         /// Each resource with the place it goes to.
-        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 4] {
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 5] {
             [
                 crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.example) },
                 crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.known_pixels) },
-                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.request) },
-                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.errors) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.known_weights) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.request) },
+                crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.errors) },
             ]
         }
     }

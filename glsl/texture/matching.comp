@@ -10,14 +10,16 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer Example { vec4 example[]; };
 // Of each known pixel: where it lies from the placement's first pixel, as bits, and its colour.
 layout(std430, set = 0, binding = 1) readonly buffer KnownPixels { vec4 known[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Request {
+// What the squared error of each counts.
+layout(std430, set = 0, binding = 2) readonly buffer KnownWeights { float weights[]; };
+layout(std430, set = 0, binding = 3) readonly buffer Request {
     uint groups[3]; // of this stage: what an indirect dispatch reads
     uint width;     // of the example
     uint columns;   // placements across
     uint placements;
     uint known_count;
 } request;
-layout(std430, set = 0, binding = 3) writeonly buffer Errors { float errors[]; };
+layout(std430, set = 0, binding = 4) writeonly buffer Errors { float errors[]; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
@@ -28,7 +30,7 @@ void main() {
         vec4 pixel = known[k];
         vec3 texel = example[first + floatBitsToUint(pixel.x)].rgb;
         precise vec3 difference = texel - pixel.yzw;
-        precise vec3 square = difference * difference;
+        precise vec3 square = weights[k] * (difference * difference);
         sum = sum + square.x;
         sum = sum + square.y;
         sum = sum + square.z;

@@ -177,7 +177,7 @@ def features(sequence: Path, frames: Union[str, int, range] = "..") -> Iterator[
 
 
 def texture(material: Optional[str] = None, **options: Any) -> NDArray[Any]:
-    """A procedural material, a texture after an example (`example=`), or without either a sheet of all materials (`pantin texture`):
+    """A procedural material, a texture after one example or several (`example=`), or without either a sheet of all materials (`pantin texture`):
     uint8 or uint16 [height, width, 3], or [height, width] of a `height_map`. `size` is (width, height); with `output` the picture is
     written too.
 
@@ -206,7 +206,7 @@ def _frames(frames: Union[str, int, range]) -> str:
 
 
 #: Options that are pairs or more numbers, and what stands between them on the command line.
-_JOINED = {"size": "x", "offset": ","}
+_JOINED = {"size": "x", "offset": ",", "patch": "x"}
 
 
 def _options(options: Dict[str, Any]) -> List[Tuple[str, Any]]:

@@ -180,3 +180,5 @@ def test_textures_are_arrays(tmp_path):
     assert (moved != marble).any()
     again = pantin.texture(example=tmp_path / "marble.png", size=(24, 24), patch=8, overlap=3, seed=1)
     assert again.shape == (24, 24, 3)
+    two = [tmp_path / "marble.png", tmp_path / "marble.png"]
+    assert pantin.texture(example=two, size=(24, 20), patch=(8, 4), overlap=3, seed=1).shape == (20, 24, 3)

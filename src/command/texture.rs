@@ -4,15 +4,16 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
+use clap::builder::NonEmptyStringValueParser;
 use image::codecs::png::PngEncoder;
-use image::{DynamicImage, RgbImage};
+use image::{DynamicImage, GrayImage, RgbImage};
 
 use super::draws::Draws;
 use super::output::{put, say};
 use super::progress::ProgressBar;
 use crate::files::{Choice as _, Limit, Overwrite, PICTURE_FORMATS, choices, png_name, write_atomically};
 use crate::synth::portrait;
-use crate::texture::example::{Settings, patch_count, synthesise};
+use crate::texture::example::{Example, Settings, patch_count, synthesise};
 use crate::texture::materials::{Material, MaterialKind, Parameters};
 use crate::texture::picture::{Solid, View, check_size, contact_sheet, flat, heights, lit};
 
@@ -28,9 +29,9 @@ pub(super) struct TextureArgs {
     /// List the materials, one line each; with -o also draw a sheet of all of them
     #[arg(long)]
     list: bool,
-    /// A picture to synthesise a texture from
+    /// A picture to synthesise a texture from; given several times, the best place in any of them is taken
     #[arg(long, value_name = "PICTURE")]
-    example: Option<PathBuf>,
+    example: Vec<PathBuf>,
     /// The PNG to write
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -67,9 +68,9 @@ pub(super) struct TextureArgs {
     /// With --preview person: a skinned glTF person instead of one of ellipsoids and capsules
     #[arg(long, value_name = "FILE.glb", requires = "preview")]
     person: Option<PathBuf>,
-    /// From an example: side of a patch, pixels
-    #[arg(long, value_name = "PIXELS", default_value_t = Settings::default().patch)]
-    patch: u32,
+    /// From an example: side of a patch, pixels, or its width and height: powers of two
+    #[arg(long, value_name = "SIDE|WxH", default_value = "32", value_parser = parse_patch)]
+    patch: [u32; 2],
     /// From an example: pixels by which patches overlap
     #[arg(long, value_name = "PIXELS", default_value_t = Settings::default().overlap)]
     overlap: u32,
@@ -79,9 +80,17 @@ pub(super) struct TextureArgs {
     /// From an example: error of a pixel of an overlap, 0 to 1, above which it is synthesised anew
     #[arg(long, value_name = "ERROR", default_value_t = Settings::default().delta_pixel)]
     delta_pixel: f32,
-    /// From an example: a picture of its size, dark where it may not be used
-    #[arg(long, value_name = "PICTURE", requires = "example")]
-    mask: Option<PathBuf>,
+    /// From an example: a picture of its size, dark where it may not be used. Masks go with the examples in their order: ALL uses one
+    /// whole, as one without a mask is, IGNORE not at all
+    #[arg(long, value_name = "PICTURE|ALL|IGNORE", requires = "example", alias = "sample-masks")]
+    #[arg(value_parser = NonEmptyStringValueParser::new())]
+    mask: Vec<String>,
+    /// Fill in the first example: a picture of its size, dark where it is to be synthesised, bright where it stays as it is
+    #[arg(long, value_name = "PICTURE", requires = "example", conflicts_with_all = ["size", "inpaint_channel"])]
+    inpaint: Option<PathBuf>,
+    /// Fill in the first example where this channel of it is dark, or transparent: a
+    #[arg(long, value_name = "CHANNEL", requires = "example", conflicts_with = "size")]
+    inpaint_channel: Option<Channel>,
     /// From an example: also write a picture of the patches
     #[arg(long, value_name = "FILE", requires = "example")]
     decomposition: Option<PathBuf>,
@@ -110,6 +119,27 @@ choices! {
     }
 }
 
+choices! {
+    /// A channel of a picture.
+    "channel" enum Channel => index: usize {
+        /// Red.
+        "r" Red => 0,
+        /// Green.
+        "g" Green => 1,
+        /// Blue.
+        "b" Blue => 2,
+        /// Opacity.
+        "a" Alpha => 3,
+    }
+}
+
+fn parse_patch(text: &str) -> Result<[u32; 2], String> {
+    if let Ok(side) = text.parse() {
+        return Ok([side, side]);
+    }
+    parse_size(text).map_err(|_| "expected a side in pixels, 32 say, or a width and a height, 32x16 say".into())
+}
+
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let number = |text: &str| text.parse::<u32>().ok();
     text.split_once('x')
@@ -135,7 +165,7 @@ pub(super) fn run(args: &TextureArgs) -> Result<()> {
         put!("{}", MaterialKind::of(name)?.defaults()?);
         return Ok(());
     }
-    match (&args.example, &args.material, &args.output) {
+    match (args.example.first(), &args.material, &args.output) {
         (None, None, output) => list(args, output.as_deref()),
         (_, _, None) => bail!("the PNG to write is not given, expected -o FILE"),
         (example, material, Some(output)) => {
@@ -165,10 +195,10 @@ pub(super) struct Drawn {
 pub(super) fn drawn(args: &TextureArgs) -> Result<Drawn> {
     // Said before the work, not after it.
     args.output.as_deref().map(png_name).transpose()?;
-    let drawn = match (&args.example, &args.material) {
-        (Some(example), _) => from_example(args, example)?,
-        (None, Some(name)) => Drawn { picture: of_depth(args, of_material(args, name)?), resynthesised: 0 },
-        (None, None) => Drawn { picture: of_depth(args, contact_sheet(256, args.seed)?.into()), resynthesised: 0 },
+    let drawn = match (args.example.is_empty(), &args.material) {
+        (false, _) => from_examples(args)?,
+        (true, Some(name)) => Drawn { picture: of_depth(args, of_material(args, name)?), resynthesised: 0 },
+        (true, None) => Drawn { picture: of_depth(args, contact_sheet(256, args.seed)?.into()), resynthesised: 0 },
     };
     if let Some(output) = &args.output {
         write(args, &drawn.picture, output)?;
@@ -208,7 +238,7 @@ fn of_material(args: &TextureArgs, name: &str) -> Result<DynamicImage> {
         ("--overlap", args.overlap != usual.overlap),
         ("--delta-max", args.delta_max != usual.delta_max),
         ("--delta-pixel", args.delta_pixel != usual.delta_pixel),
-        ("--mask", args.mask.is_some()),
+        ("--mask", !args.mask.is_empty()),
         ("--decomposition", args.decomposition.is_some()),
         ("--resynthesised", args.resynthesised.is_some()),
     ] {
@@ -229,15 +259,57 @@ fn of_material(args: &TextureArgs, name: &str) -> Result<DynamicImage> {
     })
 }
 
-fn read(path: &Path) -> Result<RgbImage> {
+fn read(path: &Path) -> Result<DynamicImage> {
     const EXAMPLE: Limit = Limit { what: "a picture", most: 1 << 30 };
     let context = || format!("cannot read the picture {} ({PICTURE_FORMATS} are read)", path.display());
     let file = BufReader::new(EXAMPLE.open(path)?);
     let picture = image::ImageReader::new(file).with_guessed_format().with_context(context)?;
-    Ok(picture.decode().with_context(context)?.into_rgb8())
+    picture.decode().with_context(context)
 }
 
-fn from_example(args: &TextureArgs, example: &Path) -> Result<Drawn> {
+/// A picture of lights and darks that goes with an example.
+fn read_beside(what: &str, path: &Path, example: &Path, size: (u32, u32)) -> Result<GrayImage> {
+    let picture = DynamicImage::from(read(path)?.into_rgb8()).into_luma8();
+    ensure!(
+        picture.dimensions() == size,
+        "the {what} {} has {} x {} pixels, expected the {} x {} of {}",
+        path.display(),
+        picture.width(),
+        picture.height(),
+        size.0,
+        size.1,
+        example.display()
+    );
+    Ok(picture)
+}
+
+/// The mask of an example; none where all of it may be used.
+fn mask_of(given: Option<&String>, example: &Path, size: (u32, u32)) -> Result<Option<GrayImage>> {
+    Ok(match given.map(String::as_str) {
+        None | Some("ALL") => None,
+        Some("IGNORE") => Some(GrayImage::new(size.0, size.1)),
+        Some(path) => Some(read_beside("mask", Path::new(path), example, size)?),
+    })
+}
+
+/// What of the first example is to be filled in: dark; none where a texture is made.
+fn holes_of(args: &TextureArgs, path: &Path, example: &DynamicImage) -> Result<Option<GrayImage>> {
+    let size = (example.width(), example.height());
+    if let Some(channel) = args.inpaint_channel {
+        ensure!(
+            channel != Channel::Alpha || example.color().has_alpha(),
+            "{} has no transparency, expected a picture with an opacity for --inpaint-channel a",
+            path.display()
+        );
+        let channels = example.to_rgba8();
+        return Ok(Some(GrayImage::from_fn(size.0, size.1, |x, y| {
+            image::Luma([channels.get_pixel(x, y).0[channel.index()]])
+        })));
+    }
+    args.inpaint.as_deref().map(|holes| read_beside("picture of holes", holes, path, size)).transpose()
+}
+
+fn from_examples(args: &TextureArgs) -> Result<Drawn> {
     for (name, given) in [
         ("--params", args.params.is_some()),
         ("--preview", args.preview.is_some()),
@@ -249,8 +321,22 @@ fn from_example(args: &TextureArgs, example: &Path) -> Result<Drawn> {
             bail!("{name} is for materials and means nothing with --example");
         }
     }
+    ensure!(
+        args.mask.len() <= args.example.len(),
+        "{} masks for {} examples, expected at most one for each",
+        args.mask.len(),
+        args.example.len()
+    );
+    let decoded: Vec<DynamicImage> = args.example.iter().map(|path| read(path)).collect::<Result<_>>()?;
+    let masks: Vec<Option<GrayImage>> = (0..decoded.len())
+        .map(|i| mask_of(args.mask.get(i), &args.example[i], (decoded[i].width(), decoded[i].height())))
+        .collect::<Result<_>>()?;
+    let holes = match (decoded.first(), args.example.first()) {
+        (Some(picture), Some(path)) => holes_of(args, path, picture)?,
+        _ => None,
+    };
     let settings = Settings {
-        size: args.size,
+        size: holes.as_ref().map_or(args.size, |holes| [holes.width(), holes.height()]),
         patch: args.patch,
         overlap: args.overlap,
         delta_max: args.delta_max,
@@ -258,13 +344,14 @@ fn from_example(args: &TextureArgs, example: &Path) -> Result<Drawn> {
         seed: args.seed,
         tile: args.tile,
     };
-    let picture = read(example)?;
-    let mask =
-        args.mask.as_deref().map(|path| read(path).map(|mask| DynamicImage::from(mask).into_luma8())).transpose()?;
+    let pictures: Vec<RgbImage> = decoded.into_iter().map(DynamicImage::into_rgb8).collect();
+    let examples: Vec<Example<'_>> =
+        pictures.iter().zip(&masks).map(|(picture, mask)| Example { picture, mask: mask.as_ref() }).collect();
     let device = args.backend.device()?;
     let mut progress = ProgressBar::of("texture", "patch", patch_count(&settings));
-    let synthesis = synthesise(&picture, mask.as_ref(), &settings, device.as_ref(), || progress.advance())
-        .with_context(|| format!("cannot synthesise from {}", example.display()))?;
+    let names = || args.example.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", ");
+    let synthesis = synthesise(&examples, holes.as_ref(), &settings, device.as_ref(), || progress.advance())
+        .with_context(|| format!("cannot synthesise from {}", names()))?;
     drop(progress);
     for (path, picture) in
         [(&args.decomposition, synthesis.decomposition), (&args.resynthesised, synthesis.resynthesised)]

@@ -63,6 +63,102 @@ fn an_example_grows_the_same_on_both_backends() {
     assert_eq!(read("a.png"), read("b.png"));
 }
 
+/// Several examples, a mask, patches whose sides differ, and holes, by picture and by opacity: known pixels stay, and both backends
+/// write one file.
+#[test]
+fn holes_are_filled_from_several_examples() {
+    let folder = tempfile::tempdir().unwrap();
+    let save = |name: &str, picture: image::DynamicImage| picture.save(folder.path().join(name)).unwrap();
+    let pixel = |x: u32, y: u32| [(40 + x % 8 * 20) as u8, (50 + y % 4 * 30) as u8, 90];
+    let is_hole = |x: u32, y: u32| (20..33).contains(&x) && (14..25).contains(&y);
+    let colour = |x: u32, y: u32| image::Rgb(if is_hole(x, y) { [255, 0, 255] } else { pixel(x, y) });
+    let shade = |x: u32, y: u32| image::Luma([if is_hole(x, y) { 0 } else { 255 }]);
+    save("e.png", image::RgbImage::from_fn(56, 40, colour).into());
+    save("holes.png", image::GrayImage::from_fn(56, 40, shade).into());
+    let with_opacity = |x: u32, y: u32| {
+        let image::Rgb([r, g, b]) = colour(x, y);
+        image::Rgba([r, g, b, shade(x, y).0[0]])
+    };
+    save("clear.png", image::RgbaImage::from_fn(56, 40, with_opacity).into());
+    save("other.png", image::RgbImage::from_fn(30, 30, |x, y| image::Rgb([(x * 8) as u8, 200, (y * 8) as u8])).into());
+    save("half.png", image::GrayImage::from_fn(30, 30, |x, _| image::Luma([if x < 15 { 255 } else { 0 }])).into());
+    let run = |arguments: &[&str], output: &str| {
+        let done = texture(&[arguments, &["-o", output]].concat(), folder.path());
+        assert!(done.status.success(), "{arguments:?}: {}", message(&done));
+        std::fs::read(folder.path().join(output)).unwrap()
+    };
+    let filled = run(&["--example", "e.png", "--inpaint", "holes.png", "--patch", "16x8"], "filled.png");
+    let picture = image::load_from_memory(&filled).unwrap().into_rgb8();
+    assert_eq!(picture.dimensions(), (56, 40));
+    // The pattern repeats, so what belongs in the hole is known.
+    assert!(picture.enumerate_pixels().all(|(x, y, found)| found.0 == pixel(x, y)));
+    assert!(
+        filled == run(&["--example", "clear.png", "--inpaint-channel", "a", "--patch", "16x8"], "clear_filled.png")
+    );
+    let several = ["--example", "e.png", "--example", "other.png", "--mask", "ALL", "--mask", "half.png"];
+    let grown = ["--size", "48x40", "--patch", "4x16", "--delta-max", "0.005", "--seed", "3"];
+    let other = ["--example", "e.png", "--example", "other.png", "--mask", "IGNORE", "--inpaint", "holes.png"];
+    let requests = [[&several[..], &grown].concat(), [&other[..], &["--delta-pixel", "0.01"]].concat()];
+    for (i, request) in requests.iter().enumerate() {
+        let here = run(request, &format!("here{i}.png"));
+        let picture = image::load_from_memory(&here).unwrap().into_rgb8();
+        if i == 1 {
+            assert!(picture.enumerate_pixels().all(|(x, y, found)| is_hole(x, y) || found.0 == pixel(x, y)));
+            assert!(picture.get_pixel(26, 19).0[1] > 150, "the hole has nothing of the other example");
+        }
+        let there = [&request[..], &["--backend", "device", "-o", "there.png", "--force"]].concat();
+        let device = texture(&there, folder.path());
+        if !device.status.success() && std::env::var_os("PANTIN_NEEDS_VULKAN").is_none() {
+            println!("SKIPPED the device of holes_are_filled_from_several_examples: {}", message(&device));
+            continue;
+        }
+        assert!(device.status.success(), "{}", message(&device));
+        assert!(here == std::fs::read(folder.path().join("there.png")).unwrap(), "{request:?}");
+    }
+}
+
+#[test]
+fn bad_holes_and_masks_are_one_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let save = |name: &str, size: u32, value: u8| {
+        image::GrayImage::from_pixel(size, size, image::Luma([value])).save(folder.path().join(name)).unwrap();
+    };
+    save("e.png", 12, 120);
+    save("small.png", 9, 255);
+    save("dark.png", 12, 0);
+    let example = ["--example", "e.png", "-o", "x.png"];
+    for (arguments, status, expected) in [
+        (&["--mask", "small.png"][..], 1, "the mask small.png has 9 x 9 pixels, expected the 12 x 12 of e.png"),
+        (
+            &["--inpaint", "small.png"],
+            1,
+            "the picture of holes small.png has 9 x 9 pixels, expected the 12 x 12 of e.png",
+        ),
+        (&["--mask", "dark.png"], 1, "the mask is dark all over"),
+        (&["--mask", "IGNORE"], 1, "the mask is dark all over"),
+        (&["--inpaint", "dark.png"], 1, "nothing of the example is known"),
+        (&["--inpaint-channel", "a"], 1, "e.png has no transparency"),
+        (&["--mask", "ALL", "--mask", "ALL"], 1, "2 masks for 1 examples, expected at most one for each"),
+        (&["--inpaint", "nowhere.png"], 1, "nowhere.png"),
+        (&["--example", "nowhere.png"], 1, "nowhere.png"),
+        (&["--patch", "24"], 1, "patches of 24 pixels a side, expected powers of two"),
+        (&["--patch", "16x0"], 1, "patches of 16 x 0 pixels, expected powers of two"),
+        (&["--mask="], 2, "a value is required for '--mask"),
+        (&["--patch", "wide"], 2, "expected a side in pixels, 32 say, or a width and a height, 32x16 say"),
+        (&["--inpaint", "dark.png", "--size", "12x12"], 2, "--size"),
+        (&["--inpaint-channel", "x"], 2, "unknown channel `x`"),
+    ] {
+        let failed = texture(&[&example[..], arguments].concat(), folder.path());
+        let message = message(&failed);
+        assert_eq!(failed.status.code(), Some(status), "{arguments:?}: {message}");
+        assert!(message.contains(expected), "{arguments:?}: {message}");
+        assert!(status == 2 || message.trim().lines().count() == 1, "{arguments:?}: {message}");
+        assert!(!folder.path().join("x.png").exists(), "{arguments:?} wrote something");
+    }
+    let failed = texture(&["marble", "-o", "x.png", "--patch", "16x8"], folder.path());
+    assert!(message(&failed).contains("--patch is for --example"));
+}
+
 #[test]
 fn parameters_are_listed_as_they_are_read() {
     let folder = tempfile::tempdir().unwrap();
@@ -102,7 +198,7 @@ fn examples_come_in_every_format() {
         let (from, to) = (format!("e.{end}"), format!("{end}.png"));
         example.save(folder.path().join(&from)).unwrap();
         let done = texture(
-            &["--example", &from, "-o", &to, "--size", "32x32", "--patch", "12", "--overlap", "4"],
+            &["--example", &from, "-o", &to, "--size", "32x32", "--patch", "16", "--overlap", "4"],
             folder.path(),
         );
         assert!(done.status.success(), "{end}: {}", message(&done));

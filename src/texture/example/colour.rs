@@ -25,4 +25,6 @@ pub struct Known {
     pub y: usize,
     /// Its colour.
     pub colour: Weighted,
+    /// What its squared error counts: 1, or less far from the middle of a neighbourhood.
+    pub weight: f32,
 }

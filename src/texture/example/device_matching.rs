@@ -14,6 +14,7 @@ pub(super) struct DeviceMatching {
     device: Device,
     width: usize,
     known: Buffer,
+    weights: Buffer,
     request: Buffer,
     errors: Buffer,
     recording: Mutex<Recording>,
@@ -30,13 +31,20 @@ impl DeviceMatching {
         let example = device.buffer::<[f32; 4]>("example", area, Memory::Upload)?;
         example.write(0, &rows)?;
         let known = device.buffer::<[f32; 4]>("known pixels", area, Memory::Upload)?;
+        let weights = device.buffer::<f32>("weights", area, Memory::Upload)?;
         let request = device.buffer::<layout::Request>("request", 1, Memory::Upload)?;
         let errors = device.buffer::<f32>("errors", area, Memory::Readback)?;
-        let bindings =
-            matching_comp::Bindings { example: &example, known_pixels: &known, request: &request, errors: &errors };
+        let bindings = matching_comp::Bindings {
+            example: &example,
+            known_pixels: &known,
+            known_weights: &weights,
+            request: &request,
+            errors: &errors,
+        };
         let mut recorder = device.recorder(Timing::Off)?;
         recorder.run(bindings.dispatch(Groups::Indirect(&request, 0)))?;
-        Ok(Self { device: device.clone(), width, known, request, errors, recording: Mutex::new(recorder.finish()?) })
+        let recording = Mutex::new(recorder.finish()?);
+        Ok(Self { device: device.clone(), width, known, weights, request, errors, recording })
     }
 
     /// The sums of squared errors over the known pixels of a region, for each of so many columns and rows of placements.
@@ -56,6 +64,7 @@ impl DeviceMatching {
         let placements = (columns * rows) as u32;
         let mut recording = self.recording.lock().unwrap_or_else(PoisonError::into_inner);
         self.known.write(0, &known.iter().map(pixel).collect::<Vec<_>>())?;
+        self.weights.write(0, &known.iter().map(|pixel| pixel.weight).collect::<Vec<_>>())?;
         let groups = placements.div_ceil(matching_comp::SHADER.workgroup_size[0]);
         self.request.write(
             0,

@@ -1,20 +1,21 @@
 //! Where in the example a region with some pixels known fits best: the weighted squared error of every placement at once
 //! (METHOD B3), by cross-correlation with Fourier transforms or, for few known pixels, directly.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use anyhow::Result;
 use image::RgbImage;
-use rayon::prelude::*;
 use rustfft::num_complex::Complex32;
 use rustfft::{Fft, FftPlanner};
 
 use super::colour::{Known, Weighted, squared_error, weighted};
 use super::device_matching::DeviceMatching;
+use super::direct::{self, LANES};
 use crate::gpu::Device;
 
-/// Placements that the direct way measures in one go.
-const LANES: usize = 16;
+/// Of so many known pixels one is summed, where a guess limits the sum: an estimate, for photographs and materials alike.
+const SAVED: usize = 4;
 
 /// How errors are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,12 +139,15 @@ impl Matcher {
         at(right, bottom) + at(x, y) == at(right, y) + at(x, bottom)
     }
 
-    /// Some placement of a region of `size`, chosen by `die`; none when no placement is usable.
-    pub fn any(&self, size: [usize; 2], die: u32) -> Option<[usize; 2]> {
-        let [columns, rows] = self.placements(size)?;
-        let usable = |i: usize| self.is_usable(i % columns, i / columns, size).then_some([i % columns, i / columns]);
-        let first = ((u64::from(die) * (columns * rows) as u64) >> 32) as usize;
-        (first..columns * rows).chain(0..first).find_map(usable)
+    /// Placements of a region of `size` within the example.
+    pub fn placement_count(&self, size: [usize; 2]) -> usize {
+        self.placements(size).map_or(0, |[columns, rows]| columns * rows)
+    }
+
+    /// The first usable one of these placements of a region of `size`, counted row by row.
+    pub fn first_usable(&self, size: [usize; 2], mut placements: Range<usize>) -> Option<[usize; 2]> {
+        let [columns, _] = self.placements(size)?;
+        placements.find(|i| self.is_usable(i % columns, i / columns, size)).map(|i| [i % columns, i / columns])
     }
 
     /// The usable placement of a region of `size` with the least sum of squared errors over its known pixels, and that sum; the
@@ -153,41 +157,79 @@ impl Matcher {
     /// # Errors
     /// When the device that measures fails.
     pub fn best(&self, size: [usize; 2], known: &[Known]) -> Result<Option<([usize; 2], f32)>> {
+        self.best_below(size, known, f32::INFINITY)
+    }
+
+    /// As [`Self::best`], but none either where no sum is below `limit`. The lower this is, the sooner a placement is given up.
+    ///
+    /// # Errors
+    /// When the device that measures fails.
+    pub fn best_below(&self, size: [usize; 2], known: &[Known], limit: f32) -> Result<Option<([usize; 2], f32)>> {
         let Some([columns, rows]) = self.placements(size) else { return Ok(None) };
-        let way = self.cheaper(columns * rows, known.len());
-        let errors = match &self.on_device {
-            Some(matching) => matching.errors([columns, rows], known)?,
-            None => self.errors(size, known, way),
-        };
         let usable = |i: &usize| self.is_usable(i % columns, i / columns, size);
         let least = |best: Option<(usize, f32)>, (i, error): (usize, f32)| {
-            if best.is_none_or(|(_, least)| error < least) { Some((i, error)) } else { best }
+            if error < best.map_or(limit, |(_, least)| least) { Some((i, error)) } else { best }
         };
         let places = 0..columns * rows;
-        let mut best = places.clone().filter(usable).map(|i| (i, errors[i])).fold(None, least);
-        if self.on_device.is_none()
-            && way == Way::Fourier
-            && let Some((_, rough)) = best
-        {
+        let best = if let Some(matching) = &self.on_device {
+            let errors = matching.errors([columns, rows], known)?;
+            places.filter(usable).map(|i| (i, errors[i])).fold(None, least)
+        } else if self.is_given_up_soon(columns * rows, known.len(), limit) {
+            direct::least(&self.planes, self.width, [columns, rows], known, limit, &usable)
+        } else {
+            let errors = self.errors(size, known, Way::Fourier);
+            let Some((_, rough)) =
+                places.clone().filter(usable).map(|i| (i, errors[i])).fold(None, |best, next| {
+                    if best.is_none_or(|(_, least)| next.1 < least) { Some(next) } else { best }
+                })
+            else {
+                return Ok(None);
+            };
             // Transforms in single precision err by some units of the last place of the sums that they pass through.
             let slack = 1e-4 + 4e-6 * ((self.width * self.height * known.len()) as f32).sqrt();
             let near = places.filter(|&i| errors[i] <= rough + 2.0 * slack).filter(usable);
-            best = near.map(|i| (i, self.error_at(i % columns, i / columns, known))).fold(None, least);
-        }
+            near.map(|i| (i, self.error_at(i % columns, i / columns, known))).fold(None, least)
+        };
         Ok(best.map(|(i, error)| ([i % columns, i / columns], error)))
+    }
+
+    /// The sum of squared errors at a placement of a region of `size`, to the bit as [`Way::Direct`] has it; infinite where the
+    /// placement is not usable, and where the sum is found to exceed `limit`.
+    pub fn error_within(&self, size: [usize; 2], [x, y]: [usize; 2], known: &[Known], limit: f32) -> f32 {
+        let is_within = self.placements(size).is_some_and(|[columns, rows]| x < columns && y < rows);
+        if !is_within || !self.is_usable(x, y, size) {
+            return f32::INFINITY;
+        }
+        let mut sum = 0.0;
+        for some in known.chunks(16) {
+            sum = self.added(sum, [x, y], some);
+            if sum > limit {
+                return f32::INFINITY;
+            }
+        }
+        sum
     }
 
     /// The sum of squared errors at one placement, to the bit as [`Way::Direct`] has it.
     fn error_at(&self, x: usize, y: usize, known: &[Known]) -> f32 {
-        let mut sum = 0.0;
+        self.added(0.0, [x, y], known)
+    }
+
+    fn added(&self, mut sum: f32, [x, y]: [usize; 2], known: &[Known]) -> f32 {
         for pixel in known {
             let texel = self.colour(x + pixel.x, y + pixel.y);
             for (texel, colour) in texel.iter().zip(pixel.colour) {
                 let difference = texel - colour;
-                sum += difference * difference;
+                sum += pixel.weight * (difference * difference);
             }
         }
         sum
+    }
+
+    /// Whether to measure directly. Below a limit that a good guess has set most placements are given up after few pixels.
+    fn is_given_up_soon(&self, placements: usize, known: usize, limit: f32) -> bool {
+        let known = if limit < f32::INFINITY { known.div_ceil(SAVED) } else { known };
+        self.cheaper(placements, known) == Way::Direct
     }
 
     /// The way that takes fewer operations, by count: an estimate, since products summed directly are vector code.
@@ -203,20 +245,16 @@ impl Matcher {
         match way {
             Way::Direct => {
                 let mut errors = vec![0.0; columns * rows];
-                // Small sums are not worth waking threads for.
-                let rows_a_task = (200_000 / (columns * known.len().max(1))).max(1);
-                errors.par_chunks_mut(columns * rows_a_task).enumerate().for_each(|(task, errors)| {
-                    for (row, errors) in errors.chunks_exact_mut(columns).enumerate() {
-                        row_of_errors(&self.planes, self.width, task * rows_a_task + row, known, errors);
-                    }
-                });
+                for (row, errors) in errors.chunks_exact_mut(columns).enumerate() {
+                    direct::row_of_errors(&self.planes, self.width, row, known, f32::INFINITY, errors);
+                }
                 errors
             }
             Way::Fourier => self.correlated([columns, rows], known),
         }
     }
 
-    /// sum m (T - O)^2 = m * T^2 - 2 mO * T + sum m O^2, `*` the cross-correlation: a product of transforms. Regions lie
+    /// sum w (T - O)^2 = w * T^2 - 2 wO * T + sum w O^2, `*` the cross-correlation: a product of transforms. Regions lie
     /// within the example, so the correlation's wrapping around never shows.
     fn correlated(&self, [columns, rows]: [usize; 2], known: &[Known]) -> Vec<f32> {
         let area = self.width * self.height;
@@ -225,7 +263,7 @@ impl Matcher {
             let mut values = vec![Complex32::default(); area];
             for pixel in known {
                 let (re, im) = pair(pixel);
-                values[pixel.y * self.width + pixel.x] = Complex32::new(re, im);
+                values[pixel.y * self.width + pixel.x] = pixel.weight * Complex32::new(re, im);
             }
             self.forward(values)
         };
@@ -233,7 +271,7 @@ impl Matcher {
             || packed(&|pixel| (1.0, pixel.colour[0])),
             || packed(&|pixel| (pixel.colour[1], pixel.colour[2])),
         );
-        let constant: f32 = known.iter().map(|pixel| squared_error(pixel.colour, [0.0; 3])).sum();
+        let constant: f32 = known.iter().map(|pixel| pixel.weight * squared_error(pixel.colour, [0.0; 3])).sum();
         // Transposed: index = x * height + y.
         let mut product = vec![Complex32::default(); area];
         for x in 0..self.width {
@@ -261,108 +299,5 @@ impl Matcher {
     }
 }
 
-/// One row of errors, sixteen placements at a time.
-#[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
-fn row_of_errors(planes: &[Vec<f32>; 3], width: usize, row: usize, known: &[Known], errors: &mut [f32]) {
-    for (chunk, errors) in errors.chunks_mut(LANES).enumerate() {
-        let mut sums = [0.0_f32; LANES];
-        for pixel in known {
-            let from = (row + pixel.y) * width + chunk * LANES + pixel.x;
-            for (plane, colour) in planes.iter().zip(pixel.colour) {
-                let texels = &plane[from..from + LANES];
-                for lane in 0..LANES {
-                    let difference = texels[lane] - colour;
-                    sums[lane] += difference * difference;
-                }
-            }
-        }
-        errors.copy_from_slice(&sums[..errors.len()]);
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::texture::noise::mixed;
-    use image::Rgb;
-
-    fn example(width: u32, height: u32) -> RgbImage {
-        RgbImage::from_fn(width, height, |x, y| {
-            let word = mixed(u64::from(y * 1000 + x));
-            Rgb([word as u8, (word >> 8) as u8, (word >> 16) as u8])
-        })
-    }
-
-    #[test]
-    fn both_ways_measure_what_the_definition_says() {
-        for (width, height) in [(37, 22), (64, 64), (5, 40)] {
-            let matcher = Matcher::new(&example(width, height), None);
-            let size = [5, 7];
-            let known: Vec<Known> = (0..20)
-                .map(|i| {
-                    let word = mixed(900 + i);
-                    let colour = weighted([word as u8, (word >> 8) as u8, (word >> 16) as u8].map(f32::from));
-                    Known { x: i as usize % 5, y: i as usize / 5 + i as usize % 2, colour }
-                })
-                .filter(|pixel| (pixel.x, pixel.y) != (0, 0))
-                .collect();
-            let mut once = std::collections::HashSet::new();
-            let known: Vec<Known> = known.into_iter().filter(|pixel| once.insert((pixel.x, pixel.y))).collect();
-            let (direct, fourier) =
-                (matcher.errors(size, &known, Way::Direct), matcher.errors(size, &known, Way::Fourier));
-            let columns = width as usize - 4;
-            assert_eq!(direct.len(), columns * (height as usize - 6));
-            for (i, (direct, fourier)) in direct.iter().zip(&fourier).enumerate() {
-                let (x, y) = (i % columns, i / columns);
-                let sum: f64 = known
-                    .iter()
-                    .map(|pixel| f64::from(squared_error(matcher.colour(x + pixel.x, y + pixel.y), pixel.colour)))
-                    .sum();
-                assert!((f64::from(*direct) - sum).abs() < 1e-4, "{direct} {sum}");
-                assert!((f64::from(*fourier) - sum).abs() < 1e-3, "{fourier} {sum}");
-            }
-        }
-    }
-
-    #[test]
-    fn the_choice_does_not_depend_on_the_way() {
-        // Regions of pieces that are nowhere in the example, many of them nearly as good as the best.
-        let picture = RgbImage::from_fn(64, 64, |x, y| {
-            let word = mixed(u64::from(y * 1000 + x)) % 3;
-            Rgb([(100 + x % 8 * 10 + word) as u8, (90 + y % 8 * 9 + word) as u8, 60])
-        });
-        let matcher = Matcher::new(&picture, None);
-        for piece in 0..30_u64 {
-            let known: Vec<Known> = (0..400)
-                .map(|i| {
-                    let colour = [(100 + (i % 20 + 3 * piece) % 80) as f32, (90 + (i / 20 * 7) % 60) as f32, 61.0];
-                    Known { x: i as usize % 20, y: i as usize / 20, colour: weighted(colour) }
-                })
-                .collect();
-            assert_eq!(matcher.cheaper(45 * 45, 400), Way::Fourier);
-            let (place, error) = matcher.best([20, 20], &known).unwrap().unwrap();
-            let direct = matcher.errors([20, 20], &known, Way::Direct);
-            let least = direct.iter().copied().fold(f32::INFINITY, f32::min);
-            let first = direct.iter().position(|error| *error == least).unwrap();
-            assert_eq!((place, error.to_bits()), ([first % 45, first / 45], least.to_bits()));
-        }
-    }
-
-    #[test]
-    fn a_piece_of_the_example_is_found_where_it_is_unless_forbidden() {
-        let picture = example(40, 30);
-        let matcher = Matcher::new(&picture, None);
-        let known: Vec<Known> =
-            (0..64).map(|i| Known { x: i % 8, y: i / 8, colour: matcher.colour(11 + i % 8, 9 + i / 8) }).collect();
-        let (place, error) = matcher.best([8, 8], &known).unwrap().unwrap();
-        assert_eq!(place, [11, 9]);
-        assert!(error < 1e-3);
-        let usable: Vec<bool> = (0..1200).map(|i| i != 12 * 40 + 13).collect();
-        let matcher = Matcher::new(&picture, Some(&usable));
-        let ([x, y], _) = matcher.best([8, 8], &known).unwrap().unwrap();
-        assert!(!(x..x + 8).contains(&13) || !(y..y + 8).contains(&12), "{x} {y} covers the forbidden pixel");
-        assert_eq!(matcher.best([41, 1], &known).unwrap(), None);
-        let none = Matcher::new(&picture, Some(&[false; 1200]));
-        assert_eq!(none.any([1, 1], 77), None);
-    }
-}
+mod tests;

@@ -4,7 +4,12 @@ use super::*;
 use crate::gpu::DeviceSettings;
 use crate::gpu::test_device::device;
 use crate::texture::materials::Parameters;
-use image::{Luma, Rgb};
+use crate::texture::noise::mixed;
+use image::{Luma, Rgb, RgbImage};
+
+mod holes;
+mod several;
+mod shapes;
 
 /// Stripes and dots with a little noise.
 fn example(width: u32, height: u32) -> RgbImage {
@@ -15,16 +20,20 @@ fn example(width: u32, height: u32) -> RgbImage {
     })
 }
 
+fn whole(picture: &RgbImage) -> Example<'_> {
+    Example { picture, mask: None }
+}
+
 fn synthesised(example: &RgbImage, settings: Settings) -> Synthesis {
     let mut steps = 0;
-    let synthesis = synthesise(example, None, &settings, None, || steps += 1).unwrap();
+    let synthesis = synthesise(&[whole(example)], None, &settings, None, || steps += 1).unwrap();
     assert_eq!(steps, patch_count(&settings));
     assert_eq!([synthesis.picture.width(), synthesis.picture.height()], settings.size);
     synthesis
 }
 
 const SMALL: Settings =
-    Settings { size: [70, 50], patch: 16, overlap: 4, delta_max: 0.02, delta_pixel: 0.03, seed: 1, tile: false };
+    Settings { size: [70, 50], patch: [16, 16], overlap: 4, delta_max: 0.02, delta_pixel: 0.03, seed: 1, tile: false };
 
 /// Sides of the patches: red of the decomposition tells pixels (1) from whole patches (0).
 fn share_of_pixels(synthesis: &Synthesis) -> f64 {
@@ -86,8 +95,9 @@ fn a_device_chooses_what_the_processor_chooses() {
             Settings { delta_max: 0.003, tile: true, ..SMALL },
             Settings { size: [20, 16], delta_max: 0.0, ..SMALL },
         ] {
-            let here = synthesise(example, mask, &settings, None, || ()).unwrap();
-            let there = synthesise(example, mask, &settings, Some(&device), || ()).unwrap();
+            let examples = [Example { picture: example, mask }];
+            let here = synthesise(&examples, None, &settings, None, || ()).unwrap();
+            let there = synthesise(&examples, None, &settings, Some(&device), || ()).unwrap();
             assert!(here.picture == there.picture && here.decomposition == there.decomposition, "{settings:?}");
             assert_eq!(here.resynthesised_count, there.resynthesised_count);
         }
@@ -125,7 +135,7 @@ fn odd_examples_give_sane_textures() {
                 assert!(picture.pixels().all(|pixel| pixel == example.get_pixel(0, 0)));
             }
             synthesised(&example, Settings { size: [1, 1], tile: true, ..settings });
-            synthesised(&example, Settings { size: [5, 40], patch: 7, tile: true, ..settings });
+            synthesised(&example, Settings { size: [5, 40], patch: [8, 8], tile: true, ..settings });
         }
     }
 }
@@ -136,7 +146,8 @@ fn masked_pixels_are_not_used() {
     let example = RgbImage::from_fn(40, 40, |x, y| Rgb([if x < 20 { (x * 3 + y) as u8 } else { 255 }; 3]));
     let mask = GrayImage::from_fn(40, 40, |x, _| Luma([if x < 20 { 255 } else { 0 }]));
     let settings = Settings { delta_pixel: 1.0, ..SMALL };
-    let synthesis = synthesise(&example, Some(&mask), &settings, None, || ()).unwrap();
+    let examples = [Example { picture: &example, mask: Some(&mask) }];
+    let synthesis = synthesise(&examples, None, &settings, None, || ()).unwrap();
     assert!(synthesis.picture.pixels().all(|pixel| pixel.0[0] < 120));
 }
 
@@ -144,11 +155,17 @@ fn masked_pixels_are_not_used() {
 fn wrong_settings_are_named() {
     let example = example(10, 10);
     let message = |settings: Settings, mask: Option<&GrayImage>| {
-        synthesise(&example, mask, &settings, None, || ()).unwrap_err().to_string()
+        synthesise(&[Example { picture: &example, mask }], None, &settings, None, || ()).unwrap_err().to_string()
     };
     assert!(message(Settings { size: [0, 5], ..SMALL }, None).contains("a texture of 0 x 5 pixels"));
     assert!(message(Settings { size: [u32::MAX, u32::MAX], ..SMALL }, None).contains("expected 1 to 67108864"));
-    assert!(message(Settings { patch: 0, ..SMALL }, None).contains("patches of 0 pixels"));
+    assert!(message(Settings { patch: [0, 0], ..SMALL }, None).contains("patches of 0 pixels"));
+    let expected = "patches of 24 pixels a side, expected powers of two from 1 to 4096";
+    assert!(message(Settings { patch: [24, 24], ..SMALL }, None).contains(expected));
+    assert!(
+        message(Settings { patch: [16, 20], ..SMALL }, None).contains("patches of 16 x 20 pixels, expected powers")
+    );
+    assert!(message(Settings { patch: [8192, 16], ..SMALL }, None).contains("patches of 8192 x 16 pixels"));
     assert!(message(Settings { overlap: 2, ..SMALL }, None).contains("overlap by 2 pixels, expected 3 to 1024"));
     assert!(message(Settings { delta_max: f32::NAN, ..SMALL }, None).contains("delta_max is NaN"));
     assert!(message(Settings { delta_pixel: 2.0, ..SMALL }, None).contains("delta_pixel is 2"));
@@ -156,6 +173,6 @@ fn wrong_settings_are_named() {
         message(SMALL, Some(&GrayImage::new(9, 10))).contains("mask has 9 x 10 pixels, expected the example's 10 x 10")
     );
     assert!(message(SMALL, Some(&GrayImage::new(10, 10))).contains("dark all over"));
-    let empty = synthesise(&RgbImage::new(0, 3), None, &SMALL, None, || ()).unwrap_err().to_string();
+    let empty = synthesise(&[whole(&RgbImage::new(0, 3))], None, &SMALL, None, || ()).unwrap_err().to_string();
     assert!(empty.contains("an example of 0 x 3 pixels"), "{empty}");
 }
