@@ -56,7 +56,6 @@ fn object(device: &DeviceFacts) -> Value {
         "memory_mb": device.capabilities.memory / (1 << 20),
         "usable": device.usable,
         "reasons": device.reasons,
-        "drawing": kept_kernels(device),
     })
 }
 
