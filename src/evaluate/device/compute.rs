@@ -146,7 +146,12 @@ impl Rasteriser for ComputeRasteriser {
 
     fn footprint(&self) -> Footprint {
         // Bits in registers, or keys in shared memory: no pixel of a candidate is written to memory.
-        let tile = if self.mesh.is_some() { MESH_TILE } else { RASTER_TILE };
+        let tile = match (&self.mesh, self.kernel) {
+            (Some(_), _) => MESH_TILE,
+            (None, RasterKernel::Rows) => RASTER_TILE,
+            // 32 pixels an invocation, in one row of a strip or more.
+            (None, RasterKernel::Spans { group, .. }) => [32 * group, 1],
+        };
         Footprint { tile, bytes_per_pixel: 0.0 }
     }
 

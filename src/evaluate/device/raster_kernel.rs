@@ -21,7 +21,7 @@ pub enum RasterKernel {
 }
 
 impl RasterKernel {
-    /// Spans by subgroups and by their doubles and fourfolds, by workgroups an image.
+    /// Invocations of a workgroup and workgroups of an image that are measured.
     const SPANS: [[u32; 2]; 6] = [[32, 2], [64, 1], [64, 2], [64, 4], [128, 1], [128, 4]];
 
     /// All that are measured: those whose workgroups a device of this limit allows.
