@@ -86,8 +86,7 @@ impl DrawnMesh {
             planes: &scene.planes.buffer,
             triangles: &mesh.triangles.buffer,
             all_sums: &workspace.sums,
-            // Not read where everything counts.
-            counted: scene.counted.as_ref().map_or(&scene.planes.buffer, |counted| &counted.planes.buffer),
+            counted: scene.counted_planes(),
             vertices: &mesh.vertices.buffer,
             edges: &mesh.edges.buffer,
         };

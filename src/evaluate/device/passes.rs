@@ -74,8 +74,6 @@ pub(super) fn raster(
         Images::Listed(list) => (true, list, Groups::Indirect(list, 0)),
     };
     let ignores = scene.counted.is_some();
-    // Nor are these where everything counts.
-    let counted = scene.counted.as_ref().map_or(&scene.planes.buffer, |counted| &counted.planes.buffer);
     let whole = raster_comp::Bindings {
         cameras: &scene.cameras.buffer,
         quads: &workspace.quads,
@@ -83,9 +81,9 @@ pub(super) fn raster(
         planes: &scene.planes.buffer,
         list,
         all_sums: &workspace.sums,
-        counted,
+        counted: scene.counted_planes(),
     };
-    let raster_comp::Bindings { cameras, quads, all_bounds, planes, list, all_sums, .. } = whole;
+    let raster_comp::Bindings { cameras, quads, all_bounds, planes, list, all_sums, counted } = whole;
     match summed {
         Summed::Nothing => {
             let dispatch = whole.dispatch(raster_comp::Constants { listed, ignores }, scene.batch(share), groups);

@@ -9,7 +9,7 @@ use crate::evaluate::rig::{Rig, RigCamera, RigLens};
 use crate::evaluate::shaders::{PROJECT_GROUP, layout};
 use crate::features::Observation;
 use crate::geometry::Camera;
-use crate::gpu::{Device, Recorder, StagedBuffer};
+use crate::gpu::{Buffer, Device, Recorder, StagedBuffer};
 
 /// Most parts of a body: a workgroup holds all parts of an image.
 pub(crate) const MOST_PARTS: usize = PROJECT_GROUP as usize;
@@ -123,6 +123,11 @@ impl DeviceScene {
             pixels: StagedBuffer::of(&self.device, "counted pixels", &vec![u32::MAX; words])?,
         });
         Ok(true)
+    }
+
+    /// The planes of what counts, for stages to bind; any buffer where everything does, since it is not read then.
+    pub(super) fn counted_planes(&self) -> &Buffer {
+        self.counted.as_ref().map_or(&self.planes.buffer, |counted| &counted.planes.buffer)
     }
 
     /// Takes another body of as many bones, parts and degrees of freedom.

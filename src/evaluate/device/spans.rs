@@ -35,8 +35,7 @@ pub(super) fn raster(
         all_bounds: &workspace.bounds,
         planes: &scene.planes.buffer,
         all_sums: &workspace.sums,
-        // Not read where everything counts.
-        counted: scene.counted.as_ref().map_or(&scene.planes.buffer, |counted| &counted.planes.buffer),
+        counted: scene.counted_planes(),
     };
     let raster_spans_comp::Bindings { cameras, quads, all_bounds, planes, all_sums, counted } = whole;
     let push = scene.batch(share);
