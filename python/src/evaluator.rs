@@ -10,7 +10,7 @@ use pantin::evaluate::{self, Components, Objective, ObjectiveKind};
 use pantin::features::Observation;
 use pantin::files::Choice as _;
 use pantin::sequence::Sequence;
-use pantin::track::{Backend, ObjectiveChoice, ScoredFrame};
+use pantin::track::{Drawing, ObjectiveChoice, ScoredFrame};
 use pyo3::prelude::*;
 
 use crate::arrays::{pose, rows, shaped};
@@ -29,10 +29,10 @@ pub(crate) struct Evaluator {
 
 impl Evaluator {
     fn build(body: &pantin::body::Body, cameras: &[pantin::geometry::Camera], names: [&str; 2]) -> Result<Self> {
-        let (backend, model) = (Backend::named(names[0])?, Model::named(names[1])?);
+        let (backend, model) = (Drawing::named(names[0])?, Model::named(names[1])?);
         let mesh = model.mesh(body)?;
         let standing: Vec<f32> = body.standing_pose().iter().map(|value| *value as f32).collect();
-        let built = backend.build(mesh.as_ref(), body, cameras, &standing)?;
+        let built = backend.build(&[], mesh.as_ref(), body, cameras, &standing)?;
         let names = [built.evaluator.name(), built.evaluator.variant()];
         let (views, dofs) = (cameras.len(), body.dof_count());
         Ok(Self { evaluator: Mutex::new(built.evaluator), views, dofs, reason: built.reason, names })

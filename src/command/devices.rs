@@ -7,7 +7,7 @@ use super::output::say;
 use crate::bench::Scene;
 use crate::evaluate::device::kept_kernels;
 use crate::gpu::{DeviceFacts, Instance, Validation, devices};
-use crate::track::Backend;
+use crate::track::Drawing;
 
 /// Lists the Vulkan devices of this machine in Vulkan's order: what each can do, whether pantin can use it, what it lacks;
 /// and which backend --backend auto would take on a built-in scene, and why. Without Vulkan the list is empty.
@@ -25,7 +25,7 @@ pub(super) struct DevicesArgs {
 pub(super) fn run(args: &DevicesArgs) -> Result<()> {
     let found = Instance::open(Validation::Off).and_then(|instance| devices(&instance));
     let scene = Scene::new([640, 480], 280.0)?;
-    let auto = Backend::Auto.build(None, &scene.body, &scene.cameras, &scene.pose)?;
+    let auto = Drawing::default().build(&[], None, &scene.body, &scene.cameras, &scene.pose)?;
     let backend = auto.evaluator.name();
     if args.json {
         let list: Vec<Value> = found.iter().flatten().map(object).collect();

@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use anyhow::{Result, anyhow};
 
+use super::drawing_flags::DrawingFlags;
 use super::objective_flags::ObjectiveFlags;
 use super::output::{Output, say, tell};
 use crate::body::{Body, Model, PoseTable};
 use crate::files::{OutputFolder, Overwrite};
 use crate::sequence::{Sequence, read_cameras};
-use crate::track::{Backend, ScoredFrame, score_poses, write_fitness};
+use crate::track::{ScoredFrame, score_poses, write_fitness};
 
 /// Scores given poses against one frame: components.csv (counts of pixels a pose and view) and fitness.csv, segments.csv where body
 /// parts are told apart, evidence.csv where there is soft evidence, and with --images every candidate as it was drawn. Without -o
@@ -35,9 +36,8 @@ pub(super) struct EvaluateArgs {
     /// The poses.
     #[arg(long, value_name = "poses.csv")]
     poses: PathBuf,
-    /// Who scores them.
-    #[arg(long, value_name = "NAME", default_value_t)]
-    backend: Backend,
+    #[command(flatten)]
+    drawing: DrawingFlags,
     /// What the body is drawn as.
     #[arg(long, value_name = "NAME", default_value_t)]
     model: Model,
@@ -81,7 +81,8 @@ pub(super) fn run(args: &EvaluateArgs) -> Result<()> {
     let poses = PoseTable::read(&args.poses, &frame.body)?;
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     let output = args.output.as_deref().map(|path| OutputFolder::create(path, overwrite)).transpose()?;
-    let scores = score_poses(&frame, &poses, args.backend, args.model, &objective, output.as_ref(), args.images)?;
+    let (drawing, devices) = (args.drawing.drawing(args.model)?, &args.drawing.devices);
+    let scores = score_poses(&frame, &poses, drawing, devices, args.model, &objective, output.as_ref(), args.images)?;
     tell!("{}", scores.backend);
     if scores.drawn_by_reference {
         tell!("the images are drawn by the reference: this backend keeps no picture of a candidate");

@@ -10,6 +10,7 @@ mod convert;
 mod convert_poses;
 mod demo;
 mod devices;
+mod drawing_flags;
 mod draws;
 mod evaluate;
 mod features;

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Result, bail};
 use clap::ArgAction;
 
+use super::drawing_flags::DrawingFlags;
 use super::interrupt::Interrupt;
 use super::objective_flags::ObjectiveFlags;
 use super::output::{say, tell};
@@ -18,8 +19,8 @@ use crate::live::SentSummary;
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::{STALL_TIMEOUT, Sequence};
 use crate::track::{
-    Backend, FrameDone, FrameRange, Passes, Prediction, Progress, RealtimeSummary, RunStart, TrackSettings,
-    TrackSummary, Width, track_all,
+    FrameDone, FrameRange, Passes, Prediction, Progress, RealtimeSummary, RunStart, TrackSettings, TrackSummary, Width,
+    track_all,
 };
 
 /// Tracks a person through a sequence: poses, joints and markers over time (CSV, TRC, C3D), how far they can be
@@ -46,9 +47,8 @@ pub(super) struct TrackArgs {
 /// How a person is tracked.
 #[derive(clap::Args, Debug)]
 pub(super) struct TrackOptions {
-    /// Who scores the poses.
-    #[arg(long, value_name = "NAME", default_value_t)]
-    backend: Backend,
+    #[command(flatten)]
+    drawing: DrawingFlags,
     /// What the body is drawn as.
     #[arg(long, value_name = "NAME", default_value_t)]
     model: Model,
@@ -130,7 +130,8 @@ impl TrackOptions {
         let realtime = self.realtime.settings()?;
         let default_overlay = if realtime.is_some() { 0 } else { TrackSettings::default().overlay_every };
         let settings = TrackSettings {
-            backend: self.backend,
+            drawing: self.drawing.drawing(self.model)?,
+            devices: self.drawing.devices.clone(),
             model: self.model,
             objective: self.objective.choice(),
             search: SearchSettings {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
 use crate::search::SearchKind;
-use crate::track::{Backend, Passes};
+use crate::track::{Drawing, Passes};
 
 /// One run: everything that decides what it yields.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -13,8 +13,8 @@ use crate::track::{Backend, Passes};
 pub struct Run {
     /// The sequence's name.
     pub sequence: String,
-    /// Who scores the poses.
-    pub backend: Backend,
+    /// Who scores the poses, and how.
+    pub backend: Drawing,
     /// What the body is drawn as.
     pub model: Model,
     /// The objective function, if not the one that `track` takes for this search and sequence.

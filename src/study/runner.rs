@@ -206,7 +206,7 @@ fn make(run: &Run, prepared: &Prepared, output: &OutputFolder, progress: &dyn Pr
 /// What `track` is told for a run.
 pub(super) fn settings(run: &Run, folder: &Path) -> Result<TrackSettings> {
     Ok(TrackSettings {
-        backend: run.backend,
+        drawing: run.backend,
         model: run.model,
         objective: ObjectiveChoice { kind: run.objective, ..ObjectiveChoice::default() },
         search: SearchSettings {

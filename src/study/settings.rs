@@ -12,7 +12,7 @@ use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
 use crate::files::{parse_toml, read_toml, shortened};
 use crate::search::{SearchKind, SearchSettings};
-use crate::track::{Backend, FrameRange, Passes};
+use crate::track::{Drawing, FrameRange, Passes};
 
 /// More runs than anyone waits for are a slip of the pen.
 const MOST_RUNS: usize = 100_000;
@@ -40,9 +40,9 @@ pub struct Study {
     /// What bodies are drawn as.
     #[serde(default = "only_default")]
     pub models: Vec<Model>,
-    /// Who scores the poses.
+    /// Who scores the poses, and how.
     #[serde(default = "only_default")]
-    pub backends: Vec<Backend>,
+    pub backends: Vec<Drawing>,
     /// Factor on the width of the search round the previous pose.
     #[serde(default = "default_spread")]
     pub spread: f64,

@@ -10,7 +10,7 @@ use super::run::Run;
 use super::run_record::RunRecord;
 use super::timings::Timings;
 use super::truth::Truth;
-use super::{Backend, TrackSettings, folder, run_record};
+use super::{Backend, Drawing, TrackSettings, folder, run_record};
 use crate::files::OutputFolder;
 use crate::sequence::Sequence;
 
@@ -46,11 +46,12 @@ impl<'a> Planned<'a> {
         mut warnings: Vec<String>,
     ) -> Result<Self> {
         // What auto once chose is kept to: another machine, or a moment of noise, must not change a run midway.
-        let recorded = match settings.backend {
+        let recorded = match settings.drawing.backend {
             Backend::Auto if settings.resume => run_record::recorded_backend(output)?,
             _ => None,
         };
-        let mut plan = Plan::new(sequence, settings, recorded.unwrap_or(settings.backend))?;
+        let drawing = recorded.map_or(settings.drawing, Drawing::from);
+        let mut plan = Plan::new(sequence, settings, drawing)?;
         if let Some(backend) = recorded {
             plan.backend.reason = format!("{}, which this run began with", backend.name());
         }

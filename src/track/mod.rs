@@ -9,6 +9,7 @@ mod backend;
 mod begin;
 mod confidence;
 mod crowd;
+mod drawing;
 mod driver;
 mod feed;
 mod filmed_plate;
@@ -49,8 +50,9 @@ mod truth;
 mod unaided;
 mod unseen;
 
-pub use backend::{Backend, BuiltBackend};
+pub use backend::Backend;
 pub use confidence::{Confidence, FrameConfidence, JointConfidence, JointHints, LossRule, WRONG};
+pub use drawing::{BuiltBackend, Drawing};
 pub use driver::track;
 pub use first_try::{FirstTry, FirstTrySettings, FirstView, first_try};
 pub use fit::{Coverage, Fit, FitSettings, fit, fit_with};

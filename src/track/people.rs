@@ -16,7 +16,7 @@ use super::run::Run;
 use super::run_record::RunRecord;
 use super::summary::{TrackSummary, mean};
 use super::timings::Span;
-use super::{Backend, TrackSettings};
+use super::{Backend, Drawing, TrackSettings};
 use crate::body::Body;
 use crate::files::OutputFolder;
 use crate::sequence::Sequence;
@@ -78,7 +78,8 @@ pub fn track_people(
     let first = Planned::new(first_alone, settings, &folders[0], [sequence.remarks(), plated.remarks()].concat())?;
     // What suits one suits all; it is not measured again.
     let chosen = Backend::from_name(first.plan.backend.evaluator.name())?;
-    let others = TrackSettings { backend: chosen, ..settings.clone() };
+    let drawing = Drawing { backend: chosen, ..settings.drawing };
+    let others = TrackSettings { drawing, ..settings.clone() };
     let mut planned = vec![first];
     for (alone, folder) in other_alone.iter().zip(&folders[1..]) {
         let of_person = || format!("person {:?}", folder.path().file_name().unwrap_or_default());

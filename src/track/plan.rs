@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail};
 
 use super::searcher::Searcher;
 use super::smoothed::smoothing;
-use super::{Backend, BuiltBackend, TrackSettings};
+use super::{BuiltBackend, Drawing, TrackSettings};
 use crate::body::{Body, Mesh, PoseTable};
 use crate::evaluate::Objective;
 use crate::features::FeatureSettings;
@@ -40,8 +40,8 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    /// With `backend` in place of the settings'.
-    pub(super) fn new(sequence: &Sequence, settings: &TrackSettings, backend: Backend) -> Result<Self> {
+    /// With `drawing` in place of the settings'.
+    pub(super) fn new(sequence: &Sequence, settings: &TrackSettings, drawing: Drawing) -> Result<Self> {
         settings.check()?;
         settings.realtime.as_ref().map(|realtime| realtime.time_to_search(sequence)).transpose()?;
         let name = sequence.path.display().to_string();
@@ -67,7 +67,7 @@ impl Plan {
         space.clamp(&mut start);
         settings.search.check()?;
         let mesh = settings.model.mesh(&body)?;
-        let mut backend = backend.build(mesh.as_ref(), &body, &sequence.cameras, &start)?;
+        let mut backend = drawing.build(&settings.devices, mesh.as_ref(), &body, &sequence.cameras, &start)?;
         let timing = if settings.trace { Timing::Statistics } else { Timing::Off };
         let search = Searcher::new(backend.evaluator.as_mut(), &objective, &settings.search, &space, timing)?;
         Ok(Self {

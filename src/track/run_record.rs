@@ -14,6 +14,7 @@ use super::plan::Plan;
 use super::{Backend, Passes, RealtimeSettings, TrackSettings, Width};
 use crate::body::{MeshSource, Model};
 use crate::evaluate::Objective;
+use crate::evaluate::device::GraphicsSettings;
 use crate::files::{Limit, OutputFolder, read_toml, table_of};
 use crate::sequence::{Ignored, Sequence, Source, Turn, Video, View};
 
@@ -128,7 +129,7 @@ impl Run {
         let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
         let command = format!(
             "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-             --refine {} --predict {}{}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {} --model {} --overlay-every {}{start}{}{}{}",
+             --refine {} --predict {}{}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {}{} --model {} --overlay-every {}{start}{}{}{}",
             sequence.path.display(),
             plan.range.start,
             plan.range.end,
@@ -144,6 +145,7 @@ impl Run {
             yes_or_no(settings.recover),
             kind.name(),
             plan.backend.evaluator.name(),
+            drawing_flags(settings),
             settings.model.name(),
             settings.overlay_every,
             settings.smooth.map(|cutoff| format!(" --smooth {cutoff}")).unwrap_or_default(),
@@ -171,6 +173,26 @@ fn more_passes(settings: &TrackSettings) -> Option<&'static str> {
     (passes != Passes::Forward).then(|| passes.name())
 }
 
+/// Whether graphics draws in another way than the usual one, which runs had before there was a choice.
+fn is_drawn_otherwise(settings: &TrackSettings) -> bool {
+    settings.drawing.graphics != GraphicsSettings::default()
+}
+
+/// The devices and the way to draw as the command line takes them.
+fn drawing_flags(settings: &TrackSettings) -> String {
+    let mut flags = String::new();
+    if !settings.devices.is_empty() {
+        let devices: Vec<String> = settings.devices.iter().map(usize::to_string).collect();
+        flags += &format!(" --devices {}", devices.join(","));
+    }
+    if is_drawn_otherwise(settings) {
+        let GraphicsSettings { packing, coverage, comparison, projection, .. } = settings.drawing.graphics;
+        let gather = comparison.name();
+        flags += &format!(" --packing {packing} --gather {gather} --projection {projection} --coverage {coverage}");
+    }
+    flags
+}
+
 #[derive(Serialize)]
 struct Settings<'a> {
     frames: String,
@@ -194,6 +216,9 @@ struct Settings<'a> {
     w1: f32,
     w2: f32,
     backend: &'static str,
+    /// How graphics draws, where that is not as usual.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    graphics: Option<&'static str>,
     model: &'static str,
     overlay_every: usize,
     /// Cut-off, Hz.
@@ -240,6 +265,7 @@ impl<'a> Settings<'a> {
             w1,
             w2,
             backend: plan.backend.evaluator.name(),
+            graphics: is_drawn_otherwise(settings).then(|| settings.drawing.graphics.name()),
             model: settings.model.name(),
             overlay_every: settings.overlay_every,
             smooth: settings.smooth,

@@ -7,7 +7,7 @@ use anyhow::{Context, Result, ensure};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 
-use super::Backend;
+use super::Drawing;
 use crate::body::{Body, Model, PoseTable};
 use crate::evaluate::{Components, Evaluator, Objective, Reference, SegmentSums};
 use crate::features::Observation;
@@ -109,7 +109,8 @@ pub struct Scores {
 pub fn score_poses(
     frame: &ScoredFrame,
     poses: &PoseTable,
-    backend: Backend,
+    drawing: Drawing,
+    devices: &[usize],
     model: Model,
     objective: &Objective,
     output: Option<&OutputFolder>,
@@ -120,7 +121,7 @@ pub fn score_poses(
     let dofs = frame.body.dof_count();
     let standing: Vec<f32> = frame.body.standing_pose().iter().map(|value| *value as f32).collect();
     let around = rows.get(..dofs).unwrap_or(&standing);
-    let mut built = backend.build(mesh.as_ref(), &frame.body, &frame.cameras, around)?;
+    let mut built = drawing.build(devices, mesh.as_ref(), &frame.body, &frame.cameras, around)?;
     let evaluator = built.evaluator.as_mut();
     evaluator.observe(&frame.observations)?;
     let mut all = Vec::with_capacity(poses.poses.len());

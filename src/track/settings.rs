@@ -6,7 +6,7 @@ use std::time::Duration;
 use anyhow::{Result, ensure};
 
 use super::journal::Numbering;
-use super::{Backend, FrameRange, ObjectiveChoice, Passes, Prediction, RealtimeSettings, Width};
+use super::{Drawing, FrameRange, ObjectiveChoice, Passes, Prediction, RealtimeSettings, Width};
 use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
 use crate::report::check_recordings_are_built;
@@ -16,8 +16,10 @@ use crate::sequence::STALL_TIMEOUT;
 /// How a sequence is tracked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrackSettings {
-    /// Who scores the poses.
-    pub backend: Backend,
+    /// Who scores the poses, and how.
+    pub drawing: Drawing,
+    /// The Vulkan devices that share the poses, by their numbers; without any the one of the environment, or the best.
+    pub devices: Vec<usize>,
     /// What the body is drawn as.
     pub model: Model,
     /// What counts as a good pose; over the sequence's `[objective]` table. Where neither names a kind, `evidence` with the search `maes`
@@ -59,7 +61,8 @@ pub struct TrackSettings {
 impl Default for TrackSettings {
     fn default() -> Self {
         Self {
-            backend: Backend::default(),
+            drawing: Drawing::default(),
+            devices: Vec::new(),
             model: Model::default(),
             objective: ObjectiveChoice::default(),
             search: SearchSettings::default(),

@@ -2,7 +2,7 @@
 
 use pantin::evaluate::Evaluator;
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
-use pantin::evaluate::device::{Compute, Graphics, RasterKernel};
+use pantin::evaluate::device::{Compute, Graphics, RasterKernel, Shared};
 use pantin::gpu::{Capabilities, DeviceSettings};
 
 use crate::cases::{CASES, Case, Kind, Stage, USUAL};
@@ -137,6 +137,24 @@ fn graphics_agrees() {
     }
     drop(device);
     assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+/// Devices that share the candidates, by backends that need not be the same, as one.
+#[test]
+fn devices_that_share_agree() {
+    let open = || device("devices_that_share_agree", DeviceSettings::default());
+    let (Some((first, log)), Some((second, other_log))) = (open(), open()) else { return };
+    let make = |Stage { body, cameras }: &Stage| -> Box<dyn Evaluator> {
+        let spans = RasterKernel::Spans { group: 64, workgroups: 2 };
+        let members: Vec<Box<dyn Evaluator>> = vec![
+            Box::new(Compute::on(&first, body, cameras).unwrap()),
+            Box::new(Compute::with_kernel(&second, body, cameras, spans).unwrap()),
+        ];
+        Box::new(Shared::new(members).unwrap())
+    };
+    hold(Kind::Batched, "two devices", &make);
+    drop((first, second));
+    assert_eq!([log, other_log].map(|log| log.messages()), [const { Vec::<String>::new() }; 2]);
 }
 
 /// The table fails where a backend draws one end of one part some millimetres off.

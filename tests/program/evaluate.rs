@@ -181,4 +181,47 @@ fn wrong_requests() {
     ] {
         assert_eq!(evaluate(&output, wrong).status.code(), Some(2), "{wrong:?}");
     }
+    let of_frame = ["--sequence", name, "--frame", "1"];
+    for (flags, parts) in [
+        (&["--packing", "depth"][..], &["--packing depth", "the backend is auto: expected --backend graphics"][..]),
+        (
+            &["--backend", "graphics", "--model", "mesh", "--coverage", "exact"],
+            &["--coverage exact is for the flat model", "mesh"],
+        ),
+        (&["--backend", "cpu", "--devices", "0"], &["and the backend is cpu: expected --backend compute"]),
+    ] {
+        refused(&evaluate(&output, &[&of_frame[..], flags].concat()), parts);
+    }
+    if has_vulkan("wrong_requests") {
+        let flags = ["--backend", "compute", "--devices", "0,99"];
+        refused(&evaluate(&output, &[&of_frame[..], &flags].concat()), &["there is no Vulkan device 99", "from 0"]);
+    }
+}
+
+/// Every way of the graphics backend, and devices that share the poses, write the same bytes.
+#[test]
+fn ways_to_draw_and_devices_change_nothing() {
+    if !has_vulkan("ways_to_draw_and_devices_change_nothing") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let of_frame = ["--sequence", sequence().to_str().unwrap(), "--frame", "2"];
+    let files = |name: &str, flags: &[&str]| {
+        let output = folder.path().join(name);
+        let done = evaluate(&output, &[&of_frame[..], flags].concat());
+        succeeded(&done);
+        let read = |file: &str| fs::read(output.join(file)).unwrap();
+        ([read("components.csv"), read("fitness.csv")], String::from_utf8_lossy(&done.stderr).into_owned())
+    };
+    let (expected, _) = files("cpu", &["--backend", "cpu"]);
+    let graphics = ["--backend", "graphics", "--packing", "depth", "--gather", "readback-simd"];
+    let (found, told) = files("graphics", &[&graphics[..], &["--projection", "feedback"]].concat());
+    assert!(found[0] == expected[0]);
+    assert!(told.contains("depth-readback-simd"), "{told}");
+    let (found, told) = files("shared", &["--backend", "compute", "--devices", "0,0"]);
+    assert!(found[0] == expected[0]);
+    assert!(told.contains("on the Vulkan devices") && told.contains("which share the poses"), "{told}");
+    // Triangles of the device cover other pixels of borders.
+    let (found, told) = files("hardware", &["--backend", "graphics", "--coverage", "hardware"]);
+    assert!(found[0] != expected[0] && told.contains("max-hardware-texels"), "{told}");
 }

@@ -107,6 +107,8 @@ fn a_device_tracks_as_the_processor_does() {
             assert!(read(&there) == read(&here), "{search}: poses.csv differs");
         }
         same(&result_files(&run("compute", "again", &[])), &result_files(&there));
+        // Two devices that share a swarm find what one does.
+        assert!(read(&run("compute", "shared", &["--devices", "0,0"])) == read(&there), "{search}: devices");
         let stages = fs::read_to_string(there.join("stages.json")).unwrap();
         let stages: serde_json::Value = serde_json::from_str(&stages).unwrap();
         for stage in stages["stages"].as_array().unwrap() {

@@ -22,6 +22,7 @@ mod resources;
 mod runs;
 mod scene;
 mod segments;
+mod shared;
 mod spans;
 mod summed;
 #[cfg(test)]
@@ -34,6 +35,8 @@ pub use compute::Compute;
 pub use graphics::{
     Comparison, Coverage, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
 };
+pub(crate) use open::open_devices;
 pub use open::{device_settings, open_device, open_instance};
 pub use raster_kernel::RasterKernel;
+pub use shared::Shared;
 pub use tuning::kept_kernels;

@@ -67,6 +67,20 @@ pub(crate) fn open_compute_device() -> Result<Device> {
     Device::open(&open_instance()?, DeviceSettings { graphics: false, ..device_settings()? })
 }
 
+/// Opens the devices of those numbers in Vulkan's list, one for each number, the same one several times where it stands several
+/// times; without numbers the one of [`open_device`].
+///
+/// # Errors
+/// As [`open_device`].
+pub(crate) fn open_devices(indices: &[usize], graphics: bool) -> Result<Vec<Device>> {
+    let (instance, settings) = (open_instance()?, DeviceSettings { graphics, ..device_settings()? });
+    if indices.is_empty() {
+        return Ok(vec![Device::open(&instance, settings)?]);
+    }
+    let open = |&index: &usize| Device::open(&instance, DeviceSettings { index: Some(index), ..settings.clone() });
+    indices.iter().map(open).collect()
+}
+
 fn shown(value: std::result::Result<&str, &env::VarError>) -> String {
     value.map_or_else(|_| "not valid Unicode".to_string(), |text| format!("`{text}`"))
 }

@@ -3,8 +3,10 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
+use clap::builder::ValueParserFactory;
+
 use crate::evaluate::shaders::{PACK_DEPTH, PACK_MAX};
-use crate::files::choices;
+use crate::files::{Choice, ChoiceParser, choices};
 use crate::gpu::Capabilities;
 
 choices! {
@@ -92,6 +94,31 @@ impl Comparison {
             Self::Host(comparison) => comparison.name(),
         }
     }
+
+    const fn device(at: usize) -> (Self, &'static str, &'static str) {
+        let (gathering, name, help) = Gathering::CHOICES[at];
+        (Self::Device(gathering), name, help)
+    }
+
+    const fn host(at: usize) -> (Self, &'static str, &'static str) {
+        let (comparison, name, help) = HostComparison::CHOICES[at];
+        (Self::Host(comparison), name, help)
+    }
+}
+
+/// One list for users, of both.
+impl Choice for Comparison {
+    const WHAT: &'static str = "comparison";
+    const CHOICES: &'static [(Self, &'static str, &'static str)] =
+        &[Self::device(0), Self::device(1), Self::device(2), Self::host(0), Self::host(1)];
+}
+
+impl ValueParserFactory for Comparison {
+    type Parser = ChoiceParser<Self>;
+
+    fn value_parser() -> Self::Parser {
+        ChoiceParser::new()
+    }
 }
 
 choices! {
@@ -144,28 +171,75 @@ impl Default for GraphicsSettings {
 }
 
 impl GraphicsSettings {
-    /// The name of its rows in tables: packing, who covers, how it is compared; or packing and that tiles are pictures.
+    /// All that differ, in the order of their lists.
+    pub fn all() -> impl Iterator<Item = Self> {
+        Packing::ALL.into_iter().flat_map(|packing| {
+            Coverage::ALL.into_iter().flat_map(move |coverage| {
+                Comparison::all().flat_map(move |comparison| {
+                    Tiling::ALL.into_iter().flat_map(move |tiling| {
+                        let of = move |projection| Self { packing, coverage, comparison, tiling, projection };
+                        Projection::ALL.into_iter().map(of)
+                    })
+                })
+            })
+        })
+    }
+
+    /// The name of its rows in tables: packing, who covers where that is not the usual one, how it is compared, or that tiles are
+    /// pictures, what projects where that is not the usual one.
     pub fn name(&self) -> &'static str {
-        type Key = (Packing, Coverage, Comparison, Tiling);
         // Put together once: a name lasts as long as the program.
-        static NAMES: LazyLock<HashMap<Key, String>> = LazyLock::new(|| {
-            let mut names = HashMap::new();
-            for packing in Packing::ALL {
-                for coverage in Coverage::ALL {
-                    for comparison in Comparison::all() {
-                        let how = comparison.name();
-                        let name = match coverage {
-                            Coverage::Exact => format!("{packing}-{how}"),
-                            Coverage::Hardware => format!("{packing}-{coverage}-{how}"),
-                        };
-                        names.insert((packing, coverage, comparison, Tiling::Regions), name);
-                        let pictures = Tiling::Pictures;
-                        names.insert((packing, coverage, comparison, pictures), format!("{packing}-{pictures}"));
-                    }
-                }
-            }
-            names
-        });
-        &NAMES[&(self.packing, self.coverage, self.comparison, self.tiling)]
+        static NAMES: LazyLock<HashMap<GraphicsSettings, String>> =
+            LazyLock::new(|| GraphicsSettings::all().map(|settings| (settings, settings.composed())).collect());
+        &NAMES[self]
+    }
+
+    fn composed(&self) -> String {
+        let mut name = self.packing.name().to_string();
+        let mut more = |word: &str| name.extend(["-", word]);
+        if self.tiling == Tiling::Pictures {
+            more(self.tiling.name());
+        }
+        if self.coverage != Coverage::default() {
+            more(self.coverage.name());
+        }
+        if self.tiling != Tiling::Pictures || self.comparison != Self::default().comparison {
+            more(self.comparison.name());
+        }
+        if self.projection != Projection::default() {
+            more(self.projection.name());
+        }
+        name
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    #[test]
+    fn every_way_has_a_name_of_its_own() {
+        let names: HashSet<&str> = GraphicsSettings::all().map(|settings| settings.name()).collect();
+        assert_eq!(names.len(), 2 * 2 * 5 * 2 * 2);
+        let usual = GraphicsSettings::default();
+        assert_eq!(usual.name(), "max-texels");
+        let pictures = GraphicsSettings { packing: Packing::Depth, tiling: Tiling::Pictures, ..usual };
+        assert_eq!(pictures.name(), "depth-pictures");
+        let all = GraphicsSettings {
+            coverage: Coverage::Hardware,
+            comparison: Comparison::Host(HostComparison::Simd),
+            projection: Projection::Feedback,
+            ..usual
+        };
+        assert_eq!(all.name(), "max-hardware-readback-simd-feedback");
+    }
+
+    #[test]
+    fn comparisons_are_one_list() {
+        let listed: Vec<Comparison> = Comparison::CHOICES.iter().map(|(comparison, ..)| *comparison).collect();
+        assert_eq!(listed, Comparison::all().collect::<Vec<_>>());
+        assert!(Comparison::CHOICES.iter().all(|(comparison, name, _)| comparison.name() == *name));
     }
 }
