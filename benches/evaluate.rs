@@ -69,6 +69,7 @@ fn contestants(in_segments: bool) -> Vec<(String, Contestant)> {
     let usual = GraphicsSettings::default();
     let depth = GraphicsSettings { packing: Packing::Depth, ..usual };
     let hardware = Coverage::Hardware;
+    let covered = GraphicsSettings { coverage: hardware, ..depth };
     // What one writes first: whole pictures, a depth buffer, a write mask a channel.
     let whole = GraphicsSettings {
         coverage: hardware,
@@ -82,7 +83,17 @@ fn contestants(in_segments: bool) -> Vec<(String, Contestant)> {
             Contestant::Reference | Contestant::Compute { subgroup: false } => continue,
             Contestant::Yardstick(_) if in_segments => continue,
             Contestant::Cpu(set) if !set.is_available() => continue,
-            Contestant::Graphics(settings) if settings.packing == Packing::Depth && settings != depth => continue,
+            // In depth what differs most: the usual comparison, and coverage by the hardware.
+            Contestant::Graphics(settings)
+                if settings.packing == Packing::Depth && ![depth, covered].contains(&settings) =>
+            {
+                continue;
+            }
+            Contestant::Graphics(GraphicsSettings { coverage, projection, .. })
+                if in_segments && (coverage == hardware || projection == Projection::Feedback) =>
+            {
+                continue;
+            }
             Contestant::Compute { .. } => "compute subgroup".to_string(),
             Contestant::Spans => "compute spans".to_string(),
             Contestant::Graphics(settings) => format!("graphics-{}", settings.name()),
@@ -90,14 +101,8 @@ fn contestants(in_segments: bool) -> Vec<(String, Contestant)> {
         };
         all.push((name, contestant));
     }
-    let more = [
-        ("graphics-whole-pictures", whole),
-        ("graphics-max-feedback", GraphicsSettings { projection: Projection::Feedback, ..usual }),
-        ("graphics-max-hardware", GraphicsSettings { coverage: hardware, ..usual }),
-        ("graphics-depth-hardware", GraphicsSettings { coverage: hardware, ..depth }),
-    ];
     if !in_segments {
-        all.extend(more.map(|(name, settings)| (name.to_string(), Contestant::Graphics(settings))));
+        all.push(("graphics-whole-pictures".to_string(), Contestant::Graphics(whole)));
     }
     all
 }

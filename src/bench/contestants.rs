@@ -8,10 +8,16 @@ use super::yardstick::{Yardstick, YardstickKind};
 use crate::body::Mesh;
 use crate::evaluate::cpu::{Cpu, InstructionSet};
 use crate::evaluate::device::{
-    Comparison, Compute, Graphics, GraphicsSettings, Packing, RasterKernel, Tiling, device_settings, open_instance,
+    Comparison, Compute, Coverage, Graphics, GraphicsSettings, Packing, Projection, RasterKernel, Tiling,
+    device_settings, open_instance,
 };
 use crate::evaluate::{Evaluator, Reference};
 use crate::gpu::{Capabilities, Device, DeviceSettings};
+
+/// How far a fitness may lie from the reference's.
+const TOLERANCE: f32 = 1e-3;
+/// The same where the hardware covers.
+const COVERED_BY_HARDWARE: f32 = 0.01;
 
 /// A backend or variant that this machine cannot run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -48,7 +54,8 @@ pub enum Contestant {
 
 impl Contestant {
     /// Everybody who draws the flat model, the reference first: of the graphics backend packings by comparisons, as the thesis
-    /// measured them, and with whole pictures for tiles what one writes first.
+    /// measured them, projection by transform feedback, coverage by the hardware, and with whole pictures for tiles what one writes
+    /// first.
     pub fn of_flat() -> Vec<Self> {
         let usual = GraphicsSettings::default();
         let mut all = vec![Self::Reference];
@@ -61,8 +68,22 @@ impl Contestant {
                 Comparison::all().map(|comparison| Self::Graphics(GraphicsSettings { packing, comparison, ..usual })),
             );
         }
-        all.push(Self::Graphics(GraphicsSettings { packing: Packing::Depth, tiling: Tiling::Pictures, ..usual }));
+        let more = [
+            GraphicsSettings { projection: Projection::Feedback, ..usual },
+            GraphicsSettings { coverage: Coverage::Hardware, ..usual },
+            GraphicsSettings { coverage: Coverage::Hardware, packing: Packing::Depth, ..usual },
+            GraphicsSettings { packing: Packing::Depth, tiling: Tiling::Pictures, ..usual },
+        ];
+        all.extend(more.map(Self::Graphics));
         all
+    }
+
+    /// How far its fitness may lie from the reference's: where the hardware covers, other pixels are drawn along borders.
+    pub(super) fn tolerance(self) -> f32 {
+        match self {
+            Self::Graphics(settings) if settings.coverage == Coverage::Hardware => COVERED_BY_HARDWARE,
+            _ => TOLERANCE,
+        }
     }
 
     /// Everybody who draws meshes, the reference first.

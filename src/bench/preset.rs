@@ -14,8 +14,6 @@ use crate::evaluate::{Evaluator, Objective};
 use crate::files::choices;
 use crate::gpu::Device;
 
-/// How far a fitness may lie from the first evaluator's.
-const TOLERANCE: f32 = 1e-3;
 /// Candidates whose fitness is compared.
 const COMPARED: usize = 24;
 /// An evaluator that would take longer for a round is measured on those few candidates, in the quick preset.
@@ -103,19 +101,19 @@ fn empty(preset: Preset) -> BenchReport {
     }
 }
 
-/// Everybody who can do a task here; who cannot is listed in the report, once.
+/// Everybody who can do a task here, each with how far its fitness may lie from the first one's; who cannot is listed in the report, once.
 fn evaluators(
     task: &Task,
     scene: &Scene,
     device: &Result<Device, String>,
     report: &mut BenchReport,
-) -> Result<Vec<Box<dyn Evaluator>>> {
+) -> Result<Vec<(Box<dyn Evaluator>, f32)>> {
     let mesh = task.model.mesh(&scene.body)?;
     let all = if mesh.is_some() { Contestant::of_meshes() } else { Contestant::of_flat() };
     let mut present = Vec::new();
     for contestant in all {
         match contestant.build(scene, mesh.as_ref(), device) {
-            Ok(evaluator) => present.push(evaluator),
+            Ok(evaluator) => present.push((evaluator, contestant.tolerance())),
             Err(error) => {
                 let missing = refusal(task, contestant.backend(), contestant.variant(), &error);
                 if !report.unavailable.contains(&missing) {
@@ -133,12 +131,18 @@ struct Entry {
     fitness: Vec<f32>,
 }
 
-fn measure(preset: Preset, task: &Task, scene: &Scene, evaluators: Vec<Box<dyn Evaluator>>, report: &mut BenchReport) {
+fn measure(
+    preset: Preset,
+    task: &Task,
+    scene: &Scene,
+    evaluators: Vec<(Box<dyn Evaluator>, f32)>,
+    report: &mut BenchReport,
+) {
     let poses = swarm(&scene.body, &scene.pose, task.particles);
     let objective = Objective::default();
     let mut entries: Vec<Entry> = Vec::new();
     let mut expected: Option<(&'static str, Vec<f32>)> = None;
-    for mut evaluator in evaluators {
+    for (mut evaluator, tolerance) in evaluators {
         let mut fitness = vec![0.0; task.particles];
         // A few candidates tell: the first evaluator is a slow one.
         let few = task.particles.min(COMPARED);
@@ -147,7 +151,7 @@ fn measure(preset: Preset, task: &Task, scene: &Scene, evaluators: Vec<Box<dyn E
         let is_slow = start.elapsed() * (task.particles / few) as u32 > PATIENCE;
         let checked = found.and_then(|()| {
             let (name, expected) = expected.get_or_insert_with(|| (evaluator.name(), fitness[..few].to_vec()));
-            agree(name, expected, &fitness[..few])
+            agree(name, expected, &fitness[..few], tolerance)
         });
         match checked {
             Ok(()) => {
@@ -189,9 +193,9 @@ fn measure(preset: Preset, task: &Task, scene: &Scene, evaluators: Vec<Box<dyn E
 }
 
 /// Whether a fitness is that of the evaluator `name`, as far as backends promise it.
-fn agree(name: &str, expected: &[f32], fitness: &[f32]) -> Result<()> {
+fn agree(name: &str, expected: &[f32], fitness: &[f32], tolerance: f32) -> Result<()> {
     let apart = expected.iter().zip(fitness).map(|(l, r)| (l - r).abs());
-    if let Some(apart) = apart.filter(|apart| apart.is_nan() || *apart > TOLERANCE).reduce(f32::max) {
+    if let Some(apart) = apart.filter(|apart| apart.is_nan() || *apart > tolerance).reduce(f32::max) {
         bail!("its fitness lies up to {apart} from that of {name}: it was not measured");
     }
     Ok(())
@@ -259,10 +263,10 @@ mod tests {
 
     #[test]
     fn no_number_agrees_with_nothing() {
-        agree("reference", &[0.5, 0.25], &[0.5004, 0.25]).unwrap();
-        let error = agree("reference", &[0.5, 0.25], &[0.5, 0.5]).unwrap_err().to_string();
+        agree("reference", &[0.5, 0.25], &[0.5004, 0.25], 1e-3).unwrap();
+        let error = agree("reference", &[0.5, 0.25], &[0.5, 0.5], 1e-3).unwrap_err().to_string();
         assert_eq!(error, "its fitness lies up to 0.25 from that of reference: it was not measured");
-        assert!(agree("reference", &[0.5], &[f32::NAN]).is_err());
+        assert!(agree("reference", &[0.5], &[f32::NAN], 1e-3).is_err());
     }
 
     #[test]
@@ -275,7 +279,7 @@ mod tests {
         // The last of them is made to look at something else.
         let mut blind = scene.observations.clone();
         blind.iter_mut().for_each(|seen| seen.bytes.fill(0));
-        all.last_mut().unwrap().observe(&blind).unwrap();
+        all.last_mut().unwrap().0.observe(&blind).unwrap();
         let expected = all.len() - 1;
         measure(Preset::Quick, &task, &scene, all, &mut report);
         assert_eq!((report.rows.len(), report.unavailable.len()), (expected, 1), "{:?}", report.unavailable);
