@@ -145,6 +145,19 @@ fn every_setting_is_combined_with_every_other() {
 }
 
 #[test]
+fn ways_of_graphics_to_draw_are_backends_of_a_study() {
+    let text = SMALL.replace("[\"cpu\"]", "[\"graphics\", \"graphics-depth-readback\"]");
+    let runs = Study::parse(&text, "s").unwrap().runs().unwrap();
+    let ways = |name: &str| runs.iter().filter(|run| run.folder().contains(&format!("_{name}_flat_"))).count();
+    assert_eq!((ways("graphics"), ways("graphics-depth-readback")), (runs.len() / 2, runs.len() / 2));
+    let run = runs.iter().find(|run| Axis::Backend.of(run) == "graphics-depth-readback").unwrap();
+    let again: Run = serde_json::from_str(&serde_json::to_string(run).unwrap()).unwrap();
+    assert_eq!(again, *run);
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(runner::settings(run, folder.path()).unwrap().drawing.graphics.name(), "depth-readback");
+}
+
+#[test]
 fn what_makes_no_sense_is_named() {
     for (from, to, sentences) in [
         ("name = \"small\"", "nam = \"small\"", &["line 2", "`nam`", "`name`"][..]),

@@ -116,7 +116,7 @@ fn shares(count: usize, rates: &[Option<f64>]) -> Vec<usize> {
         .iter()
         .map(|rate| {
             sum += rate;
-            let until = ((free * sum / total) as usize).min(count - rates.len());
+            let until = ((free * sum / total).round() as usize).min(count - rates.len());
             let own = until - given;
             given = until;
             own + 1
