@@ -1,6 +1,8 @@
-//! Two evaluators as one writes them first, kept to measure the fast one against: a byte depth buffer over the whole
-//! picture, and byte row spans inside the bounding box with a comparison the compiler vectorises. Edges are followed from row
-//! to row by additions. Both give the reference's integers.
+//! Evaluators as one writes them first, kept to measure the fast one against: a byte depth buffer over the whole
+//! picture, byte row spans inside the bounding box with a comparison the compiler vectorises, and what the thesis's CUDA stage did,
+//! column by column. Edges are followed from row to row by additions. All give the reference's integers.
+
+use std::ops::Range;
 
 use anyhow::{Result, ensure};
 
@@ -11,19 +13,21 @@ use crate::files::choices;
 use crate::geometry::Camera;
 
 choices! {
-    /// Which of the two.
+    /// What one writes first.
     "yardstick" pub enum YardstickKind => draw: Draw {
         /// Byte depth buffer over the whole picture.
         "zbuffer" ZBuffer => zbuffer,
         /// Byte row spans inside the bounding box.
         "rowspan" RowSpan => row_span,
+        /// A column after the other, parts from the nearest on, counted while they are painted (METHOD A9).
+        "columns" Columns => columns,
     }
 }
 
 /// Draws a candidate's parts in a view of a size, over the picture, and compares it.
 type Draw = fn(&[PartQuad], [usize; 2], &Observation, &mut [u8]) -> Components;
 
-/// One of the two, on threads that it starts anew each time.
+/// One of them, on threads that it starts anew each time.
 #[derive(Debug)]
 pub(super) struct Yardstick {
     projector: Projector,
@@ -191,6 +195,81 @@ fn row_span(
         sums.overlap += overlap;
         sums.edges += edges;
         sums.proximity += proximity;
+    }
+    sums
+}
+
+/// A part as its columns are painted.
+struct Upright {
+    /// The columns that it fills any pixel of.
+    across: Range<usize>,
+    /// Its first row, and the pixels of this one and those below, from and to before.
+    top: usize,
+    spans: Vec<[usize; 2]>,
+    /// Its border, column and row, by columns.
+    border: Vec<[usize; 2]>,
+    /// Those of the columns so far.
+    passed: usize,
+}
+
+impl Upright {
+    fn new(quad: &PartQuad, width: usize, height: usize) -> Self {
+        let (mut top, mut spans, mut edge) = (height, Vec::new(), Vec::new());
+        let mut across = width..0;
+        rows(quad, width, height, |y, from, to| {
+            top = top.min(y);
+            across = across.start.min(from)..across.end.max(to);
+            // Where a quad is no pixel wide it has no span.
+            spans.resize(y - top, [0; 2]);
+            spans.push([from, to]);
+        });
+        border(quad, width, height, |x, y| edge.push([x, y]));
+        edge.sort_unstable();
+        edge.dedup();
+        Self { across, top, spans, border: edge, passed: 0 }
+    }
+
+    /// Its border in a column, each after the one before.
+    fn border_of(&mut self, x: usize) -> &[[usize; 2]] {
+        let first = self.passed;
+        self.passed += self.border[first..].iter().take_while(|pixel| pixel[0] == x).count();
+        &self.border[first..self.passed]
+    }
+}
+
+/// Column by column, near to far: a pixel is painted once, and counted then.
+fn columns(
+    quads: &[PartQuad],
+    [width, height]: [usize; 2],
+    observation: &Observation,
+    picture: &mut [u8],
+) -> Components {
+    let mut sums = Components { area_obs: observation.area(), ..Components::default() };
+    let nearest_first = ranks(quads).into_iter().rev();
+    let mut parts: Vec<Upright> = nearest_first.map(|(part, _)| Upright::new(&quads[part], width, height)).collect();
+    let column = &mut picture[..height];
+    for x in 0..width {
+        column.fill(0);
+        for part in &mut parts {
+            for &[_, y] in part.border_of(x) {
+                if column[y] == 0 {
+                    column[y] = 1;
+                    let seen = observation.bytes[y * width + x];
+                    sums.area_model += 1;
+                    sums.overlap += u32::from(seen >> 7);
+                    sums.edges += 1;
+                    sums.proximity += u32::from(seen & 0x7f);
+                }
+            }
+            let spans: &[_] = if part.across.contains(&x) { &part.spans } else { &[] };
+            for (y, _) in (part.top..).zip(spans).filter(|(_, span)| (span[0]..span[1]).contains(&x)) {
+                if column[y] == 0 {
+                    column[y] = 1;
+                    sums.area_model += 1;
+                    sums.overlap += u32::from(observation.bytes[y * width + x] >> 7);
+                }
+            }
+        }
     }
     sums
 }

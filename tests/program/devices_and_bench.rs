@@ -145,6 +145,7 @@ fn the_benchmark_prints_the_rows_of_the_contract() {
         rows.iter().any(|row| row["backend"] == backend && row["variant"] == variant && row["model"] == "flat")
     };
     assert!(has("reference", "exact") && has("cpu", "portable") && has("cpu", "zbuffer") && has("cpu", "rowspan"));
+    assert!(has("cpu", "columns"));
     let unavailable = found["unavailable"].as_array().unwrap();
     assert!(unavailable.iter().any(|missing| missing["backend"] == "compute" && missing["variant"] == "subgroup"));
     for missing in unavailable {
