@@ -62,6 +62,7 @@ pub(super) struct EvaluateArgs {
 /// When an input cannot be read or does not fit the others, or a result not be written; one sentence.
 pub(super) fn run(args: &EvaluateArgs) -> Result<()> {
     let choice = args.objective.choice();
+    let (drawing, devices) = (args.drawing.drawing(args.model)?, &args.drawing.devices);
     let (frame, objective) = match (&args.sequence, &args.observations) {
         (Some(sequence), _) => {
             let sequence = Sequence::open(sequence)?;
@@ -81,7 +82,6 @@ pub(super) fn run(args: &EvaluateArgs) -> Result<()> {
     let poses = PoseTable::read(&args.poses, &frame.body)?;
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     let output = args.output.as_deref().map(|path| OutputFolder::create(path, overwrite)).transpose()?;
-    let (drawing, devices) = (args.drawing.drawing(args.model)?, &args.drawing.devices);
     let scores = score_poses(&frame, &poses, drawing, devices, args.model, &objective, output.as_ref(), args.images)?;
     tell!("{}", scores.backend);
     if scores.drawn_by_reference {
