@@ -98,31 +98,34 @@ impl Member {
     }
 }
 
-/// How many of `count` poses each gets: as many as its rate asks for, evenly where one has not told yet; at least one where there
-/// are enough, so that whoever was slow can show that it no longer is.
+/// How many of `count` poses each gets: as many as its rate asks for, evenly where one has not told yet; enough to tell in any case, so
+/// that whoever was slow can show that it no longer is. Of too few for that the first gets all.
 fn shares(count: usize, rates: &[Option<f64>]) -> Vec<usize> {
     let known: Option<Vec<f64>> = rates.iter().copied().collect();
     let rates = known.unwrap_or_else(|| vec![1.0; rates.len()]);
     if count < rates.len() * TELLING {
-        // Too few to be worth a second device.
         let mut all = vec![0; rates.len()];
         all[0] = count;
         return all;
     }
-    let (free, total) = ((count - rates.len()) as f64, rates.iter().sum::<f64>());
-    let mut given = 0;
-    let mut sum = 0.0;
+    let total: f64 = rates.iter().sum();
+    let (mut given, mut sum) = (0, 0.0);
     let mut shares: Vec<usize> = rates
         .iter()
         .map(|rate| {
             sum += rate;
-            let until = ((free * sum / total).round() as usize).min(count - rates.len());
+            let until = (count as f64 * sum / total).round() as usize;
             let own = until - given;
             given = until;
-            own + 1
+            own
         })
         .collect();
-    shares[0] += count - rates.len() - given;
+    // While one has too few another has more than enough.
+    while let Some(low) = shares.iter().position(|share| *share < TELLING) {
+        let most = (0..shares.len()).max_by_key(|&at| shares[at]).unwrap_or(low);
+        shares[most] -= 1;
+        shares[low] += 1;
+    }
     shares
 }
 
@@ -205,14 +208,14 @@ mod tests {
     #[test]
     fn faster_devices_get_more() {
         assert_eq!(shares(100, &[None, Some(3.0)]), [50, 50], "one has not told yet");
-        assert_eq!(shares(102, &[Some(30.0), Some(10.0)]), [76, 26]);
-        assert_eq!(shares(100, &[Some(1e12), Some(1e-3)]), [99, 1], "the slow one goes on telling");
+        assert_eq!(shares(104, &[Some(30.0), Some(10.0)]), [78, 26]);
+        assert_eq!(shares(100, &[Some(1e12), Some(1e-3)]), [84, TELLING], "the slow one goes on telling");
         assert_eq!(shares(31, &[Some(1.0), Some(1.0)]), [31, 0], "not worth two");
         assert_eq!(shares(0, &[Some(1.0)]), [0]);
         for count in [48, 49, 1000, 4097] {
             let found = shares(count, &[Some(0.3), Some(0.1), Some(7.7)]);
             assert_eq!(found.iter().sum::<usize>(), count, "{found:?}");
-            assert!(found.iter().all(|share| *share >= 1), "{found:?}");
+            assert!(found.iter().all(|share| *share >= TELLING), "{found:?}");
         }
     }
 
