@@ -185,11 +185,17 @@ fn drawing_flags(settings: &TrackSettings) -> String {
         let devices: Vec<String> = settings.devices.iter().map(usize::to_string).collect();
         flags += &format!(" --devices {}", devices.join(","));
     }
-    if is_drawn_otherwise(settings) {
-        let GraphicsSettings { packing, coverage, comparison, projection, .. } = settings.drawing.graphics;
-        let gather = comparison.name();
-        flags += &format!(" --packing {packing} --gather {gather} --projection {projection} --coverage {coverage}");
-    }
+    // What is as usual is left out: a mesh refuses most of it.
+    let (found, usual) = (settings.drawing.graphics, GraphicsSettings::default());
+    let ways = [
+        ("packing", found.packing.name(), usual.packing.name()),
+        ("gather", found.comparison.name(), usual.comparison.name()),
+        ("projection", found.projection.name(), usual.projection.name()),
+        ("coverage", found.coverage.name(), usual.coverage.name()),
+    ];
+    ways.iter()
+        .filter(|(_, name, usual)| name != usual)
+        .for_each(|(flag, name, _)| flags += &format!(" --{flag} {name}"));
     flags
 }
 
