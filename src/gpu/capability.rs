@@ -5,7 +5,7 @@ use std::ffi::CStr;
 use std::time::Duration;
 
 use anyhow::{Context as _, Result};
-use ash::{amd, ext, vk};
+use ash::{amd, ext, khr, vk};
 
 use super::Instance;
 
@@ -76,6 +76,8 @@ pub struct Capabilities {
     pub calibrated_timestamps: bool,
     /// VK_AMD_buffer_marker: marks between passes that cost next to nothing.
     pub buffer_markers: bool,
+    /// VK_KHR_pipeline_executable_properties: what the driver made of a stage.
+    pub executable_properties: bool,
     /// Sums and products can be asked to round to the nearest.
     pub rounds_to_nearest: bool,
     /// Numbers below 2^-126 can be asked to be kept.
@@ -232,12 +234,16 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
     let mut vulkan_12 = vk::PhysicalDeviceVulkan12Features::default();
     let mut vulkan_13 = vk::PhysicalDeviceVulkan13Features::default();
     let mut feedback = vk::PhysicalDeviceTransformFeedbackFeaturesEXT::default();
+    let mut executables = vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default();
     let mut features = vk::PhysicalDeviceFeatures2::default();
     if is_recent {
         features = features.push_next(&mut vulkan_12).push_next(&mut vulkan_13);
     }
     if has(ext::transform_feedback::NAME) {
         features = features.push_next(&mut feedback);
+    }
+    if has(khr::pipeline_executable_properties::NAME) {
+        features = features.push_next(&mut executables);
     }
     // SAFETY: as above.
     unsafe { raw.get_physical_device_features2(handle, &mut features) };
@@ -294,6 +300,7 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
         timestamp_period_ns: limits.timestamp_period,
         calibrated_timestamps: has(ext::calibrated_timestamps::NAME) && has_own_clock(instance, handle),
         buffer_markers: has(amd::buffer_marker::NAME),
+        executable_properties: executables.pipeline_executable_info != 0,
         rounds_to_nearest: floats.shader_rounding_mode_rte_float32 != 0,
         keeps_denormals: floats.shader_denorm_preserve_float32 != 0,
         max_image: limits.max_image_dimension2_d.min(limits.max_framebuffer_width).min(limits.max_framebuffer_height),

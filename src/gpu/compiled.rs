@@ -5,6 +5,7 @@ use std::sync::Mutex;
 use anyhow::Result;
 
 use super::device_shared::lock;
+use super::executables::Executable;
 use super::pipeline::{Drawing, Pipeline};
 use super::shader::ShaderStage;
 
@@ -34,5 +35,12 @@ impl Compiled {
         let pipeline = compile(&source)?;
         lock(&self.pipelines).push((source, pipeline.clone()));
         Ok(pipeline)
+    }
+
+    /// What the driver made of each, of those it tells something of.
+    pub(super) fn executables(&self) -> Vec<(String, Vec<Executable>)> {
+        let pipelines = lock(&self.pipelines);
+        let told = pipelines.iter().map(|(_, pipeline)| (pipeline.name().to_string(), pipeline.executables()));
+        told.filter(|(_, executables)| !executables.is_empty()).collect()
     }
 }

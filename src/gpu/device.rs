@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 use anyhow::{Result, anyhow, bail, ensure};
-use ash::{amd, ext, vk};
+use ash::{amd, ext, khr, vk};
 use bytemuck::Pod;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use rayon::prelude::*;
@@ -15,7 +15,8 @@ use rayon::prelude::*;
 use super::buffer::Buffer;
 use super::capability::{Capabilities, DeviceFacts, PORTABILITY_SUBSET, devices};
 use super::compiled::{Compiled, Source};
-use super::device_shared::{DeviceSettings, DeviceShared, PIPELINES, kept_file};
+use super::device_shared::{DeviceSettings, DeviceShared, Inspect, PIPELINES, kept_file};
+use super::executables::Executable;
 use super::image::{Format, Image, ImageUse};
 use super::instance::Instance;
 use super::memory::Memory;
@@ -102,6 +103,10 @@ impl Device {
         if capabilities.buffer_markers {
             extensions.push(amd::buffer_marker::NAME.as_ptr());
         }
+        let asks = settings.inspect == Inspect::Compiled && capabilities.executable_properties;
+        if asks {
+            extensions.push(khr::pipeline_executable_properties::NAME.as_ptr());
+        }
         let core = vk::PhysicalDeviceFeatures::default()
             .geometry_shader(capabilities.geometry_shader)
             .pipeline_statistics_query(capabilities.pipeline_statistics)
@@ -114,6 +119,8 @@ impl Device {
             .subgroup_size_control(capabilities.subgroup_sizes.is_some())
             .compute_full_subgroups(capabilities.subgroup_sizes.is_some());
         let mut feedback = vk::PhysicalDeviceTransformFeedbackFeaturesEXT::default().transform_feedback(true);
+        let mut executables =
+            vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default().pipeline_executable_info(true);
         let priorities = [1.0];
         let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(family).queue_priorities(&priorities)];
         let mut info = vk::DeviceCreateInfo::default()
@@ -124,6 +131,9 @@ impl Device {
             .push_next(&mut vulkan_13);
         if capabilities.transform_feedback {
             info = info.push_next(&mut feedback);
+        }
+        if asks {
+            info = info.push_next(&mut executables);
         }
         let vulkan = &instance.shared.raw;
         // SAFETY: the handle belongs to the instance; features and extensions asked for were found present.
@@ -168,6 +178,7 @@ impl Device {
             calibrated: capabilities
                 .calibrated_timestamps
                 .then(|| ext::calibrated_timestamps::Device::new(vulkan, &raw)),
+            executables: asks.then(|| khr::pipeline_executable_properties::Device::new(vulkan, &raw)),
             raw,
             instance: instance.clone(),
             facts,
@@ -278,6 +289,12 @@ impl Device {
         );
         let source = Source { stages: stages.to_vec(), drawing: Some(*drawing) };
         self.owner.compiled.of(source, |source| Pipeline::graphics(&self.shared, name, &source.stages, drawing))
+    }
+
+    /// What the driver made of the stages compiled so far, by pipeline, on a device opened with [`Inspect::Compiled`]; nothing where
+    /// it does not tell.
+    pub fn compiled(&self) -> Vec<(String, Vec<Executable>)> {
+        self.owner.compiled.executables()
     }
 
     /// Compiles compute stages side by side ahead of their first use: drivers take up to a tenth of a second for one.

@@ -8,7 +8,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, anyhow};
-use ash::{amd, ext, vk};
+use ash::{amd, ext, khr, vk};
 use gpu_allocator::vulkan::Allocator;
 
 use crate::files::{Overwrite, write_atomically};
@@ -30,6 +30,18 @@ pub enum Breadcrumbs {
     Always,
 }
 
+/// What a device tells of the stages that it runs, beside their times.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Inspect {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// What its driver made of them ([`super::Device::compiled`]), where it has VK_KHR_pipeline_executable_properties.
+    Compiled,
+    /// What they do ([`super::PassTiming::work`]). They take several times as long.
+    Work,
+}
+
 /// How a device is opened.
 #[derive(Clone, Debug)]
 pub struct DeviceSettings {
@@ -49,6 +61,8 @@ pub struct DeviceSettings {
     pub patience: Duration,
     /// Lose the device, as a crash would, when it has run so many passes: a fault for tests to inject.
     pub lose_after_passes: Option<u64>,
+    /// What it tells of the stages it runs.
+    pub inspect: Inspect,
     /// Changes the code of stages before they are compiled: how tests make a device inexact.
     #[cfg(test)]
     pub(crate) code: Option<Change>,
@@ -64,6 +78,7 @@ impl Default for DeviceSettings {
             graphics: true,
             patience: Duration::from_secs(600),
             lose_after_passes: None,
+            inspect: Inspect::default(),
             #[cfg(test)]
             code: None,
         }
@@ -98,6 +113,8 @@ pub(super) struct DeviceShared {
     /// Recordings that were dropped while the device ran them, and the timeline value that ends that.
     pub(super) retired: Mutex<Vec<(u64, Box<dyn Any + Send>)>>,
     pub(super) calibrated: Option<ext::calibrated_timestamps::Device>,
+    /// Where the driver is asked what it made of stages.
+    pub(super) executables: Option<khr::pipeline_executable_properties::Device>,
 }
 
 impl DeviceShared {

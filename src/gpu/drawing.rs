@@ -3,11 +3,13 @@
 use anyhow::{Result, bail, ensure};
 use ash::vk;
 
+use super::buffer::Buffer;
 use super::hazards::{Stages, Use};
 use super::image::Image;
 use super::pass::{Clear, Draw, Feedback, Target};
-use super::pipeline::{Resource, uses};
+use super::pipeline::{Resource, uses, with_counters};
 use super::recorder::{Recorder, check_push, readable};
+use super::shader::Binding;
 
 impl Recorder {
     /// A pass that draws into a target, in the order of the draws.
@@ -26,7 +28,9 @@ impl Recorder {
             );
         }
         self.begin(name)?;
-        let resources = resources_of(name, draws)?;
+        let counters = self.counters_of(draws)?;
+        let bindings = bindings_of(draws, &counters);
+        let resources = resources_of(name, draws, &bindings)?;
         let mut all = self.uses_of(draws, &resources);
         let mut layouts: Vec<(Image, vk::ImageLayout)> = resources.iter().flat_map(|own| readable(own)).collect();
         all.push(Use { resource: colour.id(), writes: true });
@@ -92,7 +96,9 @@ impl Recorder {
             buffer.size()
         );
         self.begin(name)?;
-        let resources = resources_of(name, draws)?;
+        let counters = self.counters_of(draws)?;
+        let bindings = bindings_of(draws, &counters);
+        let resources = resources_of(name, draws, &bindings)?;
         let mut all = self.uses_of(draws, &resources);
         all.push(Use { resource: buffer.id(), writes: true });
         self.keep_buffer(buffer);
@@ -118,6 +124,10 @@ impl Recorder {
         unsafe { self.device.shared.raw.cmd_end_rendering(commands) };
         self.end();
         Ok(())
+    }
+
+    fn counters_of(&mut self, draws: &[Draw<'_>]) -> Result<Vec<Option<Buffer>>> {
+        draws.iter().map(|draw| self.counters(draw.pipeline)).collect()
     }
 
     fn uses_of(&mut self, draws: &[Draw<'_>], resources: &[Vec<Resource<'_>>]) -> Vec<Use> {
@@ -200,8 +210,12 @@ impl Recorder {
     }
 }
 
-fn resources_of<'a>(name: &str, draws: &[Draw<'a>]) -> Result<Vec<Vec<Resource<'a>>>> {
-    draws.iter().map(|draw| draw.pipeline.resources(name, draw.bindings)).collect()
+fn bindings_of<'a>(draws: &[Draw<'a>], counters: &'a [Option<Buffer>]) -> Vec<Vec<Binding<'a>>> {
+    draws.iter().zip(counters).map(|(draw, counters)| with_counters(draw.bindings, counters.as_ref())).collect()
+}
+
+fn resources_of<'a>(name: &str, draws: &[Draw<'_>], bindings: &[Vec<Binding<'a>>]) -> Result<Vec<Vec<Resource<'a>>>> {
+    draws.iter().zip(bindings).map(|(draw, bindings)| draw.pipeline.resources(name, bindings)).collect()
 }
 
 fn rectangle([x, y, width, height]: [u32; 4]) -> vk::Rect2D {

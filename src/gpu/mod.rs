@@ -8,10 +8,12 @@ mod buffer;
 mod capability;
 mod compiled;
 mod copies;
+mod counting;
 mod descriptors;
 mod device;
 mod device_shared;
 mod drawing;
+mod executables;
 mod float_controls;
 mod hazards;
 mod image;
@@ -33,12 +35,14 @@ mod staged;
 mod timing;
 mod transform_feedback;
 mod validation;
+mod work;
 
 pub use buffer::Buffer;
 pub use capability::{Capabilities, DeviceFacts, DeviceKind, devices};
 pub use device::Device;
 pub(crate) use device_shared::kept_file;
-pub use device_shared::{Breadcrumbs, DeviceSettings};
+pub use device_shared::{Breadcrumbs, DeviceSettings, Inspect};
+pub use executables::Executable;
 pub use image::{Format, Image, ImageUse};
 pub use instance::Instance;
 pub use interface::{Access, BindingKind, ShaderKind};
@@ -53,6 +57,7 @@ pub use shader::{Binding, BindingLayout, Bound, Shader, ShaderStage, SpecConstan
 pub use staged::StagedBuffer;
 pub use timing::{ClockPair, DevicePass, PassStatistics, PassTiming, Timing, by_name};
 pub use validation::{Validation, ValidationLog};
+pub use work::Work;
 
 #[cfg(test)]
 mod generated {

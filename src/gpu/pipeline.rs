@@ -6,14 +6,18 @@ use std::sync::Arc;
 use anyhow::{Result, anyhow, bail, ensure};
 use ash::vk;
 
+use super::buffer::Buffer;
 use super::capability::Capabilities;
-use super::device_shared::DeviceShared;
+use super::counting::{COUNTERS, counted};
+use super::device_shared::{DeviceShared, Inspect};
+use super::executables::{Executable, executables, flags};
 use super::float_controls::controlled;
 use super::hazards::Use;
 use super::image::Format;
 use super::interface::{Access, BindingKind, ShaderKind};
 use super::shader::{Binding, BindingLayout, Bound, Shader, ShaderStage};
 use super::spirv::uses_subgroups;
+use super::work::{Work, blocks};
 
 /// A compiled pipeline; clones are the same pipeline.
 #[derive(Clone)]
@@ -31,6 +35,8 @@ pub(super) struct PipelineShared {
     slots: Vec<Slot>,
     pub(super) push_stages: vk::ShaderStageFlags,
     pub(super) push_size: u32,
+    /// What a run of each block of its stages does, where it counts them; else empty.
+    pub(super) blocks: Vec<Work>,
 }
 
 /// A descriptor of a pipeline.
@@ -128,7 +134,7 @@ impl Pipeline {
             if pinned.is_some() {
                 stage = stage.flags(vk::PipelineShaderStageCreateFlags::REQUIRE_FULL_SUBGROUPS).push_next(&mut size);
             }
-            let info = [vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout)];
+            let info = [vk::ComputePipelineCreateInfo::default().flags(flags(device)).stage(stage).layout(layout)];
             // SAFETY: the stage and layout live through the call.
             unsafe { device.raw.create_compute_pipelines(device.pipelines, &info, None) }
         })
@@ -179,6 +185,7 @@ impl Pipeline {
                 rendering = rendering.depth_attachment_format(Format::Depth32.vulkan());
             }
             let info = [vk::GraphicsPipelineCreateInfo::default()
+                .flags(flags(device))
                 .stages(stages)
                 .vertex_input_state(&vertex_input)
                 .input_assembly_state(&assembly)
@@ -205,7 +212,15 @@ impl Pipeline {
             &[vk::PipelineShaderStageCreateInfo<'_>],
         ) -> std::result::Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>,
     ) -> Result<Self> {
-        let slots = slots(name, stages)?;
+        let mut slots = slots(name, stages)?;
+        let is_counting = counts(device, stages);
+        if is_counting {
+            let visible =
+                stages.iter().fold(vk::ShaderStageFlags::empty(), |all, stage| all | stage_flag(stage.shader.kind));
+            let BindingLayout { set, binding, kind, access, name } = COUNTERS;
+            slots.push(Slot { set, binding, kind, access, name, visible });
+        }
+        let mut work = Vec::new();
         let (mut push_stages, mut push_size) = (vk::ShaderStageFlags::empty(), 0);
         for ShaderStage { shader, .. } in stages.iter().filter(|stage| stage.shader.push_size > 0) {
             push_stages |= stage_flag(shader.kind);
@@ -262,7 +277,12 @@ impl Pipeline {
                     .collect::<Vec<_>>(),
             );
             data.push(constants.iter().flat_map(|(_, bits)| bits.to_ne_bytes()).collect::<Vec<u8>>());
-            let code = code(device, shader);
+            let mut code = code(device, shader);
+            if is_counting {
+                let first = work.len() as u32;
+                work.extend(blocks(&code));
+                code = counted(&code, shader.kind, first);
+            }
             let info = vk::ShaderModuleCreateInfo::default().code(&code);
             // SAFETY: the code was made and validated by the build.
             let module = unsafe { device.raw.create_shader_module(&info, None) }
@@ -306,6 +326,7 @@ impl Pipeline {
                 slots,
                 push_stages,
                 push_size,
+                blocks: work,
             }),
         })
     }
@@ -313,6 +334,11 @@ impl Pipeline {
     /// Its name.
     pub fn name(&self) -> &str {
         &self.shared.name
+    }
+
+    /// What the driver made of its stages.
+    pub(super) fn executables(&self) -> Vec<Executable> {
+        executables(&self.shared.device, self.shared.handle)
     }
 
     /// What the pass called `pass` binds to each of its descriptors; other bindings are of no use to it.
@@ -339,6 +365,23 @@ impl Pipeline {
 /// What a pass does with these resources.
 pub(super) fn uses<'a>(resources: &'a [Resource<'_>]) -> impl Iterator<Item = Use> + 'a {
     resources.iter().map(|(slot, bound)| Use { resource: bound.id(), writes: slot.access.writes() })
+}
+
+/// Whether all stages of a pipeline count their work: those of a kind that may not write cannot.
+fn counts(device: &DeviceShared, stages: &[ShaderStage]) -> bool {
+    let capabilities = &device.facts.capabilities;
+    device.settings.inspect == Inspect::Work
+        && stages.iter().all(|stage| match stage.shader.kind {
+            ShaderKind::Compute => true,
+            ShaderKind::Vertex | ShaderKind::Geometry => capabilities.vertex_stores,
+            ShaderKind::Fragment => capabilities.fragment_stores,
+        })
+}
+
+/// What is bound to a pipeline that has counters.
+pub(super) fn with_counters<'a>(bindings: &[Binding<'a>], counters: Option<&'a Buffer>) -> Vec<Binding<'a>> {
+    let counters = counters.map(|buffer| Binding { layout: &COUNTERS, bound: Bound::Buffer(buffer) });
+    bindings.iter().copied().chain(counters).collect()
 }
 
 /// All descriptors of all stages.

@@ -13,8 +13,8 @@ use super::hazards::{Barrier, Hazards, Stages, Use};
 use super::image::{Image, whole};
 use super::memory::Memory;
 use super::pass::{Dispatch, Groups};
-use super::pipeline::{Pipeline, Resource, uses};
-use super::recording::{Recording, RecordingParts};
+use super::pipeline::{Pipeline, Resource, uses, with_counters};
+use super::recording::{Counters, Recording, RecordingParts};
 use super::shader::Bound;
 use super::timing::Timing;
 
@@ -74,6 +74,7 @@ impl Device {
             statistics: None,
             breadcrumbs: None,
             passes: Vec::new(),
+            counters: Vec::new(),
             buffers: Vec::new(),
             images: Vec::new(),
             pipelines: Vec::new(),
@@ -176,7 +177,9 @@ impl Recorder {
 
     fn dispatch(&mut self, name: &str, dispatch: &Dispatch<'_>) -> Result<()> {
         let pipeline = self.device.compute_pipeline(&dispatch.stage)?;
-        let resources = pipeline.resources(name, &dispatch.bindings)?;
+        let counters = self.counters(&pipeline)?;
+        let bindings = with_counters(&dispatch.bindings, counters.as_ref());
+        let resources = pipeline.resources(name, &bindings)?;
         check_push(name, &pipeline, &dispatch.push)?;
         let mut uses: Vec<_> = uses(&resources).collect();
         let mut stages = Stages::COMPUTE;
@@ -411,6 +414,22 @@ impl Recorder {
                 raw.cmd_push_constants(commands, pipeline.layout, pipeline.push_stages, 0, push);
             }
         }
+    }
+
+    /// The counters of a pipeline in the pass that is being recorded; none where it does not count.
+    pub(super) fn counters(&mut self, pipeline: &Pipeline) -> Result<Option<Buffer>> {
+        let blocks = pipeline.shared.blocks.len();
+        if blocks == 0 {
+            return Ok(None);
+        }
+        let pass = self.parts.passes.len() - 1;
+        let is_it = |one: &&Counters| one.pass == pass && one.pipeline.shared.handle == pipeline.shared.handle;
+        if let Some(known) = self.parts.counters.iter().rev().find(is_it) {
+            return Ok(Some(known.buffer.clone()));
+        }
+        let buffer = self.device.buffer::<u64>("counters", blocks, Memory::Readback)?;
+        self.parts.counters.push(Counters { pass, pipeline: pipeline.clone(), buffer: buffer.clone() });
+        Ok(Some(buffer))
     }
 
     pub(super) fn keep_buffer(&mut self, buffer: &Buffer) {

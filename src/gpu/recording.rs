@@ -13,6 +13,7 @@ use super::device_shared::DeviceShared;
 use super::image::Image;
 use super::pipeline::Pipeline;
 use super::timing::{DevicePass, PassStatistics, PassTiming, on_host_clock, unwrapped};
+use super::work::Work;
 
 /// Passes ready to run. Each submission runs all of them in order; it keeps everything it uses alive until the device is done.
 pub struct Recording {
@@ -44,9 +45,19 @@ pub(super) struct RecordingParts {
     pub(super) breadcrumbs: Option<Buffer>,
     /// Names of the passes in order.
     pub(super) passes: Vec<String>,
+    /// What its passes count their work in.
+    pub(super) counters: Vec<Counters>,
     pub(super) buffers: Vec<Buffer>,
     pub(super) images: Vec<Image>,
     pub(super) pipelines: Vec<Pipeline>,
+}
+
+/// How often each block of a pipeline's stages ran in a pass.
+pub(super) struct Counters {
+    pub(super) pass: usize,
+    pub(super) pipeline: Pipeline,
+    /// 64 bits a block.
+    pub(super) buffer: Buffer,
 }
 
 impl Recording {
@@ -65,6 +76,9 @@ impl Recording {
         self.wait()?;
         if let Some(breadcrumbs) = &parts.breadcrumbs {
             breadcrumbs.write(0, &vec![0_u32; parts.passes.len()])?;
+        }
+        for Counters { pipeline, buffer, .. } in &parts.counters {
+            buffer.write(0, &vec![0_u64; pipeline.shared.blocks.len()])?;
         }
         let commands: Vec<_> = parts.ended.iter().copied().chain([parts.commands]).collect();
         self.submitted = self.device.shared.submit(&commands, &parts.passes)?;
@@ -134,6 +148,14 @@ impl Recording {
             .map_err(|result| device.failure(result, "read its statistics", || None))?;
             counts.iter_mut().zip(&of_compute).for_each(|(all, own)| all[3] = all[3].max(*own));
         }
+        let mut work: Vec<Option<Work>> = vec![None; count];
+        for Counters { pass, pipeline, buffer } in &parts.counters {
+            let blocks = &pipeline.shared.blocks;
+            let mut runs = vec![0_u64; blocks.len()];
+            buffer.read(0, &mut runs)?;
+            let own = work[*pass].get_or_insert_default();
+            runs.iter().zip(blocks).for_each(|(&runs, block)| own.add(runs, block));
+        }
         let capabilities = &device.facts.capabilities;
         let period = f64::from(capabilities.timestamp_period_ns);
         let ticks = unwrapped(&ticks, capabilities.timestamp_bits);
@@ -149,6 +171,7 @@ impl Recording {
                     let [vertices, primitives, fragments, compute] = counts[pass];
                     PassStatistics { vertices, primitives, fragments, compute }
                 }),
+                work: work[pass],
             })
             .collect())
     }

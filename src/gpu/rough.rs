@@ -3,16 +3,11 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::spirv::op::{CONSTANT, LABEL, TYPE_BOOL, TYPE_FLOAT, TYPE_FUNCTION, TYPE_INT, TYPE_VECTOR};
 use super::spirv::{HEADER, instructions};
 
 /// Numbers of instructions, decorations and instructions of GLSL.std.450, from the SPIR-V specification.
 const EXT_INST: u32 = 12;
-const TYPE_BOOL: u32 = 20;
-const TYPE_INT: u32 = 21;
-const TYPE_FLOAT: u32 = 22;
-const TYPE_VECTOR: u32 = 23;
-const TYPE_FUNCTION: u32 = 33;
-const CONSTANT: u32 = 43;
 const FUNCTION: u32 = 54;
 const FUNCTION_PARAMETER: u32 = 55;
 const FUNCTION_END: u32 = 56;
@@ -37,7 +32,6 @@ const U_LESS_THAN: u32 = 176;
 const SHIFT_RIGHT: u32 = 194;
 const XOR: u32 = 198;
 const AND: u32 = 199;
-const LABEL: u32 = 248;
 const RETURN_VALUE: u32 = 254;
 const NO_CONTRACTION: u32 = 42;
 /// Sine to inverse square root, length, distance, cross product, unit vector.

@@ -1,4 +1,4 @@
-//! SPIR-V as far as code that is loaded is changed: its instructions, one after the other.
+//! SPIR-V as far as code that is loaded is changed or counted: its instructions, one after the other.
 
 /// Words before the first instruction; the fourth is one more than the largest number of a result.
 pub(super) const HEADER: usize = 5;
@@ -9,6 +9,19 @@ pub(super) mod op {
     pub(crate) const ENTRY_POINT: u32 = 15;
     pub(crate) const EXECUTION_MODE: u32 = 16;
     pub(crate) const CAPABILITY: u32 = 17;
+    pub(crate) const TYPE_VOID: u32 = 19;
+    pub(crate) const TYPE_BOOL: u32 = 20;
+    pub(crate) const TYPE_INT: u32 = 21;
+    pub(crate) const TYPE_FLOAT: u32 = 22;
+    pub(crate) const TYPE_VECTOR: u32 = 23;
+    pub(crate) const TYPE_MATRIX: u32 = 24;
+    pub(crate) const TYPE_ARRAY: u32 = 28;
+    pub(crate) const TYPE_STRUCT: u32 = 30;
+    pub(crate) const TYPE_POINTER: u32 = 32;
+    pub(crate) const TYPE_FUNCTION: u32 = 33;
+    pub(crate) const CONSTANT: u32 = 43;
+    pub(crate) const SPEC_CONSTANT: u32 = 50;
+    pub(crate) const LABEL: u32 = 248;
 }
 
 /// The instructions of a module, each with its first word, which holds its length above and its number below.

@@ -457,3 +457,71 @@ fn workgroups_cover_what_was_asked_for() {
     assert_eq!(Groups::Flat(64 * 65535 + 1).count([64, 1, 1]), Some([65535, 2, 1]));
     assert_eq!(Groups::Count([1, 2, 3]).count([64, 1, 1]), Some([1, 2, 3]));
 }
+
+#[test]
+fn stages_count_their_work() {
+    let settings = DeviceSettings { inspect: Inspect::Work, ..DeviceSettings::default() };
+    let Some((device, log)) = device("stages_count_their_work", settings) else { return };
+    let (result, mut recording) = quadruple(&device, 1000, Timing::Stamps).unwrap();
+    assert!(result.iter().enumerate().all(|(i, &value)| value == 4.0 * i as f32), "counting changes no result");
+    // Every run begins at nothing.
+    recording.run().unwrap();
+    let timings = recording.timings().unwrap();
+    if device.capabilities().timestamps {
+        // Whole workgroups compare; a thousand of their invocations go on to a product.
+        let group = u64::from(double_comp::SHADER.workgroup_size[0]);
+        let integer = 1000_u64.next_multiple_of(group);
+        let expected = Work { integer, float: 1000, read: 4000, written: 4000, ..Work::default() };
+        assert_eq!(timings.iter().map(|timing| timing.work).collect::<Vec<_>>(), [Some(expected); 2]);
+    }
+    drop(recording);
+    drop(device);
+    assert_silent(&log);
+}
+
+#[test]
+fn fragments_count_where_they_are_drawn() {
+    for (lower, is_counted) in [
+        (None, true),
+        (
+            Some((|capabilities: &mut Capabilities| capabilities.fragment_stores = false) as fn(&mut Capabilities)),
+            false,
+        ),
+    ] {
+        let settings = DeviceSettings { inspect: Inspect::Work, lower, ..DeviceSettings::default() };
+        let Some((device, log)) = device("fragments_count_where_they_are_drawn", settings) else { return };
+        let drawing = Drawing { colour: Some(Format::Rgba8), ..Drawing::default() };
+        let pipeline = device.graphics_pipeline("fill", &[fill_vert::stage(), fill_frag::stage()], &drawing).unwrap();
+        let corners = device.buffer::<layout::Corner>("corners", 3, Memory::Upload).unwrap();
+        let at = |x: f32, y: f32| layout::Corner { position: [x, y], colour: 0xffff_ffff, _pad0: [0] };
+        corners.write(0, &[at(-1.0, -1.0), at(3.0, -1.0), at(-1.0, 3.0)]).unwrap();
+        let image = device.image("target", Format::Rgba8, [16, 8], ImageUse::Target).unwrap();
+        let mut recorder = device.recorder(Timing::Stamps).unwrap();
+        let target = Target { colour: (&image, Clear::Value([0.0; 4])), depth: None, area: [0, 0, 16, 8] };
+        let bindings = fill_vert::Bindings { corners: &corners };
+        let draw = Draw {
+            pipeline: &pipeline,
+            bindings: &bindings.bound(),
+            push: &[],
+            viewport: Viewport { area: [0.0, 0.0, 16.0, 8.0], depth: [0.0, 1.0] },
+            scissor: [0, 0, 16, 8],
+            vertices: 0..3,
+            instances: 0..1,
+            indices: None,
+            indirect: None,
+        };
+        recorder.draw("fill", &target, &[draw]).unwrap();
+        let mut recording = recorder.finish().unwrap();
+        recording.run().unwrap();
+        if device.capabilities().timestamps {
+            let work = recording.timings().unwrap()[0].work;
+            assert_eq!(work.is_some(), is_counted && device.capabilities().vertex_stores, "{work:?}");
+            if let Some(work) = work {
+                assert!(work.read >= 3 * 8, "three corners are read: {work:?}");
+            }
+        }
+        drop(recording);
+        drop((corners, image, pipeline, device));
+        assert_silent(&log);
+    }
+}

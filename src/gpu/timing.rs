@@ -2,6 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use super::work::Work;
+
 /// A moment on the device's clock and on the host's.
 #[derive(Clone, Copy, Debug)]
 pub struct ClockPair {
@@ -52,6 +54,8 @@ pub struct PassTiming {
     pub end_ns: f64,
     /// What it ran.
     pub statistics: Option<PassStatistics>,
+    /// What its stages did, on a device that counts it ([`super::Inspect::Work`]).
+    pub work: Option<Work>,
 }
 
 impl PassTiming {
@@ -100,6 +104,8 @@ pub struct DevicePass {
     pub duration: Duration,
     /// What it ran.
     pub statistics: Option<PassStatistics>,
+    /// What its stages did, on a device that counts it ([`super::Inspect::Work`]).
+    pub work: Option<Work>,
 }
 
 /// Brings the passes of a submission to the host's clock, by a pair of moments on both clocks where there is one. Without, and
@@ -131,6 +137,7 @@ pub(super) fn on_host_clock(
             start: before_end(last_ns - timing.start_ns + slack_ns),
             duration: Duration::from_nanos((timing.end_ns - timing.start_ns).max(0.0) as u64),
             statistics: timing.statistics,
+            work: timing.work,
         })
         .collect()
 }
@@ -140,7 +147,7 @@ mod tests {
     use super::*;
 
     fn timing(start_ns: f64, end_ns: f64) -> PassTiming {
-        PassTiming { name: "pass".into(), start_ns, end_ns, statistics: None }
+        PassTiming { name: "pass".into(), start_ns, end_ns, statistics: None, work: None }
     }
 
     #[test]

@@ -279,6 +279,7 @@ mod tests {
             start: start + Duration::from_millis(ms),
             duration: Duration::from_millis(1),
             statistics,
+            work: None,
         };
         let passes = [pass("a \"pose\"", 1, None), pass("draw", 2, Some(statistics)), pass("draw", 3, None)];
         timings.record_passes(3, &passes).unwrap();
