@@ -55,6 +55,9 @@ fn section(folder: &Path) -> String {
             .unwrap();
         }
     }
+    // Folders of older reports have none.
+    let profile = if folder.join("profile.json").exists() { json("profile.json") } else { Value::Null };
+    passes(&mut text, &profile);
     writeln!(text, "\n| track, start to end | frames | ms | ms a frame |\n|---|---|---|---|").unwrap();
     for line in read("track.txt").lines() {
         let columns: Vec<&str> = line.split('\t').collect();
@@ -65,6 +68,50 @@ fn section(folder: &Path) -> String {
         writeln!(text, "| {backend} | {frames} | {ms} | {each:.1} |").unwrap();
     }
     text
+}
+
+/// The passes of a profile; nothing where there is none.
+fn passes(text: &mut String, profile: &Value) {
+    let Some(profiles) = profile["profiles"].as_array() else { return };
+    let peak = |kind: &str| profile["peaks"][kind].as_f64().unwrap_or(f64::NAN) * 1e-9;
+    writeln!(
+        text,
+        "\nPeaks: {:.0} G integer operations/s, {:.0} G in floating point, {:.0} GB/s of memory, {:.0} GB/s of shared memory.\n",
+        peak("integer"),
+        peak("float"),
+        peak("memory"),
+        peak("shared")
+    )
+    .unwrap();
+    writeln!(text, "| iteration | pass | ms | share | M int | M float | MB | most of a peak |").unwrap();
+    writeln!(text, "|---|---|---|---|---|---|---|---|").unwrap();
+    for row in profiles {
+        let word = |key: &str| row[key].as_str().unwrap_or("unknown");
+        for pass in row["passes"].as_array().into_iter().flatten() {
+            let number = |value: &Value, scale: f64| value.as_f64().unwrap_or(0.0) * scale;
+            let work = &pass["work"];
+            let parts = pass["of_peak"].as_object().into_iter().flatten();
+            let most = parts.max_by(|l, r| number(l.1, 1.0).total_cmp(&number(r.1, 1.0)));
+            let most =
+                most.map_or_else(|| "-".to_string(), |(kind, part)| format!("{kind} {:.0}%", number(part, 100.0)));
+            writeln!(
+                text,
+                "| {} {}, {}, {}x{} | {} | {:.4} | {:.1}% | {:.2} | {:.2} | {:.2} | {most} |",
+                word("backend"),
+                word("variant"),
+                word("model"),
+                number(&row["width"], 1.0),
+                number(&row["height"], 1.0),
+                pass["name"].as_str().unwrap_or("unknown"),
+                number(&pass["ms"], 1.0),
+                number(&pass["share"], 100.0),
+                number(&work["integer"], 1e-6),
+                number(&work["float"], 1e-6),
+                (number(&work["read"], 1e-6) + number(&work["written"], 1e-6)),
+            )
+            .unwrap();
+        }
+    }
 }
 
 /// `docs` with another section.
@@ -101,6 +148,26 @@ fn results_fill_the_section() {
     assert!(found.starts_with("Measured with pantin 0.1.0 abc1234 on Card, driver 1; processor: CPU.\n"), "{found}");
     let expected = "| compute | subgroup | flat | 512 | 480x270 | 0.123 | 0.100 | 1000000 | pose 0.010 |\n";
     assert!(found.contains(expected), "{found}");
+    assert!(!found.contains("| pass |"), "no profile: {found}");
+    let pass = r#"{ "name": "raster", "ms": 0.05, "share": 0.4, "work": { "integer": 4000000, "float": 500000, "read": 250000,
+        "written": 750000 }, "of_peak": { "integer": 0.25, "float": 0.1, "memory": 0.125, "shared": 0.0 } }"#;
+    let copy = r#"{ "name": "upload poses", "ms": 0.01, "share": 0.1, "work": null, "of_peak": null }"#;
+    let head = r#""backend": "compute", "variant": "subgroup", "model": "flat", "width": 480, "height": 270"#;
+    let peaks = r#"{ "integer": 2e12, "float": 3e12, "memory": 4e11, "shared": 5e12 }"#;
+    write(
+        "profile.json",
+        &format!(r#"{{ "peaks": {peaks}, "profiles": [{{ {head}, "passes": [{copy}, {pass}] }}] }}"#),
+    );
+    let found = section(folder.path());
+    assert!(
+        found.contains("Peaks: 2000 G integer operations/s, 3000 G in floating point, 400 GB/s of memory"),
+        "{found}"
+    );
+    let line = "| compute subgroup, flat, 480x270 | raster | 0.0500 | 40.0% | 4.00 | 0.50 | 1.00 | integer 25% |\n";
+    assert!(
+        found.contains(line) && found.contains("| upload poses | 0.0100 | 10.0% | 0.00 | 0.00 | 0.00 | - |"),
+        "{found}"
+    );
     // Written twice it is the same.
     let filled = with_section(&docs, &found);
     assert_eq!(with_section(&filled, &found), filled);

@@ -140,7 +140,9 @@ impl Contestant {
             (Self::Cpu(set), None) => Box::new(Cpu::with(body, cameras, set, threads)?),
             (Self::Cpu(set), Some(mesh)) => Box::new(Cpu::of_mesh_with(body, mesh.clone(), cameras, set, threads)?),
             (Self::Compute { subgroup }, None) => {
-                let device = if subgroup { device()?.clone() } else { device().and_then(|_| without_subgroups())? };
+                let own = device()?;
+                let is_as_wanted = subgroup || !own.capabilities().subgroup_arithmetic;
+                let device = if is_as_wanted { own.clone() } else { without_subgroups()? };
                 let compute = Compute::on(&device, body, cameras)?;
                 ensure!(
                     compute.variant() == self.variant(),

@@ -5,9 +5,11 @@
 
 mod contestants;
 mod preset;
+pub mod profile;
 mod report;
 mod rounds;
 mod scene;
+mod shaders;
 mod table;
 mod thesis;
 mod yardstick;

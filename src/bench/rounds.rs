@@ -24,7 +24,7 @@ pub struct Times {
 }
 
 impl Times {
-    fn of(mut ms: Vec<f64>) -> Self {
+    pub(super) fn of(mut ms: Vec<f64>) -> Self {
         ms.sort_by(f64::total_cmp);
         let at = |place: usize| ms.get(place).copied().unwrap_or(f64::NAN);
         Self { median: at(ms.len() / 2), min: at(0), max: at(ms.len().saturating_sub(1)) }

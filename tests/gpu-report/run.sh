@@ -14,7 +14,7 @@ times=${2:-1}
 seconds=$((460 * times)) # for everything
 mkdir -p "$results" || exit 1
 results=$(cd "$results" && pwd)
-rm -f "$results"/lines.tsv "$results"/agreement.txt
+rm -f "$results"/lines.tsv
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 for program in pantin stages; do
@@ -52,12 +52,13 @@ line() {
 : >"$results/messages.txt"
 : >"$results/devices.json"
 : >"$results/bench.json"
+: >"$results/profile.json"
 : >"$results/track.txt"
 cat "$here/version" >"$results/version.txt"
 line devices 30 "$results/devices.json" "$work/pantin" devices --json
 
 # Agreement. Left out is what needs the sources or the validation layer.
-agreement=$results/agreement.txt
+agreement=$results/messages.txt
 for stage in gpu:: evaluate::device::tests evaluate::device::raster_tests evaluate::device::any_device_tests \
     evaluate::device::graphics search::device features::device texture::device synth::device; do
     line "agreement of $stage" 30 "$agreement" "$work/stages" "$stage" --skip shaders:: --skip without_correction \
@@ -83,6 +84,9 @@ for backend in cpu compute graphics; do
             line "track $backend as cpu" 5 "$results/messages.txt" cmp "$work/cpu/poses.csv" "$work/$backend/poses.csv"
     fi
 done
+
+# Last, since counting on a software device takes minutes.
+line 'bench profile' 60 "$results/profile.json" "$work/pantin" bench --profile --json
 [ ! -f "$work/compute/trace.json" ] || cp "$work/compute/trace.json" "$results/trace.json"
 echo "all results are in $results"
 exit $failed

@@ -161,3 +161,27 @@ fn an_unknown_preset_is_named() {
     let text = stderr(&failed);
     assert!(text.contains("unknown preset `slow`, the nearest is `quick` (known: quick, thesis)"), "{text}");
 }
+
+#[test]
+fn a_profile_needs_a_device_and_says_so() {
+    let failed = pantin(&["bench", "--profile"], &NO_DRIVER);
+    assert_eq!(failed.status.code(), Some(1));
+    assert!(stderr(&failed).contains("Vulkan"), "{}", stderr(&failed));
+}
+
+#[test]
+fn a_profile_is_compared_with_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let other = folder.path().join("other.json");
+    std::fs::write(&other, "{\"preset\": \"quick\"}").unwrap();
+    let other = other.to_str().unwrap();
+    // Before anything is measured, and with no device at all.
+    let failed = pantin(&["bench", "--profile", "--compare", other], &NO_DRIVER);
+    let text = stderr(&failed);
+    assert!(text.contains("other.json: expected a profile of pantin bench --profile --json"), "{text}");
+    let failed = pantin(&["bench", "--profile", "--trace", other], &NO_DRIVER);
+    assert!(stderr(&failed).contains("other.json exists already"), "{}", stderr(&failed));
+    let failed = pantin(&["bench", "--compare", other], &NO_DRIVER);
+    assert_eq!(failed.status.code(), Some(2));
+    assert!(stderr(&failed).contains("--profile"), "{}", stderr(&failed));
+}
