@@ -1,15 +1,23 @@
 //! Noise beside other crates: samples a second of gradient noise in space and of its fbm (4 octaves), on a grid of
-//! 128 x 128 x 64 points; and synthesis from an example.
-#![allow(clippy::unwrap_used, reason = "a benchmark ends where something fails")]
+//! 128 x 128 x 64 points; pictures of materials by size and way of noise, the processor beside a device; and synthesis from an
+//! example.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a benchmark ends where something fails, and says what it leaves out"
+)]
 
 mod table;
 
 use std::hint::black_box;
 
 use noise::{MultiFractal, NoiseFn};
+use pantin::evaluate::device::open_device;
 use pantin::texture::example::{Example, Settings, synthesise};
-use pantin::texture::materials::{Material, Parameters};
-use pantin::texture::noise::{HashLattice, Octaves, Perlin, TableLattice, Tables, Value};
+use pantin::texture::materials::{Material, MaterialKind, Parameters};
+use pantin::texture::noise::{HashLattice, NoiseWay, Octaves, Perlin, TableLattice, Tables, Value};
+use pantin::texture::painter::Painter;
+use pantin::texture::picture::View;
 use table::{Table, is_measuring};
 
 const FREQUENCY: f32 = 0.037;
@@ -112,7 +120,47 @@ fn from_example() {
     table.run();
 }
 
+/// Pictures of every material, of a few by each way of noise, and of one by size: pixels a second, and how often as fast as the
+/// processor.
+fn of_materials() {
+    let device = open_device().map_err(|error| println!("SKIPPED pictures of materials by a device: {error:#}")).ok();
+    let seed = 1;
+    let rows = |title: String, side: u32, materials: &[(NoiseWay, MaterialKind)]| {
+        let view = View { size: [side, side], offset: [0.0; 3], scale: 4.0 };
+        let pixels = (side * side) as usize;
+        let made: Vec<Material> = materials
+            .iter()
+            .map(|&(way, kind)| Material::of_noise(way, kind.name(), Parameters::Defaults, seed, None).unwrap())
+            .collect();
+        let mut table = Table::new(title, "pixel");
+        for (material, (way, kind)) in made.iter().zip(materials) {
+            for (place, device) in [("cpu", None), ("device", device.as_ref())] {
+                if place == "device" && device.is_none() {
+                    continue;
+                }
+                let painter = Painter::new(material, device).unwrap();
+                let name = format!("{kind}, {way} noise, {side} x {side}, {place}");
+                table.row(name, pixels, move || painter.flat(black_box(&view)).unwrap());
+            }
+        }
+        table.run();
+    };
+    let usual = if is_measuring() { 512 } else { 16 };
+    let all: Vec<_> = MaterialKind::ALL.into_iter().map(|kind| (NoiseWay::Arithmetic, kind)).collect();
+    rows("pictures of materials".into(), usual, &all);
+    let ways: Vec<_> = [MaterialKind::Marble, MaterialKind::Terrain]
+        .into_iter()
+        .flat_map(|kind| NoiseWay::ALL.into_iter().map(move |way| (way, kind)))
+        .collect();
+    rows("ways of noise".into(), usual, &ways);
+    let sides: &[u32] = if is_measuring() { &[64, 256, 1024, 2048] } else { &[8] };
+    for &side in sides {
+        rows(format!("pictures of {side} x {side}"), side, &[(NoiseWay::Arithmetic, MaterialKind::Marble)]);
+    }
+}
+
 fn main() {
     of_noise();
+    of_materials();
     from_example();
 }

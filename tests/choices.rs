@@ -22,7 +22,7 @@ use pantin::sequence::{CalibrationFormat, Orientation, Stamps};
 use pantin::study::{Axis, Value};
 use pantin::synth::{Gait, Garment, LensKind, MotionUnit, PictureForm, RigKind, ScenePreset};
 use pantin::texture::materials::MaterialKind;
-use pantin::texture::noise::Sum;
+use pantin::texture::noise::{NoiseWay, Sum};
 use pantin::track::{Backend, Passes, Prediction, Width};
 
 /// What a document calls a list, and its table.
@@ -72,6 +72,7 @@ fn lists() -> Vec<List> {
         list::<Skinning>(),
         list::<MaterialKind>(),
         list::<Sum>(),
+        list::<NoiseWay>(),
         list::<Arrangement>(),
         list::<UnitKind>(),
         list::<Multiplier>(),

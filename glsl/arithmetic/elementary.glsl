@@ -1,6 +1,9 @@
 // Elementary functions of additions, multiplications and bit patterns alone, in a fixed order, so that every device repeats them to
 // the bit; src/arithmetic/mod.rs holds the same operations.
 
+#ifndef ARITHMETIC_ELEMENTARY
+#define ARITHMETIC_ELEMENTARY
+
 float inverse_root(float x) {
     precise float half_x = 0.5 * x;
     precise float y = uintBitsToFloat(0x5F3759DFu - (floatBitsToUint(x) >> 1));
@@ -52,3 +55,19 @@ float exp_of_negative(float x) {
     precise float scaled = power * uintBitsToFloat(uint(int(n) + 127) << 23);
     return scaled;
 }
+
+float real_power(float x, float exponent) {
+    precise float logarithm = exponent * ln(x);
+    return exp_of_negative(logarithm);
+}
+
+float sine_of_turns(float turns) {
+    precise float rest = turns - floor(turns + 0.5);
+    precise float folded = rest > 0.25 ? 0.5 - rest : (rest < -0.25 ? -0.5 - rest : rest);
+    precise float s = folded * folded;
+    precise float series = 81.60525 + s * (-76.70586 + s * (42.058693 + s * (-15.094642 + s * 3.8199525)));
+    precise float sine = folded * (6.2831855 + s * (-41.3417 + s * series));
+    return sine;
+}
+
+#endif

@@ -2,6 +2,9 @@
 // lets a quotient be 2.5 units off in the last place and a root more. So the device's own is an estimate here, and whole numbers
 // decide: what is left of the dividend, or of the radicand, says by how many units it is off. The estimate may be eight units off.
 
+#ifndef ARITHMETIC_ROUNDING
+#define ARITHMETIC_ROUNDING
+
 // Numbers that are not normal, or whose quotient is not, are left to the device; but 0 over anything normal is 0.
 float quotient(float a, float b) {
     uint a_bits = floatBitsToUint(a);
@@ -51,3 +54,5 @@ float square_root(float a) {
     if (a == 0.0) return a;
     return sqrt(a);
 }
+
+#endif

@@ -102,7 +102,7 @@ pub mod picture_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "synth/picture.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<64766, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<45346, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/synth/picture.comp.spv"))),
         workgroup_size: [8, 8, 1],
         push_size: 4,
@@ -236,7 +236,7 @@ pub mod soften_comp {
 /// Memory layouts of the blocks.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub mod layout {
-    /// `Finish` in memory, 128 bytes.
+    /// `Finish` in memory, 928 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
     pub struct Finish {
@@ -245,30 +245,32 @@ pub mod layout {
         /// `material` at byte 16.
         pub material: Material,
     }
-    const _: () = assert!(size_of::<Finish>() == 128);
+    const _: () = assert!(size_of::<Finish>() == 928);
     const _: () = assert!(std::mem::offset_of!(Finish, tint) == 0);
     const _: () = assert!(std::mem::offset_of!(Finish, material) == 16);
-    /// `Material` in memory, 112 bytes.
+    /// `Material` in memory, 912 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
     pub struct Material {
         /// `kind` at byte 0.
         pub kind: u32,
-        /// `seed_low` at byte 4.
-        pub seed_low: u32,
-        /// `seed_high` at byte 8.
-        pub seed_high: u32,
-        /// `lattices` at byte 12.
-        pub lattices: [u32; 9],
-        /// `numbers` at byte 48.
-        pub numbers: [f32; 16],
+        /// Padding.
+        pub _pad0: [u32; 1],
+        /// `dice` at byte 8.
+        pub dice: [[u32; 2]; 3],
+        /// `numbers` at byte 32.
+        pub numbers: [f32; 24],
+        /// `sums` at byte 128.
+        pub sums: [u32; 4],
+        /// `octaves` at byte 144.
+        pub octaves: [NoiseOctave; 16],
     }
-    const _: () = assert!(size_of::<Material>() == 112);
+    const _: () = assert!(size_of::<Material>() == 912);
     const _: () = assert!(std::mem::offset_of!(Material, kind) == 0);
-    const _: () = assert!(std::mem::offset_of!(Material, seed_low) == 4);
-    const _: () = assert!(std::mem::offset_of!(Material, seed_high) == 8);
-    const _: () = assert!(std::mem::offset_of!(Material, lattices) == 12);
-    const _: () = assert!(std::mem::offset_of!(Material, numbers) == 48);
+    const _: () = assert!(std::mem::offset_of!(Material, dice) == 8);
+    const _: () = assert!(std::mem::offset_of!(Material, numbers) == 32);
+    const _: () = assert!(std::mem::offset_of!(Material, sums) == 128);
+    const _: () = assert!(std::mem::offset_of!(Material, octaves) == 144);
     /// `Member` in memory, 96 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -308,6 +310,29 @@ pub mod layout {
     const _: () = assert!(std::mem::offset_of!(Member, pairs) == 80);
     const _: () = assert!(std::mem::offset_of!(Member, pad0) == 84);
     const _: () = assert!(std::mem::offset_of!(Member, floor_middle) == 88);
+    /// `NoiseOctave` in memory, 48 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct NoiseOctave {
+        /// `scale` at byte 0.
+        pub scale: [f32; 3],
+        /// `state` at byte 12.
+        pub state: u32,
+        /// `frequency` at byte 16.
+        pub frequency: [f32; 3],
+        /// `amplitude` at byte 28.
+        pub amplitude: f32,
+        /// `period` at byte 32.
+        pub period: [i32; 3],
+        /// Padding.
+        pub _pad0: [u32; 1],
+    }
+    const _: () = assert!(size_of::<NoiseOctave>() == 48);
+    const _: () = assert!(std::mem::offset_of!(NoiseOctave, scale) == 0);
+    const _: () = assert!(std::mem::offset_of!(NoiseOctave, state) == 12);
+    const _: () = assert!(std::mem::offset_of!(NoiseOctave, frequency) == 16);
+    const _: () = assert!(std::mem::offset_of!(NoiseOctave, amplitude) == 28);
+    const _: () = assert!(std::mem::offset_of!(NoiseOctave, period) == 32);
     /// `OccludePush` in memory, 4 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

@@ -1,7 +1,7 @@
 /// Coordinates beyond 1e25 count as this, as their bits.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const FARTHEST_BITS: u32 = 1761892689;
-/// Materials that stages have, as the library numbers them; 0 is none.
+/// Materials, as the library numbers them; 0 is none. Scenes' stages have those up to MATERIALS_OF_CLOTHES.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const MATERIAL_CLOUDS: u32 = 1;
 /// `MATERIAL_LAVA` of `texture/constants.glsl`.
@@ -25,12 +25,39 @@ pub const MATERIAL_FABRIC: u32 = 7;
 /// `MATERIAL_TIMBER` of `texture/constants.glsl`.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const MATERIAL_TIMBER: u32 = 8;
-/// Lattices of a material's space, its own first, and numbers that describe a material at most.
+/// `MATERIALS_OF_CLOTHES` of `texture/constants.glsl`.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
-pub const MATERIAL_LATTICES: u32 = 9;
-/// `MATERIAL_NUMBERS` of `texture/constants.glsl`.
+pub const MATERIALS_OF_CLOTHES: u32 = 8;
+/// `MATERIAL_GRASS` of `texture/constants.glsl`.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
-pub const MATERIAL_NUMBERS: u32 = 16;
+pub const MATERIAL_GRASS: u32 = 9;
+/// `MATERIAL_SKIN` of `texture/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const MATERIAL_SKIN: u32 = 10;
+/// `MATERIAL_FRACTAL` of `texture/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const MATERIAL_FRACTAL: u32 = 11;
+/// `MATERIAL_TERRAIN` of `texture/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const MATERIAL_TERRAIN: u32 = 12;
+/// Numbers, sums of noise and octaves of them all that describe a material at most.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const MATERIAL_NUMBERS: u32 = 24;
+/// `MATERIAL_SUMS` of `texture/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const MATERIAL_SUMS: u32 = 4;
+/// `MATERIAL_OCTAVES` of `texture/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const MATERIAL_OCTAVES: u32 = 16;
+/// What a picture of a material shows: its colours, its heights, its colours where rays meet a lit object.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const SHOWS_COLOURS: u32 = 0;
+/// `SHOWS_HEIGHTS` of `texture/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const SHOWS_HEIGHTS: u32 = 1;
+/// `SHOWS_RAYS` of `texture/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const SHOWS_RAYS: u32 = 2;
 /// The stage `texture/matching.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod matching_comp {
@@ -88,6 +115,91 @@ pub mod matching_comp {
             -> crate::gpu::Dispatch<'a> {
             let bindings = self.bound().to_vec();
             crate::gpu::Dispatch { stage: stage(), bindings, push: Vec::new(), groups }
+        }
+    }
+}
+/// The stage `texture/material.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod material_comp {
+    // Accesses are as declared: naga cannot read this stage (unsupported instruction UMulExtended at Function).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "texture/material.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<73980, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/texture/material.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 0,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Materials", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Tables", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "noise_tables", set: 0, binding: 2, kind: crate::gpu::BindingKind::SampledImage, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "noise_volume", set: 0, binding: 3, kind: crate::gpu::BindingKind::SampledImage, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllRequests", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Rays", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Words", set: 0, binding: 6, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "KIND", id: 0, default: 1 },
+            crate::gpu::SpecConstant { name: "WAY", id: 1, default: 0 },
+            crate::gpu::SpecConstant { name: "SHOWS", id: 2, default: 0 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `KIND`, 1 by default.
+        pub kind: u32,
+        /// `WAY`, 0 by default.
+        pub way: u32,
+        /// `SHOWS`, 0 by default.
+        pub shows: u32,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { kind: 1, way: 0, shows: 0, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.kind), (1, constants.way), (2, constants.shows), ] }
+    }
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Materials`, read; set 0, binding 0.
+        pub materials: &'a crate::gpu::Buffer,
+        /// Storage buffer `Tables`, read; set 0, binding 1.
+        pub tables: &'a crate::gpu::Buffer,
+        /// Texture, read; set 0, binding 2.
+        pub noise_tables: &'a crate::gpu::Image,
+        /// Texture, read; set 0, binding 3.
+        pub noise_volume: &'a crate::gpu::Image,
+        /// Storage buffer `AllRequests`, read; set 0, binding 4.
+        pub all_requests: &'a crate::gpu::Buffer,
+        /// Storage buffer `Rays`, read; set 0, binding 5.
+        pub rays: &'a crate::gpu::Buffer,
+        /// Storage buffer `Words`, written; set 0, binding 6.
+        pub words: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 7] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.materials) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.tables) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Image(self.noise_tables) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Image(self.noise_volume) },
+                crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.all_requests) },
+                crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.rays) },
+                crate::gpu::Binding { layout: &SHADER.bindings[6], bound: crate::gpu::Bound::Buffer(self.words) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, constants: Constants, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: Vec::new(), groups }
         }
     }
 }
@@ -261,6 +373,47 @@ pub mod noise_image_vert {
 /// Memory layouts of the blocks.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub mod layout {
+    /// `AllRequests` in memory, 48 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct AllRequests {
+        /// `request` at byte 0.
+        pub request: PictureRequest,
+    }
+    const _: () = assert!(size_of::<AllRequests>() == 48);
+    const _: () = assert!(std::mem::offset_of!(AllRequests, request) == 0);
+    /// `Material` in memory, 912 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct Material {
+        /// `kind` at byte 0.
+        pub kind: u32,
+        /// Padding.
+        pub _pad0: [u32; 1],
+        /// `dice` at byte 8.
+        pub dice: [[u32; 2]; 3],
+        /// `numbers` at byte 32.
+        pub numbers: [f32; 24],
+        /// `sums` at byte 128.
+        pub sums: [u32; 4],
+        /// `octaves` at byte 144.
+        pub octaves: [NoiseOctave; 16],
+    }
+    const _: () = assert!(size_of::<Material>() == 912);
+    const _: () = assert!(std::mem::offset_of!(Material, kind) == 0);
+    const _: () = assert!(std::mem::offset_of!(Material, dice) == 8);
+    const _: () = assert!(std::mem::offset_of!(Material, numbers) == 32);
+    const _: () = assert!(std::mem::offset_of!(Material, sums) == 128);
+    const _: () = assert!(std::mem::offset_of!(Material, octaves) == 144);
+    /// `Materials` in memory, 912 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct Materials {
+        /// `material` at byte 0.
+        pub material: Material,
+    }
+    const _: () = assert!(size_of::<Materials>() == 912);
+    const _: () = assert!(std::mem::offset_of!(Materials, material) == 0);
     /// `NoiseImagePush` in memory, 8 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -273,6 +426,29 @@ pub mod layout {
     const _: () = assert!(size_of::<NoiseImagePush>() == 8);
     const _: () = assert!(std::mem::offset_of!(NoiseImagePush, width) == 0);
     const _: () = assert!(std::mem::offset_of!(NoiseImagePush, octaves) == 4);
+    /// `NoiseOctave` in memory, 48 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct NoiseOctave {
+        /// `scale` at byte 0.
+        pub scale: [f32; 3],
+        /// `state` at byte 12.
+        pub state: u32,
+        /// `frequency` at byte 16.
+        pub frequency: [f32; 3],
+        /// `amplitude` at byte 28.
+        pub amplitude: f32,
+        /// `period` at byte 32.
+        pub period: [i32; 3],
+        /// Padding.
+        pub _pad0: [u32; 1],
+    }
+    const _: () = assert!(size_of::<NoiseOctave>() == 48);
+    const _: () = assert!(std::mem::offset_of!(NoiseOctave, scale) == 0);
+    const _: () = assert!(std::mem::offset_of!(NoiseOctave, state) == 12);
+    const _: () = assert!(std::mem::offset_of!(NoiseOctave, frequency) == 16);
+    const _: () = assert!(std::mem::offset_of!(NoiseOctave, amplitude) == 28);
+    const _: () = assert!(std::mem::offset_of!(NoiseOctave, period) == 32);
     /// `NoisePush` in memory, 8 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -305,6 +481,32 @@ pub mod layout {
     const _: () = assert!(std::mem::offset_of!(Octave, period) == 16);
     const _: () = assert!(std::mem::offset_of!(Octave, amplitude) == 32);
     const _: () = assert!(std::mem::offset_of!(Octave, state) == 36);
+    /// `PictureRequest` in memory, 48 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct PictureRequest {
+        /// `size` at byte 0.
+        pub size: [u32; 2],
+        /// `first` at byte 8.
+        pub first: u32,
+        /// `pixels` at byte 12.
+        pub pixels: u32,
+        /// `offset` at byte 16.
+        pub offset: [f32; 3],
+        /// `pixel` at byte 28.
+        pub pixel: f32,
+        /// `samples` at byte 32.
+        pub samples: u32,
+        /// Padding.
+        pub _pad0: [u32; 3],
+    }
+    const _: () = assert!(size_of::<PictureRequest>() == 48);
+    const _: () = assert!(std::mem::offset_of!(PictureRequest, size) == 0);
+    const _: () = assert!(std::mem::offset_of!(PictureRequest, first) == 8);
+    const _: () = assert!(std::mem::offset_of!(PictureRequest, pixels) == 12);
+    const _: () = assert!(std::mem::offset_of!(PictureRequest, offset) == 16);
+    const _: () = assert!(std::mem::offset_of!(PictureRequest, pixel) == 28);
+    const _: () = assert!(std::mem::offset_of!(PictureRequest, samples) == 32);
     /// `Request` in memory, 28 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -330,4 +532,4 @@ pub mod layout {
 /// Every stage of the folder, for tests that try them all.
 #[cfg(test)]
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
-pub static SHADERS: &[&crate::gpu::Shader] = &[&matching_comp::SHADER, &noise_comp::SHADER, &noise_image_frag::SHADER, &noise_image_vert::SHADER];
+pub static SHADERS: &[&crate::gpu::Shader] = &[&matching_comp::SHADER, &material_comp::SHADER, &noise_comp::SHADER, &noise_image_frag::SHADER, &noise_image_vert::SHADER];

@@ -78,8 +78,7 @@ float power(float base, float exponent) {
         return product;
     }
     if (base <= 0.0) return 0.0;
-    precise float logarithm = exponent * ln(base);
-    return exp_of_negative(logarithm);
+    return real_power(base, exponent);
 }
 
 float silhouette(float overlap, float area_obs, float area_model) {

@@ -7,6 +7,9 @@
 
 layout(std430, set = 0, binding = 6) readonly buffer Finishes { Finish finishes[]; };
 
+#define MATERIAL(of) finishes[of].material
+#include "texture/materials_at.glsl"
+
 // A number in [0, 1) for a cell of an integer lattice.
 float cell_number(ivec2 cell, uint layer) {
     uvec2 x = product64(extended64(cell.x), uvec2(0x7F4A7C15u, 0x9E3779B9u));
@@ -60,11 +63,13 @@ vec3 painted_face(bool is_jaw, vec3 at) {
 // The colour of a garment, its finish one more than a number or 0.
 vec3 worn_colour(uint look, uint finish, vec3 at) {
     if (finish == 0u) return own_colour(look, at);
-    Finish worn = finishes[finish - 1u];
-    if (worn.material.kind == 0u) return worn.tint.rgb;
+    uint of = finish - 1u;
+    uint kind = finishes[of].material.kind;
+    vec4 tint = finishes[of].tint;
+    if (kind == 0u) return tint.rgb;
     // Materials lie in their x and y: around and up the body.
-    vec3 colour = material_at(worn.material, at.yzx / worn.tint.w);
-    return worn.tint.rgb * min(linear_light(colour), vec3(0.9));
+    vec3 colour = texel_at(kind, of, at.yzx / tint.w).colour;
+    return tint.rgb * min(linear_light(colour), vec3(0.9));
 }
 
 // Creases of cloth: a small tilt of the normal.

@@ -63,9 +63,49 @@ pub(crate) fn exp_of_negative(x: f32) -> f32 {
     series * f32::from_bits(((n as i32 + 127) as u32) << 23)
 }
 
+/// x^exponent of a number above 0 and at most 1, and a positive exponent.
+#[inline(always)]
+pub(crate) fn real_power(x: f32, exponent: f32) -> f32 {
+    exp_of_negative(exponent * ln(x))
+}
+
+/// Sine of an angle in turns, of any size: folded to a quarter of a turn about 0, Taylor's series to the 13th power there (error
+/// below 2^-30).
+#[inline(always)]
+pub(crate) fn sine_of_turns(turns: f32) -> f32 {
+    let rest = turns - (turns + 0.5).floor();
+    let folded = if rest > 0.25 {
+        0.5 - rest
+    } else if rest < -0.25 {
+        -0.5 - rest
+    } else {
+        rest
+    };
+    let s = folded * folded;
+    let series = 81.605_25 + s * (-76.705_86 + s * (42.058_693 + s * (-15.094_642 + s * 3.819_952_5)));
+    folded * (6.283_185_5 + s * (-41.341_7 + s * series))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sines_and_powers_are_good_to_single_precision() {
+        for step in 0..100_000_u32 {
+            let word = step.wrapping_mul(2_654_435_769);
+            let turns = (word >> 8) as f32 / 1_048_576.0 - 8.0;
+            let exact = (f64::from(turns) * std::f64::consts::TAU).sin();
+            assert!((f64::from(sine_of_turns(turns)) - exact).abs() < 4e-7, "sine of {turns} turns");
+            let x = ((word >> 9) as f32 + 1.0) / 8_388_608.0;
+            for exponent in [2.4_f32, 1.0 / 2.4] {
+                let exact = f64::from(x).powf(f64::from(exponent));
+                assert!((f64::from(real_power(x, exponent)) - exact).abs() < 1e-6 * exact + 3e-10, "{x}^{exponent}");
+            }
+        }
+        assert_eq!([0.0, 0.5, -0.5, 1e9].map(sine_of_turns), [0.0; 4]);
+        assert_eq!(real_power(1.0, 2.4), 1.0);
+    }
 
     #[test]
     fn elementary_functions_are_good_to_single_precision() {

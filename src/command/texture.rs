@@ -11,15 +11,21 @@ use image::{DynamicImage, GrayImage, RgbImage};
 use super::draws::Draws;
 use super::output::{put, say};
 use super::progress::ProgressBar;
-use crate::files::{Choice as _, Limit, Overwrite, PICTURE_FORMATS, choices, png_name, write_atomically};
+use crate::files::{Choice as _, Limit, Overwrite, PICTURE_FORMATS, choices, png_name, read_toml, write_atomically};
 use crate::synth::portrait;
 use crate::texture::example::{Example, Settings, patch_count, synthesise};
 use crate::texture::materials::{Material, MaterialKind, Parameters};
-use crate::texture::picture::{Solid, View, check_size, contact_sheet, flat, heights, lit};
+use crate::texture::noise::NoiseWay;
+use crate::texture::painter::Painter;
+use crate::texture::palette::palette;
+use crate::texture::picture::{View, check_size};
+use crate::texture::relief::relief;
+use crate::texture::sheet::contact_sheet;
+use crate::texture::solids::{Solid, lit};
 
 /// Draw a procedural material, or synthesise a texture from an example.
 ///
-/// `pantin texture marble -o marble.png`, `pantin texture --list -o sheet.png`, or
+/// `pantin texture marble -o marble.png`, `pantin texture terrain --preview surface -o land.png`, `pantin texture --list -o sheet.png`, or
 /// `pantin texture --example brick.png -o wall.png`.
 #[derive(clap::Args, Debug)]
 #[command(group(clap::ArgGroup::new("what").required(true).args(["material", "list", "example"])))]
@@ -97,9 +103,15 @@ pub(super) struct TextureArgs {
     /// From an example: also write a picture of the pixels that were synthesised anew
     #[arg(long, value_name = "FILE", requires = "example")]
     resynthesised: Option<PathBuf>,
-    /// From an example: what measures how well patches fit; the texture is the same
-    #[arg(long, default_value_t, requires = "example")]
+    /// What draws a material, or measures how well patches of an example fit; the picture is the same
+    #[arg(long, default_value_t)]
     backend: Draws,
+    /// How a material's noise comes about: by arithmetic, from tables, or from a precomputed volume; each has other pieces of the material
+    #[arg(long, value_name = "WAY", default_value_t)]
+    noise: NoiseWay,
+    /// Colours of a terrain taken from a picture: its darkest are the lowest
+    #[arg(long, value_name = "PICTURE", requires = "material")]
+    palette: Option<PathBuf>,
     /// Replace files that are there
     #[arg(long)]
     force: bool,
@@ -107,16 +119,26 @@ pub(super) struct TextureArgs {
 
 choices! {
     /// An object under a light.
-    "preview" enum Preview => solid: Option<Solid> {
+    "preview" enum Preview => object: Object {
         /// A ball.
-        "sphere" Sphere => Some(Solid::Sphere),
+        "sphere" Sphere => Object::Solid(Solid::Sphere),
         /// A cube, seen from above a corner.
-        "cube" Cube => Some(Solid::Cube),
+        "cube" Cube => Object::Solid(Solid::Cube),
         /// A square leaning back.
-        "plane" Plane => Some(Solid::Plane),
+        "plane" Plane => Object::Solid(Solid::Plane),
         /// A standing person in clothes of the material.
-        "person" Person => None,
+        "person" Person => Object::Person,
+        /// The surface that its heights make: a block of land with shadows.
+        "surface" Surface => Object::Surface,
     }
+}
+
+/// What a material is shown on.
+#[derive(Clone, Copy)]
+enum Object {
+    Solid(Solid),
+    Person,
+    Surface,
 }
 
 choices! {
@@ -198,7 +220,10 @@ pub(super) fn drawn(args: &TextureArgs) -> Result<Drawn> {
     let drawn = match (args.example.is_empty(), &args.material) {
         (false, _) => from_examples(args)?,
         (true, Some(name)) => Drawn { picture: of_depth(args, of_material(args, name)?), resynthesised: 0 },
-        (true, None) => Drawn { picture: of_depth(args, contact_sheet(256, args.seed)?.into()), resynthesised: 0 },
+        (true, None) => {
+            let sheet = contact_sheet(256, args.seed, args.noise, args.backend.device()?.as_ref())?;
+            Drawn { picture: of_depth(args, sheet.into()), resynthesised: 0 }
+        }
     };
     if let Some(output) = &args.output {
         write(args, &drawn.picture, output)?;
@@ -244,19 +269,49 @@ fn of_material(args: &TextureArgs, name: &str) -> Result<DynamicImage> {
     ] {
         ensure!(!given, "{option} is for --example and means nothing with a material");
     }
-    let scale = args.scale.unwrap_or(if args.preview.is_some() { 1.0 } else { 4.0 });
+    let object = args.preview.map(Preview::object);
+    let is_on_object = matches!(object, Some(Object::Solid(_) | Object::Person));
+    let scale = args.scale.unwrap_or(if is_on_object { 1.0 } else { 4.0 });
     let view = View { size: args.size, offset: args.offset, scale }.checked()?;
-    let parameters = args.params.as_deref().map_or(Parameters::Defaults, Parameters::File);
-    let material = Material::new(name, parameters, args.seed, args.tile.then(|| view.extent()))?;
+    let painted = args.palette.as_deref().map(|picture| with_palette(args, name, picture)).transpose()?;
+    let parameters = match (&painted, args.params.as_deref()) {
+        (Some(table), _) => Parameters::Table(table),
+        (None, Some(file)) => Parameters::File(file),
+        (None, None) => Parameters::Defaults,
+    };
+    let tile = args.tile.then(|| view.extent());
+    let material = Material::of_noise(args.noise, name, parameters, args.seed, tile)?;
     if args.person.is_some() && !matches!(args.preview, Some(Preview::Person)) {
         bail!("--person is for --preview person and means nothing with another one");
     }
-    Ok(match args.preview.map(Preview::solid) {
-        Some(Some(solid)) => lit(&material, solid, args.size, args.offset, scale).into(),
-        Some(None) => portrait(&material, args.person.as_deref(), args.size, args.offset, scale)?.into(),
-        None if args.height_map => heights(&material, &view).into(),
-        None => flat(&material, &view).into(),
+    let device = args.backend.device()?;
+    let painter = Painter::new(&material, device.as_ref())?;
+    Ok(match object {
+        Some(Object::Solid(solid)) => lit(&painter, solid, args.size, args.offset, scale)?.into(),
+        Some(Object::Person) => portrait(&painter, args.person.as_deref(), args.size, args.offset, scale)?.into(),
+        Some(Object::Surface) => relief(&painter, &view)?.into(),
+        None if args.height_map => painter.heights(&view)?.into(),
+        None => painter.flat(&view)?.into(),
     })
+}
+
+/// The parameters of a material, in which bands of colour are a picture's.
+fn with_palette(args: &TextureArgs, name: &str, path: &Path) -> Result<toml::Table> {
+    let usual: toml::Table = MaterialKind::of(name)?.defaults()?.parse()?;
+    ensure!(
+        usual.contains_key("map"),
+        "--palette is for materials with bands of colour by height (fractal, terrain), and {name} has none"
+    );
+    let mut parameters: toml::Table = match &args.params {
+        Some(file) => read_toml(file)?,
+        None => toml::Table::new(),
+    };
+    let bands = toml::Value::try_from(palette(&read(path)?.into_rgb8()))?;
+    match parameters.entry("map").or_insert_with(|| toml::Table::new().into()) {
+        toml::Value::Table(map) => map.insert("bands".into(), bands),
+        other => bail!("--params: map is a {}, expected a table", other.type_str()),
+    };
+    Ok(parameters)
 }
 
 fn read(path: &Path) -> Result<DynamicImage> {
@@ -316,6 +371,7 @@ fn from_examples(args: &TextureArgs) -> Result<Drawn> {
         ("--height-map", args.height_map),
         ("--scale", args.scale.is_some()),
         ("--depth 16", args.depth == "16"),
+        ("--noise", args.noise != NoiseWay::default()),
     ] {
         if given {
             bail!("{name} is for materials and means nothing with --example");

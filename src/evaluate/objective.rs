@@ -8,7 +8,7 @@ use super::components::Components;
 use super::evidence::EvidenceSum;
 use super::segments::SegmentSums;
 use super::view_counts::ViewCounts;
-use crate::arithmetic::{exp_of_negative, ln};
+use crate::arithmetic::real_power;
 use crate::features::{Segment, Segments};
 use crate::files::choices;
 
@@ -238,7 +238,7 @@ fn share_of_best(views: impl IntoIterator<Item = EvidenceSum>) -> Option<f32> {
 fn power(x: f32, w: f32) -> f32 {
     let eighths = 8.0 * w;
     if eighths.fract() != 0.0 || !(1.0..=8.0).contains(&eighths) {
-        return if x > 0.0 { exp_of_negative(w * ln(x)) } else { 0.0 };
+        return if x > 0.0 { real_power(x, w) } else { 0.0 };
     }
     let (eighths, half) = (eighths as u32, x.sqrt());
     let quarter = half.sqrt();

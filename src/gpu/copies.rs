@@ -57,7 +57,8 @@ impl Recorder {
         Ok(())
     }
 
-    /// A pass that copies part of an image (left, top, width, height) to a buffer, rows one after the other.
+    /// A pass that copies part of an image (left, top, width, height) to a buffer, rows one after the other; of an image of three
+    /// dimensions that part of each slice.
     ///
     /// # Errors
     /// When the part leaves the image, or does not fit the buffer.
@@ -83,7 +84,8 @@ impl Recorder {
     ) -> Result<()> {
         let [left, top, width, height] = area;
         let [w, h] = image.size();
-        let bytes = u64::from(width) * u64::from(height) * image.format().bytes();
+        let depth = image.depth();
+        let bytes = u64::from(width) * u64::from(height) * u64::from(depth) * image.format().bytes();
         ensure!(
             left.saturating_add(width) <= w && top.saturating_add(height) <= h && width > 0 && height > 0,
             "the pass {name} copies {width}x{height} pixels at {left}, {top} of {}, which has {w}x{h}",
@@ -109,7 +111,7 @@ impl Recorder {
                 ..Default::default()
             },
             image_offset: vk::Offset3D { x: left as i32, y: top as i32, z: 0 },
-            image_extent: vk::Extent3D { width, height, depth: 1 },
+            image_extent: vk::Extent3D { width, height, depth },
             ..Default::default()
         }];
         let (raw, commands) = (&self.device.shared.raw, self.parts.commands);

@@ -262,7 +262,17 @@ impl Device {
     /// [`super::OutOfMemory`] when it does not fit; otherwise when a side is zero or larger than the device allows, or the
     /// device cannot use the format so.
     pub fn image(&self, name: &str, format: Format, size: [u32; 2], purpose: ImageUse) -> Result<Image> {
-        let image = Image::new(&self.shared, name, format, size, purpose)?;
+        let image = Image::new(&self.shared, name, format, size, None, purpose)?;
+        self.settle(&image)?;
+        Ok(image)
+    }
+
+    /// An image of three dimensions, at most 256 texels each, for stages to read by texel.
+    ///
+    /// # Errors
+    /// As [`Self::image`].
+    pub fn volume(&self, name: &str, format: Format, [width, height, depth]: [u32; 3]) -> Result<Image> {
+        let image = Image::new(&self.shared, name, format, [width, height], Some(depth), ImageUse::Sampled)?;
         self.settle(&image)?;
         Ok(image)
     }

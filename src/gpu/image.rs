@@ -1,4 +1,4 @@
-//! Named two-dimensional images: targets to draw into, and what stages read by texel.
+//! Named images of two dimensions, targets to draw into and what stages read by texel, and of three, which stages read.
 
 use std::sync::Arc;
 
@@ -77,6 +77,8 @@ pub(super) struct ImageShared {
     words: Option<vk::ImageView>,
     pub(super) format: Format,
     pub(super) size: [u32; 2],
+    /// Slices; none of an image of two dimensions.
+    slices: Option<u32>,
     allocation: Option<Allocation>,
 }
 
@@ -96,14 +98,21 @@ impl Image {
         name: &str,
         format: Format,
         size: [u32; 2],
+        slices: Option<u32>,
         purpose: ImageUse,
     ) -> Result<Self> {
-        let limit = device.facts.capabilities.max_image;
-        let [width, height] = size;
+        // Vulkan promises this many texels along each of three axes.
+        let limit = slices.map_or(device.facts.capabilities.max_image, |_| 256);
+        let ([width, height], depth) = (size, slices.unwrap_or(1));
+        let further = slices.map_or(String::new(), |slices| format!("x{slices}"));
         ensure!(
-            (1..=limit).contains(&width) && (1..=limit).contains(&height),
-            "the image {name} would be {width}x{height}, and this device allows 1 to {limit} pixels a side"
+            [width, height, depth].iter().all(|side| (1..=limit).contains(side)),
+            "the image {name} would be {width}x{height}{further}, and this device allows 1 to {limit} pixels a side"
         );
+        let (image_type, view_type) = match slices {
+            None => (vk::ImageType::TYPE_2D, vk::ImageViewType::TYPE_2D),
+            Some(_) => (vk::ImageType::TYPE_3D, vk::ImageViewType::TYPE_3D),
+        };
         let copied = vk::ImageUsageFlags::TRANSFER_SRC | vk::ImageUsageFlags::TRANSFER_DST;
         let usage = copied
             | match (purpose, format) {
@@ -122,7 +131,7 @@ impl Image {
             vulkan.get_physical_device_image_format_properties(
                 device.facts.handle,
                 format.vulkan(),
-                vk::ImageType::TYPE_2D,
+                image_type,
                 vk::ImageTiling::OPTIMAL,
                 usage,
                 flags,
@@ -134,9 +143,9 @@ impl Image {
         let mut list = vk::ImageFormatListCreateInfo::default().view_formats(&formats);
         let mut info = vk::ImageCreateInfo::default()
             .flags(flags)
-            .image_type(vk::ImageType::TYPE_2D)
+            .image_type(image_type)
             .format(format.vulkan())
-            .extent(vk::Extent3D { width, height, depth: 1 })
+            .extent(vk::Extent3D { width, height, depth })
             .mip_levels(1)
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
@@ -155,7 +164,7 @@ impl Image {
             let view = |format: Format| {
                 let info = vk::ImageViewCreateInfo::default()
                     .image(handle)
-                    .view_type(vk::ImageViewType::TYPE_2D)
+                    .view_type(view_type)
                     .format(format.vulkan())
                     .subresource_range(whole(format));
                 // SAFETY: memory is bound before this is called; the format is the image's own or listed for it.
@@ -198,6 +207,7 @@ impl Image {
                 words,
                 format,
                 size,
+                slices,
                 allocation: Some(allocation),
             }),
             as_words: false,
@@ -228,6 +238,11 @@ impl Image {
     /// Width and height, pixels.
     pub fn size(&self) -> [u32; 2] {
         self.shared.size
+    }
+
+    /// How many pictures of its size lie behind each other.
+    pub fn depth(&self) -> u32 {
+        self.shared.slices.unwrap_or(1)
     }
 
     /// How its texels are stored.

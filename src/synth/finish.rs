@@ -6,7 +6,8 @@ use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 
 use super::colour::Colour;
-use crate::texture::materials::{Material, Parameters, StageMaterial};
+use super::shaders::layout;
+use crate::texture::materials::{Material, Parameters};
 
 /// A finish as scene.toml has it.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -97,10 +98,11 @@ impl Finish {
     ///
     /// # Errors
     /// When the material is none that stages have.
-    pub(super) fn for_stages(&self) -> Result<(Colour, f64, Option<StageMaterial>)> {
+    pub(super) fn for_stages(&self) -> Result<(Colour, f64, Option<layout::Material>)> {
         let Some((material, scale)) = &self.cut else { return Ok((self.tint, 1.0, None)) };
-        let staged = material.for_stages().context("its material is drawn on the processor alone")?;
-        Ok((self.tint, *scale, Some(staged)))
+        let staged = material.for_scenes().context("its material is drawn on the processor alone")?;
+        // The struct of one shader file, which the build writes down for each room.
+        Ok((self.tint, *scale, Some(bytemuck::cast(staged))))
     }
 }
 

@@ -33,13 +33,7 @@ impl PackedFinishes {
             for (garment, finish) in figure.finishes() {
                 let (tint, scale, material) =
                     finish.for_stages().with_context(|| format!("actor {}: {garment}", index + 1))?;
-                let material = material.map_or_else(layout::Material::zeroed, |material| layout::Material {
-                    kind: material.kind,
-                    seed_low: material.seed as u32,
-                    seed_high: (material.seed >> 32) as u32,
-                    lattices: material.lattices,
-                    numbers: material.numbers,
-                });
+                let material = material.unwrap_or_else(layout::Material::zeroed);
                 rows.push(layout::Finish { tint: with(tint, scale), material });
                 own.insert(garment.clone(), rows.len() as u32);
             }

@@ -10,8 +10,8 @@ use super::performance::standing;
 use super::render::{Candidate, Cast};
 use super::solid::Ray;
 use crate::body::{Body, MeshSource, Skinning};
-use crate::texture::materials::Material;
-use crate::texture::picture::{Picture, SAMPLES, shaded, shown};
+use crate::texture::painter::Painter;
+use crate::texture::picture::{Picture, SAMPLES, Seen};
 
 /// Height of the person, mm.
 const HEIGHT: f64 = 1750.0;
@@ -23,9 +23,9 @@ const CELLS: usize = 48;
 /// the object, which is half of the person's height. He stands with his face to the right of the eye.
 ///
 /// # Errors
-/// When the glTF file cannot be read or does not fit the body.
+/// When the glTF file cannot be read or does not fit the body, or the device that draws fails.
 pub fn portrait(
-    material: &Material,
+    painter: &Painter<'_>,
     file: Option<&Path>,
     size: [u32; 2],
     offset: [f32; 3],
@@ -50,16 +50,18 @@ pub fn portrait(
     let reach = 1.08 * unit;
     let cells = Cells::new(&cast, middle, reach);
     let pixel = scale * 2.0 * (reach / unit) as f32 / size[0].min(size[1]) as f32;
-    Ok(shown(size, material.samples(pixel, SAMPLES), |u, v| {
+    painter.shown(size, painter.material().samples(pixel, SAMPLES), |u, v| {
         let at = DVec2::new(f64::from(u), f64::from(v)) * reach;
         let ray = Ray { origin: middle + DVec3::new(at.x, -2.0 * HEIGHT, at.y), direction: DVec3::Y };
         let meeting = cast.first_meeting(&ray, cells.at(at))?;
         let p = (meeting.point - middle) / unit;
         // Materials lie in their x and y: across and up the picture.
         let object = [p.x, p.z, -p.y].map(|x| x as f32);
-        let texel = material.at(std::array::from_fn(|axis| object[axis] * scale + offset[axis]));
-        Some(shaded(texel, meeting.normal.dot(to_light) as f32))
-    }))
+        Some(Seen {
+            point: std::array::from_fn(|axis| object[axis] * scale + offset[axis]),
+            cosine: meeting.normal.dot(to_light) as f32,
+        })
+    })
 }
 
 /// The person's primitives by where they are seen.
@@ -99,11 +101,12 @@ impl Cells {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::texture::materials::Parameters;
+    use crate::texture::materials::{Material, Parameters};
 
     #[test]
     fn a_person_is_cut_out_of_the_material() {
         let brick = Material::new("brick", Parameters::Defaults, 1, None).unwrap();
+        let brick = Painter::new(&brick, None).unwrap();
         let picture = portrait(&brick, None, [120, 90], [0.0; 3], 1.0).unwrap();
         let background = *picture.get_pixel(0, 0);
         let shown: Vec<_> = picture.enumerate_pixels().filter(|(_, _, pixel)| **pixel != background).collect();

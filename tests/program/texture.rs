@@ -30,12 +30,80 @@ fn materials_are_listed_drawn_and_shown_on_objects() {
     let step =
         |a: u32, b: u32| (0..64).map(|y| tile.get_pixel(a, y).0[0].abs_diff(tile.get_pixel(b, y).0[0])).max().unwrap();
     assert!(step(63, 0) <= (0..63).map(|x| step(x, x + 1)).max().unwrap() + 8, "{}", step(63, 0));
-    for object in ["sphere", "cube", "plane", "person"] {
+    for object in ["sphere", "cube", "plane", "person", "surface"] {
         run(&["brick", "-o", "o.png", "--size", "48x36", "--preview", object, "--force"]);
         let shown = open("o.png").into_rgb8();
         let background = *shown.get_pixel(0, 0);
         let share = shown.pixels().filter(|pixel| **pixel != background).count() as f64 / (48.0 * 36.0);
         assert!((0.05..0.8).contains(&share), "{object}: {share}");
+    }
+}
+
+/// What makes a picture of a material, flat, its heights and on objects, by each way of noise, with the processor's bytes on a device;
+/// each way has a picture of its own.
+#[test]
+fn materials_are_the_same_on_both_backends() {
+    let folder = tempfile::tempdir().unwrap();
+    let drawn = |name: &str, arguments: &[&str]| {
+        let arguments = [arguments, &["-o", name, "--size", "57x43", "--depth", "16", "--force"]].concat();
+        texture(&arguments, folder.path())
+    };
+    let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    for arguments in [
+        &["grass", "--tile"][..],
+        &["marble", "--noise", "tables"],
+        &["marble", "--noise", "volume"],
+        &["marble"],
+        &["skin", "--height-map", "--offset", "-3,2.5,1"],
+        &["fractal", "--preview", "surface"],
+        &["fabric", "--preview", "sphere", "--scale", "9"],
+        &["timber", "--preview", "person"],
+    ] {
+        assert!(drawn("cpu.png", arguments).status.success());
+        let device = drawn("device.png", &[arguments, &["--backend", "device"]].concat());
+        if !device.status.success() && std::env::var_os("PANTIN_NEEDS_VULKAN").is_none() {
+            println!("SKIPPED materials_are_the_same_on_both_backends: {}", message(&device));
+            return;
+        }
+        assert!(device.status.success(), "{}", message(&device));
+        assert_eq!(read("cpu.png"), read("device.png"), "{arguments:?}");
+    }
+    let ways = ["arithmetic", "tables", "volume"].map(|way| {
+        assert!(drawn("way.png", &["lava", "--noise", way]).status.success());
+        read("way.png")
+    });
+    assert!(ways[0] != ways[1] && ways[1] != ways[2] && ways[0] != ways[2]);
+}
+
+/// A terrain takes its colours from a picture; what has no bands, and what no way of noise can do, is said.
+#[test]
+fn palettes_and_noise_that_make_no_sense_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        texture(&[arguments, &["-o", "o.png", "--size", "40x30", "--force"]].concat(), folder.path())
+    };
+    let red = image::RgbImage::from_fn(32, 8, |x, _| image::Rgb([(8 * x) as u8, 0, 0]));
+    red.save(folder.path().join("red.png")).unwrap();
+    std::fs::write(folder.path().join("p.toml"), "[map]\nshading = 0.0\nisolines = 0.0\n").unwrap();
+    let output = run(&["terrain", "--palette", "red.png", "--params", "p.toml"]);
+    assert!(output.status.success(), "{}", message(&output));
+    let picture = image::open(folder.path().join("o.png")).unwrap().into_rgb8();
+    assert!(picture.pixels().all(|pixel| pixel[1] == 0 && pixel[2] == 0));
+    let reds = picture.pixels().map(|pixel| pixel[0]);
+    assert!(reds.clone().max().unwrap() > reds.min().unwrap() + 60);
+    for (arguments, expected) in [
+        (
+            &["marble", "--palette", "red.png"][..],
+            "--palette is for materials with bands of colour by height (fractal, terrain)",
+        ),
+        (&["terrain", "--palette", "none.png"], "none.png"),
+        (&["marble", "--noise", "volume", "--tile"], "expected arithmetic or tables"),
+        (&["marble", "--noise", "tabels"], "the nearest is `tables`"),
+        (&["--example", "red.png", "--noise", "tables"], "--noise is for materials"),
+    ] {
+        let output = run(arguments);
+        assert!(!output.status.success(), "{arguments:?}");
+        assert!(message(&output).contains(expected), "{arguments:?}: {}", message(&output));
     }
 }
 

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::space::{blend, lit, step};
-use super::{Solid, Space, Texel};
+use super::space::{blend, cell_of, lit, step};
+use super::{Solid, Space, Staged, Texel};
 use crate::texture::shaders::MATERIAL_BRICK;
 
 /// Parameters.
@@ -37,23 +37,30 @@ impl Default for Brick {
     }
 }
 
-impl Solid for Brick {
-    fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
+impl Brick {
+    /// Bricks a unit of length. Rows come in pairs, so that the shift of every second one fits the tile.
+    fn per_unit(&self, space: &Space<'_>) -> [f32; 3] {
         let size = self.size.map(|s| s.abs().max(1e-3));
-        // Rows in pairs, so that the shift of every second one fits the tile.
-        let per_unit = [space.whole(1.0 / size[0], 0, 1.0), space.whole(1.0 / size[1], 1, 2.0), 1.0 / size[2]];
+        [space.whole(1.0 / size[0], 0, 1.0), space.whole(1.0 / size[1], 1, 2.0), 1.0 / size[2]]
+    }
+}
+
+impl Solid for Brick {
+    fn at(&self, space: &Space<'_>, p: [f32; 3]) -> Texel {
+        let per_unit = self.per_unit(space);
+        let lengths = per_unit.map(|count| 1.0 / count);
         let wobble = 0.03 * self.roughness * space.fbm(3, 6.0, p);
         let row = (p[1] + wobble) * per_unit[1];
-        let shift = if (row.floor() as i64).rem_euclid(2) == 1 { 0.5 } else { 0.0 };
+        let shift = if cell_of(row) & 1 == 1 { 0.5 } else { 0.0 };
         let along = (p[0] - wobble) * per_unit[0] + shift;
         let deep = p[2] * per_unit[2] + 0.5;
         let place = [along, row, deep];
-        let cell = place.map(|x| x.floor() as i64);
+        let cell = place.map(cell_of);
         // Distance to the nearest joint, units of length.
         let inside = (0..3)
             .map(|axis| {
                 let t = place[axis] - place[axis].floor();
-                t.min(1.0 - t) / per_unit[axis]
+                t.min(1.0 - t) * lengths[axis]
             })
             .fold(f32::MAX, f32::min);
         let half = self.joint.abs() / 2.0;
@@ -66,9 +73,20 @@ impl Solid for Brick {
         Texel { colour: blend(sand, clay, face), height }
     }
 
-    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
-        let per_unit = self.size.map(|s| 1.0 / s.abs().max(1e-3));
+    fn staged(&self, space: &Space<'_>) -> Staged {
+        let per_unit = self.per_unit(space);
+        let lengths = per_unit.map(|count| 1.0 / count);
         let edges = [self.joint.abs() / 2.0, self.roughness];
-        Some((MATERIAL_BRICK, [&self.brick[..], &self.burnt, &self.mortar, &per_unit, &edges].concat()))
+        let cells = space.cells([per_unit[0], per_unit[1]]);
+        Staged {
+            kind: MATERIAL_BRICK,
+            numbers: [&self.brick[..], &self.burnt, &self.mortar, &per_unit, &lengths, &edges, &cells].concat(),
+            sums: vec![
+                space.staged_fbm(3, 6.0),
+                space.another(7).staged_fbm(4, 9.0),
+                space.another(8).staged_fbm(3, 22.0),
+            ],
+            tables: Vec::new(),
+        }
     }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::space::blend;
-use super::{Solid, Space, Texel};
+use super::{Solid, Space, Staged, Texel};
 use crate::texture::shaders::MATERIAL_CLOUDS;
 
 /// Parameters; the thesis's values by default.
@@ -29,14 +29,19 @@ impl Default for Clouds {
 }
 
 impl Solid for Clouds {
-    fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
+    fn at(&self, space: &Space<'_>, p: [f32; 3]) -> Texel {
         let sum: f32 = (0..4).map(|k| space.octave(k, self.scale, p)).sum();
         let height = self.contrast * (sum + self.offset);
         Texel { colour: blend(self.sky, self.cloud, height), height }
     }
 
-    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
+    fn staged(&self, space: &Space<'_>) -> Staged {
         let Self { sky, cloud, offset, contrast, scale } = *self;
-        Some((MATERIAL_CLOUDS, [&sky[..], &cloud, &[offset, contrast, scale]].concat()))
+        Staged {
+            kind: MATERIAL_CLOUDS,
+            numbers: [&sky[..], &cloud, &[offset, contrast]].concat(),
+            sums: (0..4).map(|k| space.staged_octave(k, [scale; 3])).collect(),
+            tables: Vec::new(),
+        }
     }
 }

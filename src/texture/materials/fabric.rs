@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::space::lit;
-use super::{Solid, Space, Texel};
+use super::space::{cell_of, lit};
+use super::{Solid, Space, Staged, Texel};
+use crate::arithmetic::sine_of_turns;
+use crate::texture::noise::Sum;
 use crate::texture::shaders::MATERIAL_FABRIC;
 
 /// Parameters.
@@ -28,11 +30,30 @@ impl Default for Fabric {
     }
 }
 
+impl Fabric {
+    /// Threads that a thread passes over at once.
+    fn over(&self) -> i32 {
+        self.over.clamp(1, 16) as i32
+    }
+
+    /// Threads a unit of length, whole weaves a tile.
+    fn per_unit(&self, space: &Space<'_>) -> [f32; 2] {
+        let round = 2.0 * self.over() as f32;
+        [0, 1].map(|axis| space.whole(self.threads, axis, round))
+    }
+
+    /// Cells of the fibres' noise a unit of length, of the upper thread.
+    fn fibre(&self, warp_above: bool) -> [f32; 3] {
+        let fibre = if warp_above { [5.0, 1.2, 1.0] } else { [1.2, 5.0, 1.0] };
+        fibre.map(|f| f * self.threads * 0.5)
+    }
+}
+
 impl Solid for Fabric {
-    fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
-        let over = i64::from(self.over.clamp(1, 16));
-        let round = 2.0 * over as f32;
-        let per_unit = [space.whole(self.threads, 0, round), space.whole(self.threads, 1, round)];
+    fn at(&self, space: &Space<'_>, p: [f32; 3]) -> Texel {
+        let over = self.over();
+        let part_of_over = 1.0 / over as f32;
+        let per_unit = self.per_unit(space);
         let cells = space.cells(per_unit);
         // Threads wander a little.
         let wander = 0.18 * self.irregularity * space.fbm(2, 2.5, p);
@@ -40,27 +61,26 @@ impl Solid for Fabric {
         let x = (p[0] + p[2]) * per_unit[0] + wander;
         let y = (p[1] + p[2]) * per_unit[1] - wander;
         let (cx, cy) = (x.floor(), y.floor());
-        let (column, row) = (cx as i64, cy as i64);
-        let phase = (column + row).rem_euclid(2 * over);
+        let (column, row) = (cell_of(x), cell_of(y));
+        let phase = column.wrapping_add(row).rem_euclid(2 * over);
         let warp_above = phase < over;
         // Along the upper thread: where it is between the places where it dives.
         let (along, across, colour, thread, axis) = if warp_above {
             let t = (y - cy) + phase as f32;
-            (t / over as f32, x - cx, self.warp, column, 0)
+            (t * part_of_over, x - cx, self.warp, column, 0)
         } else {
             let t = (x - cx) + (phase - over) as f32;
-            (t / over as f32, y - cy, self.weft, row, 1)
+            (t * part_of_over, y - cy, self.weft, row, 1)
         };
-        let arch = (std::f32::consts::PI * along.clamp(0.0, 1.0)).sin().max(0.0).sqrt();
+        let arch = sine_of_turns(0.5 * along.clamp(0.0, 1.0)).max(0.0).sqrt();
         let side = 2.0 * across - 1.0;
         let profile = (1.0 - side * side).max(0.0).sqrt();
         let height = (0.25 + 0.75 * arch) * profile;
-        let mut key = [0, 0, axis];
-        key[axis as usize] = thread;
+        let mut key = [0, 0, i32::from(!warp_above)];
+        key[axis] = thread;
         let own = space.cell(key, cells, 1) - 0.5;
         // Fibres run along the thread, twisted.
-        let fibre = if warp_above { [5.0, 1.2, 1.0] } else { [1.2, 5.0, 1.0] };
-        let fibres = space.another(3).sum(crate::texture::noise::Sum::Fbm, 3, fibre.map(|f| f * self.threads * 0.5), p);
+        let fibres = space.another(3).sum(Sum::Fbm, 3, self.fibre(warp_above), p);
         let shade = (0.35 + 0.65 * height) * (1.0 + self.irregularity * (0.5 * own + 0.35 * fibres));
         Texel { colour: lit(colour, shade).map(|c| c.clamp(0.0, 1.0)), height: height.clamp(0.0, 1.0) }
     }
@@ -70,8 +90,19 @@ impl Solid for Fabric {
         2.0 * self.threads
     }
 
-    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
-        let over = self.over.clamp(1, 16) as f32;
-        Some((MATERIAL_FABRIC, [&self.warp[..], &self.weft, &[self.threads, over, self.irregularity]].concat()))
+    fn staged(&self, space: &Space<'_>) -> Staged {
+        let (per_unit, over) = (self.per_unit(space), self.over() as f32);
+        let weave = [over, 1.0 / over, self.irregularity];
+        let fibres = space.another(3);
+        Staged {
+            kind: MATERIAL_FABRIC,
+            numbers: [&self.warp[..], &self.weft, &per_unit, &weave, &space.cells(per_unit)].concat(),
+            sums: vec![
+                space.staged_fbm(2, 2.5),
+                fibres.staged(Sum::Fbm, 3, self.fibre(true)),
+                fibres.staged(Sum::Fbm, 3, self.fibre(false)),
+            ],
+            tables: Vec::new(),
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Solid, Space, Texel};
+use super::{Solid, Space, Staged, Texel};
 use crate::texture::shaders::MATERIAL_GRANITE;
 
 /// Parameters; the thesis's values by default.
@@ -24,7 +24,7 @@ impl Default for Granite {
 }
 
 impl Solid for Granite {
-    fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
+    fn at(&self, space: &Space<'_>, p: [f32; 3]) -> Texel {
         let height = (self.contrast * space.octave(3, self.scale, p)).clamp(0.0, 1.0);
         Texel { colour: self.colour.map(|c| c * height), height }
     }
@@ -33,7 +33,12 @@ impl Solid for Granite {
         8.0 * self.scale
     }
 
-    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
-        Some((MATERIAL_GRANITE, [&self.colour[..], &[self.contrast, self.scale]].concat()))
+    fn staged(&self, space: &Space<'_>) -> Staged {
+        Staged {
+            kind: MATERIAL_GRANITE,
+            numbers: [&self.colour[..], &[self.contrast]].concat(),
+            sums: vec![space.staged_octave(3, [self.scale; 3])],
+            tables: Vec::new(),
+        }
     }
 }

@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::space::{blend, lit};
-use super::{Solid, Space, Texel};
+use super::space::{blend, cell_of, lit};
+use super::{Solid, Space, Staged, Texel};
+use crate::arithmetic::sine_of_turns;
+use crate::texture::shaders::MATERIAL_GRASS;
 
 /// Parameters.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -41,37 +43,41 @@ impl Default for Grass {
 
 /// Blades that grow in a cell.
 const BLADES: u64 = 6;
+/// Turns a radian.
+const TURNS: f32 = 0.159_154_94;
 
 impl Solid for Grass {
-    fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
-        let per_unit = [space.whole(self.density, 0, 1.0), space.whole(self.density, 1, 1.0)];
+    fn at(&self, space: &Space<'_>, p: [f32; 3]) -> Texel {
+        let per_unit = [0, 1].map(|axis| space.whole(self.density, axis, 1.0));
         let cells = space.cells(per_unit);
         let (x, y) = (p[0] * per_unit[0], p[1] * per_unit[1]);
-        let layer = (p[2] * self.density / 4.0).floor() as i64;
+        let layer = cell_of(p[2] * self.density / 4.0);
         let (cx, cy) = (x.floor(), y.floor());
         let length = self.length.clamp(0.0, 2.0);
         // Uppermost blade so far: its order, the place along it, the place across it, its cell and number.
-        let mut best: Option<(f32, f32, f32, [i64; 3], u64)> = None;
+        let mut best: Option<(f32, f32, f32, [i32; 3], u64)> = None;
         for dy in -2..=1_i32 {
             for dx in -2..=2_i32 {
-                let cell = [cx as i64 + i64::from(dx), cy as i64 + i64::from(dy), layer];
+                let cell = [cell_of(x).wrapping_add(dx), cell_of(y).wrapping_add(dy), layer];
                 for blade in 0..BLADES {
                     let die = |number: u64| space.cell(cell, cells, 8 * blade + number);
                     let root = [cx + dx as f32 + die(0), cy + dy as f32 + die(1)];
                     let angle = (2.0 * die(2) - 1.0) * self.lean;
                     let reach = length * (0.5 + 0.5 * die(3));
                     let (from_x, from_y) = (x - root[0], y - root[1]);
-                    let along = (from_x * angle.sin() + from_y * angle.cos()) / reach.max(1e-3);
+                    let turns = angle * TURNS;
+                    let (sin, cos) = (sine_of_turns(turns), sine_of_turns(turns + 0.25));
+                    let along = (from_x * sin + from_y * cos) / reach.max(1e-3);
                     if !(0.0..=1.0).contains(&along) {
                         continue;
                     }
                     // Blades bend to the side they lean to.
                     let bend = 0.35 * angle * along * along * reach;
-                    let across = from_x * angle.cos() - from_y * angle.sin() - bend;
+                    let across = from_x * cos - from_y * sin - bend;
                     let half = 0.5 * self.width * (1.0 - along * along);
                     let order = die(4);
                     if across.abs() <= half && best.is_none_or(|(uppermost, ..)| order > uppermost) {
-                        best = Some((order, along, across / half.max(1e-6), cell, blade));
+                        best = Some((order, along, across, cell, blade));
                     }
                 }
             }
@@ -88,6 +94,17 @@ impl Solid for Grass {
         Texel {
             colour: lit(colour, fold * (0.8 + 0.35 * patch)).map(|c| c.min(1.0)),
             height: 0.2 + 0.5 * order + 0.3 * along,
+        }
+    }
+
+    fn staged(&self, space: &Space<'_>) -> Staged {
+        let per_unit = [0, 1].map(|axis| space.whole(self.density, axis, 1.0));
+        let blades = [self.density, self.length.clamp(0.0, 2.0), self.width, self.lean];
+        Staged {
+            kind: MATERIAL_GRASS,
+            numbers: [&self.root[..], &self.tip, &self.dry, &per_unit, &space.cells(per_unit), &blades].concat(),
+            sums: vec![space.staged_fbm(3, 0.8)],
+            tables: Vec::new(),
         }
     }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::space::blend;
-use super::{Solid, Space, Texel};
+use super::{Solid, Space, Staged, Texel};
 use crate::texture::noise::Sum;
 use crate::texture::shaders::MATERIAL_LAVA;
 
@@ -28,14 +28,19 @@ impl Default for Lava {
 }
 
 impl Solid for Lava {
-    fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
+    fn at(&self, space: &Space<'_>, p: [f32; 3]) -> Texel {
         let about_means = space.sum(Sum::Turbulence, 4, [self.scale; 3], p) / 4.0;
         let height = (self.contrast * about_means).clamp(0.0, 1.0);
         Texel { colour: blend(self.bright, self.dark, height), height }
     }
 
-    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
+    fn staged(&self, space: &Space<'_>) -> Staged {
         let Self { bright, dark, contrast, scale } = *self;
-        Some((MATERIAL_LAVA, [&bright[..], &dark, &[contrast, scale]].concat()))
+        Staged {
+            kind: MATERIAL_LAVA,
+            numbers: [&bright[..], &dark, &[contrast]].concat(),
+            sums: vec![space.staged(Sum::Turbulence, 4, [scale; 3])],
+            tables: Vec::new(),
+        }
     }
 }

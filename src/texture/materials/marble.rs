@@ -1,9 +1,12 @@
 //! Marble: layers bent by turbulence.
 
+use std::f32::consts::TAU;
+
 use serde::{Deserialize, Serialize};
 
 use super::space::blend;
-use super::{Solid, Space, Texel};
+use super::{Solid, Space, Staged, Texel};
+use crate::arithmetic::sine_of_turns;
 use crate::texture::noise::Sum;
 use crate::texture::shaders::MATERIAL_MARBLE;
 
@@ -29,16 +32,27 @@ impl Default for Marble {
     }
 }
 
+impl Marble {
+    /// Turns of the layers a unit of y, and those that turbulence bends them.
+    fn turns(&self, space: &Space<'_>) -> [f32; 2] {
+        [space.whole(self.frequency / TAU, 1, 1.0), self.bend / TAU]
+    }
+}
+
 impl Solid for Marble {
-    fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
+    fn at(&self, space: &Space<'_>, p: [f32; 3]) -> Texel {
         let turbulence = space.sum(Sum::Turbulence, 4, [self.scale; 3], p) / 4.0;
-        let waves = space.whole(self.frequency / std::f32::consts::TAU, 1, 1.0);
-        let height = 0.5 * (std::f32::consts::TAU * waves * p[1] + self.bend * turbulence).sin() + 0.5;
+        let [waves, bend] = self.turns(space);
+        let height = 0.5 * sine_of_turns(waves * p[1] + bend * turbulence) + 0.5;
         Texel { colour: blend(self.vein, self.stone, height), height }
     }
 
-    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
-        let Self { vein, stone, frequency, bend, scale } = *self;
-        Some((MATERIAL_MARBLE, [&vein[..], &stone, &[frequency / std::f32::consts::TAU, bend, scale]].concat()))
+    fn staged(&self, space: &Space<'_>) -> Staged {
+        Staged {
+            kind: MATERIAL_MARBLE,
+            numbers: [&self.vein[..], &self.stone, &self.turns(space)].concat(),
+            sums: vec![space.staged(Sum::Turbulence, 4, [self.scale; 3])],
+            tables: Vec::new(),
+        }
     }
 }

@@ -55,6 +55,16 @@ impl Surface {
         Self { side, heights }
     }
 
+    /// Points a side.
+    pub(super) fn side(&self) -> usize {
+        self.side
+    }
+
+    /// Heights, row by row.
+    pub(super) fn heights(&self) -> &[f32] {
+        &self.heights
+    }
+
     /// The height at a place; one repetition is a unit long. Cubic (Catmull and Rom) between points, so that light falls on it
     /// without creases.
     pub fn at(&self, x: f32, y: f32) -> f32 {

@@ -13,6 +13,7 @@ mod midpoint;
 mod skin;
 mod solid;
 mod space;
+mod staged;
 mod terrain;
 #[cfg(test)]
 mod tests;
@@ -37,25 +38,14 @@ pub use skin::Skin;
 pub(crate) use solid::Solid;
 pub use solid::Texel;
 pub use space::Space;
+use staged::{Staged, StagedSum};
 pub use terrain::{Band, Fractal, Map, Terrain};
 pub use timber::Timber;
 pub use wood::Wood;
 
-use super::shaders::{MATERIAL_LATTICES, MATERIAL_NUMBERS};
+use super::noise::{NoiseSource, NoiseWay};
+use super::shaders::{MATERIALS_OF_CLOTHES, layout};
 use crate::files::{choices, parse_table, read_toml};
-
-/// A material as stages take it: see `glsl/texture/materials.glsl`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StageMaterial {
-    /// `MATERIAL_*`.
-    pub kind: u32,
-    /// Seed of its dice.
-    pub seed: u64,
-    /// States of the lattices of its space and of its others, from 1.
-    pub lattices: [u32; MATERIAL_LATTICES as usize],
-    /// Its parameters.
-    pub numbers: [f32; MATERIAL_NUMBERS as usize],
-}
 
 /// Where a material's parameters come from; what is not said is the default.
 #[derive(Clone, Copy, Debug)]
@@ -171,12 +161,14 @@ impl MaterialKind {
 /// A material, ready to be looked up.
 pub struct Material {
     solid: Box<dyn Solid>,
-    space: Space,
+    seed: u64,
+    tile: Option<[f32; 2]>,
+    source: NoiseSource,
 }
 
 impl std::fmt::Debug for Material {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Material").field("space", &self.space).finish_non_exhaustive()
+        f.debug_struct("Material").field("seed", &self.seed).field("tile", &self.tile).finish_non_exhaustive()
     }
 }
 
@@ -188,17 +180,45 @@ impl Material {
     /// When there is none of that name (the nearest is named), when the parameters have an unknown key or a number that is not
     /// finite or beyond 1e6, or when the tile is not a positive length.
     pub fn new(name: &str, parameters: Parameters<'_>, seed: u64, tile: Option<[f32; 2]>) -> Result<Self> {
+        Self::of_noise(NoiseWay::Arithmetic, name, parameters, seed, tile)
+    }
+
+    /// [`Self::new`] with its noise coming about in another way: the same material, of another piece.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and of a tile from a cube of noise, whose own period is no length of a tile.
+    pub fn of_noise(
+        way: NoiseWay,
+        name: &str,
+        parameters: Parameters<'_>,
+        seed: u64,
+        tile: Option<[f32; 2]>,
+    ) -> Result<Self> {
         let kind = MaterialKind::of(name)?;
         if let Some(tile) = tile.filter(|tile| !tile.iter().all(|length| (1e-3..=1e4).contains(length))) {
             bail!("a tile of {} x {} units, expected lengths from 0.001 to 10000", tile[0], tile[1]);
         }
+        if tile.is_some() && way == NoiseWay::Volume {
+            bail!(
+                "noise of a volume repeats after its own 16 cells and not after a tile, expected arithmetic or tables"
+            );
+        }
         parameters.check()?;
-        Ok(Self { solid: (kind.made().build)(parameters, seed)?, space: Space::new(seed, tile) })
+        Ok(Self { solid: (kind.made().build)(parameters, seed)?, seed, tile, source: NoiseSource::new(way, seed) })
+    }
+
+    fn space(&self) -> Space<'_> {
+        Space::new(self.seed, self.tile, &self.source)
+    }
+
+    /// Where its noise comes from.
+    pub(super) fn source(&self) -> &NoiseSource {
+        &self.source
     }
 
     /// The texel at a point, object units. The same on every call and thread.
     pub fn at(&self, p: [f32; 3]) -> Texel {
-        let texel = self.solid.at(&self.space, p.map(|x| if x.is_finite() { x.clamp(-1e6, 1e6) } else { 0.0 }));
+        let texel = self.solid.at(&self.space(), p.map(|x| if x.is_finite() { x.clamp(-1e6, 1e6) } else { 0.0 }));
         Texel { colour: texel.colour.map(|c| c.clamp(0.0, 1.0)), height: texel.height.clamp(0.0, 1.0) }
     }
 
@@ -208,15 +228,23 @@ impl Material {
         ((2.0 * self.solid.finest().abs() * pixel).min(16.0).ceil() as u32).max(least)
     }
 
-    /// The material for stages, within 1e-3 of [`Self::at`] but beside edges; none where stages do not have it.
-    pub fn for_stages(&self) -> Option<StageMaterial> {
-        let (kind, row) = self.solid.numbers()?;
-        let mut numbers = [0.0; MATERIAL_NUMBERS as usize];
-        numbers.iter_mut().zip(row).for_each(|(number, value)| *number = value);
-        let lattices = std::array::from_fn(
-            |i| if i == 0 { self.space.lattice() } else { self.space.another(i as u64).lattice() }.seed,
-        );
-        Some(StageMaterial { kind, seed: self.space.seed(), lattices, numbers })
+    /// The material for the stages of scenes, with the bits of [`Self::at`]; none where they do not have it.
+    pub(crate) fn for_scenes(&self) -> Option<layout::Material> {
+        Some(self.for_stages().0).filter(|material| material.kind <= MATERIALS_OF_CLOTHES)
+    }
+
+    /// The material for stages, and its bands of colour and heights.
+    pub(super) fn for_stages(&self) -> (layout::Material, Vec<f32>) {
+        let Staged { kind, numbers, sums, tables } = self.solid.staged(&self.space());
+        let mut material = layout::Material { kind, dice: self.space().dice(), ..bytemuck::Zeroable::zeroed() };
+        material.numbers.iter_mut().zip(numbers).for_each(|(number, value)| *number = value);
+        let mut first = 0;
+        for (word, StagedSum { sum, octaves }) in material.sums.iter_mut().zip(sums) {
+            *word = first as u32 | (octaves.len() as u32) << 8 | (sum as u32) << 16;
+            material.octaves.iter_mut().skip(first).zip(&octaves).for_each(|(place, octave)| *place = *octave);
+            first += octaves.len();
+        }
+        (material, tables)
     }
 }
 

@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::midpoint::Surface;
 use super::space::{blend, lit};
-use super::{Solid, Space, Texel};
+use super::{Solid, Space, Staged, Texel};
 use crate::texture::noise::Sum;
+use crate::texture::shaders::{MATERIAL_FRACTAL, MATERIAL_OCTAVES, MATERIAL_TERRAIN};
 
 /// A colour from a height on.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
@@ -57,8 +58,9 @@ impl Default for Map {
 }
 
 impl Map {
-    /// The colour of a place, from the heights of itself and its neighbours `step` to the right (x) and up (y).
-    fn colour(&self, height: f32, right: f32, up: f32, step: f32) -> [f32; 3] {
+    /// The colour of a place, from the heights of itself and its neighbours a step to the right (x) and up (y), of which `per_unit` make
+    /// a unit of length.
+    fn colour(&self, height: f32, right: f32, up: f32, per_unit: f32) -> [f32; 3] {
         let mut colour = self.bands.first().map_or([height; 3], |band| band.colour);
         for pair in self.bands.windows(2) {
             if height >= pair[0].from {
@@ -66,20 +68,35 @@ impl Map {
                 colour = blend(pair[0].colour, pair[1].colour, t);
             }
         }
-        let slope = [(right - height) / step, (up - height) / step];
+        let slope = [(right - height) * per_unit, (up - height) * per_unit];
         if height > self.sea {
             // Light from the upper left.
             let light = (slope[0] - slope[1]) * 0.8;
             colour = lit(colour, 1.0 + self.shading * (light / (1.0 + light.abs())));
         }
         if self.isolines > 0.0 {
-            let level = height / self.isolines;
-            let away = (level - level.round()).abs() * self.isolines;
+            let level = height * (1.0 / self.isolines);
+            let away = (level - (level + 0.5).floor()).abs() * self.isolines;
             let steepness = (slope[0] * slope[0] + slope[1] * slope[1]).sqrt().max(1e-4);
-            let covered = 1.5 - away / steepness / (0.5 * self.line.max(1e-6));
+            let covered = 1.5 - away / (steepness * self.half_line());
             colour = blend(colour, lit(colour, 0.3), covered);
         }
         colour.map(|c| c.clamp(0.0, 1.0))
+    }
+}
+
+impl Map {
+    /// Half of an isoline's width.
+    fn half_line(&self) -> f32 {
+        0.5 * self.line.max(1e-6)
+    }
+
+    /// Its numbers for stages, and its bands.
+    fn staged(&self, step: f32) -> ([f32; 8], Vec<f32>) {
+        let lines = [if self.isolines > 0.0 { 1.0 / self.isolines } else { 0.0 }, self.isolines, self.half_line()];
+        let bands = self.bands.iter().flat_map(|&Band { from, colour: [r, g, b] }| [from, r, g, b]).collect();
+        let [inverse, height, half] = lines;
+        ([self.sea, inverse, height, half, self.shading, step, 1.0 / step, self.bands.len() as f32], bands)
     }
 }
 
@@ -116,17 +133,42 @@ impl Fractal {
     }
 }
 
+impl Displaced {
+    /// Lengths after which it repeats.
+    fn lengths(&self, space: &Space<'_>) -> [f32; 2] {
+        space.tile().map(|tile| if tile > 0.0 { tile } else { self.parameters.period.abs().max(1e-3) })
+    }
+}
+
+/// The way to a neighbour, by the length after which a surface repeats.
+fn step_of(length: f32) -> f32 {
+    0.004 * length
+}
+
 impl Solid for Displaced {
-    fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
-        let Fractal { period, map, .. } = &self.parameters;
-        let lengths = space.tile().map(|tile| if tile > 0.0 { tile } else { period.abs().max(1e-3) });
+    fn at(&self, space: &Space<'_>, p: [f32; 3]) -> Texel {
+        let map = &self.parameters.map;
+        let lengths = self.lengths(space);
+        let per_unit = lengths.map(|length| 1.0 / length);
         // An object's sides show the surface sheared along z.
-        let height = |x: f32, y: f32| self.surface.at((x + 0.7 * p[2]) / lengths[0], (y + 0.4 * p[2]) / lengths[1]);
-        let step = 0.004 * lengths[0];
+        let height = |x: f32, y: f32| self.surface.at((x + 0.7 * p[2]) * per_unit[0], (y + 0.4 * p[2]) * per_unit[1]);
+        let step = step_of(lengths[0]);
         let here = height(p[0], p[1]);
         Texel {
-            colour: map.colour(here, height(p[0] + step, p[1]), height(p[0], p[1] + step), step),
+            colour: map.colour(here, height(p[0] + step, p[1]), height(p[0], p[1] + step), 1.0 / step),
             height: here.max(map.sea),
+        }
+    }
+
+    fn staged(&self, space: &Space<'_>) -> Staged {
+        let lengths = self.lengths(space);
+        let (map, bands) = self.parameters.map.staged(step_of(lengths[0]));
+        let place = [self.surface.side() as f32, 1.0 / lengths[0], 1.0 / lengths[1]];
+        Staged {
+            kind: MATERIAL_FRACTAL,
+            numbers: [&map[..], &place].concat(),
+            sums: Vec::new(),
+            tables: [&bands, self.surface.heights()].concat(),
         }
     }
 }
@@ -151,9 +193,20 @@ impl Default for Terrain {
     }
 }
 
+impl Terrain {
+    fn octaves(&self) -> u32 {
+        self.octaves.clamp(1, MATERIAL_OCTAVES)
+    }
+
+    /// The way to a neighbour.
+    fn step(&self) -> f32 {
+        0.01 / self.scale.abs().max(1e-3)
+    }
+}
+
 impl Solid for Terrain {
-    fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
-        let count = self.octaves.clamp(1, 16);
+    fn at(&self, space: &Space<'_>, p: [f32; 3]) -> Texel {
+        let count = self.octaves();
         let height = |x: f32, y: f32| {
             let sum = space.sum(self.sum, count, [self.scale; 3], [x, y, p[2]]);
             let sum = match self.sum {
@@ -163,11 +216,17 @@ impl Solid for Terrain {
             };
             sum.clamp(0.0, 1.0)
         };
-        let step = 0.01 / self.scale.abs().max(1e-3);
+        let step = self.step();
         let here = height(p[0], p[1]);
         Texel {
-            colour: self.map.colour(here, height(p[0] + step, p[1]), height(p[0], p[1] + step), step),
+            colour: self.map.colour(here, height(p[0] + step, p[1]), height(p[0], p[1] + step), 1.0 / step),
             height: here.max(self.map.sea),
         }
+    }
+
+    fn staged(&self, space: &Space<'_>) -> Staged {
+        let (map, tables) = self.map.staged(self.step());
+        let sums = vec![space.staged(self.sum, self.octaves(), [self.scale; 3])];
+        Staged { kind: MATERIAL_TERRAIN, numbers: map.to_vec(), sums, tables }
     }
 }

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::space::blend;
-use super::{Solid, Space, Texel, Wood};
+use super::{Solid, Space, Staged, Texel, Wood};
 use crate::texture::shaders::MATERIAL_TIMBER;
 
 /// Parameters: those of wood, of which `noisiness` is how far noise moves the rings, units of length, and nothing else.
@@ -13,7 +13,7 @@ use crate::texture::shaders::MATERIAL_TIMBER;
 pub struct Timber(pub Wood);
 
 impl Solid for Timber {
-    fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
+    fn at(&self, space: &Space<'_>, p: [f32; 3]) -> Texel {
         let wood = &self.0;
         let octaves: [f32; 3] = std::array::from_fn(|k| space.stretched_octave(k as u32, wood.scale, p));
         let moved = wood.noisiness * (octaves[0] - 0.25);
@@ -30,7 +30,7 @@ impl Solid for Timber {
         }
     }
 
-    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
-        Some((MATERIAL_TIMBER, self.0.parameters()))
+    fn staged(&self, space: &Space<'_>) -> Staged {
+        self.0.staged_as(MATERIAL_TIMBER, space)
     }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::space::blend;
-use super::{Solid, Space, Texel};
+use super::{Solid, Space, Staged, Texel};
 use crate::texture::shaders::MATERIAL_WOOD;
 
 /// Parameters; the thesis's values by default.
@@ -54,21 +54,27 @@ impl Wood {
     }
 
     /// How far in its grain a point lies, in [0, 1).
-    pub(super) fn grain(&self, space: &Space, p: [f32; 3]) -> f32 {
+    pub(super) fn grain(&self, space: &Space<'_>, p: [f32; 3]) -> f32 {
         let grains = p[0] * space.whole(self.grain_scale, 0, 1.0) + p[2] * self.grain_scale + 0.5;
         grains - grains.floor()
     }
 
-    /// The parameters as a device takes them.
-    pub(super) fn parameters(&self) -> Vec<f32> {
+    /// As stages take it, wood or timber by `kind`.
+    pub(super) fn staged_as(&self, kind: u32, space: &Space<'_>) -> Staged {
         let Self { light, dark, frequency, noisiness, scale, grain_scale, grain_threshold, .. } = *self;
-        let grain = [grain_scale, grain_threshold, self.light_grains, self.dark_grains];
-        [&light[..], &dark, &[frequency, noisiness], &scale, &grain].concat()
+        let grain =
+            [space.whole(grain_scale, 0, 1.0), grain_scale, grain_threshold, self.light_grains, self.dark_grains];
+        Staged {
+            kind,
+            numbers: [&light[..], &dark, &[frequency, noisiness], &grain, &space.trunks(0)].concat(),
+            sums: (0..3).map(|k| space.staged_octave(k, scale)).collect(),
+            tables: Vec::new(),
+        }
     }
 }
 
 impl Solid for Wood {
-    fn at(&self, space: &Space, p: [f32; 3]) -> Texel {
+    fn at(&self, space: &Space<'_>, p: [f32; 3]) -> Texel {
         let mut n: [f32; 3] = std::array::from_fn(|k| self.noisiness * space.stretched_octave(k as u32, self.scale, p));
         let (x, z) = (space.from_trunk(p[0], 0) + n[0], p[2] + n[2]);
         let rings = (x * x + z * z).sqrt() * self.frequency + n.iter().sum::<f32>();
@@ -87,7 +93,7 @@ impl Solid for Wood {
         }
     }
 
-    fn numbers(&self) -> Option<(u32, Vec<f32>)> {
-        Some((MATERIAL_WOOD, self.parameters()))
+    fn staged(&self, space: &Space<'_>) -> Staged {
+        self.staged_as(MATERIAL_WOOD, space)
     }
 }

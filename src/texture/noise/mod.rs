@@ -7,6 +7,8 @@ mod octaves;
 #[cfg(test)]
 mod tests;
 mod value;
+mod volume;
+mod ways;
 
 pub use gradient::{perlin1, perlin2, perlin3, perlin4};
 pub use lattice::{HashLattice, Lattice, Periodic, TABLE, TableLattice, Tables, mixed};
@@ -16,6 +18,8 @@ pub use octaves::{Kernel, Octaves, Row, Sum};
 #[cfg(test)]
 pub(super) use tests::hard_coordinates;
 pub use value::{value1, value2, value3, value4};
+pub use volume::{Sampled, VOLUME_SIDE, Volume};
+pub use ways::{NoiseSource, NoiseWay};
 
 /// A noise of `N` dimensions.
 pub trait Noise<const N: usize>: Copy + Send + Sync {
