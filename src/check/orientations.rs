@@ -53,7 +53,7 @@ impl Misplaced {
     pub(super) fn sentence(&self, sequence: &Sequence) -> String {
         let view = &sequence.views[self.view];
         let how = self.turn.said();
-        let orientation = view.source.turn().then(self.turn).and_then(Orientation::of).map_or_else(
+        let orientation = Orientation::of(view.source.turn().then(self.turn)).map_or_else(
             || "turn the video itself".to_string(),
             |orientation| format!("write `orientation = {}` into its [[view]]", orientation.value()),
         );

@@ -40,7 +40,7 @@ impl Footage {
         Self { shown, source, size, frame_count, marked: Turn::None, fps: None, times: None, made: None }
     }
 
-    /// Looks at a file that ffmpeg reads, or at numbered pictures; videos are counted, not decoded. A video that is marked to be turned for
+    /// Looks at a file that ffmpeg reads, or at numbered pictures; videos are counted, not decoded. What is marked to be turned for
     /// display is upright, as players show it.
     ///
     /// # Errors
@@ -49,8 +49,9 @@ impl Footage {
         let shown = file.display().to_string();
         if is_pattern(file) {
             let pattern = PicturePattern::open(file)?;
-            let (size, frame_count) = (picture_size(&pattern.file(0))?, pattern.frame_count());
-            return Ok(Self::plain(shown, Source::Pictures(pattern), size, frame_count));
+            let (size, frame_count, marked) =
+                (picture_size(&pattern.file(0))?, pattern.frame_count(), pattern.marked()?);
+            return Ok(Self { marked, ..Self::plain(shown, Source::Pictures(pattern), size, frame_count) }.put(marked));
         }
         if let Err(why) = check_regular(file) {
             bail!("{why}: name a video or numbered pictures (frames/cam01_%04d.png)");
@@ -70,7 +71,7 @@ impl Footage {
     #[must_use]
     pub fn put(mut self, turn: Turn) -> Self {
         // Turned back, a quarter turn changes the sides again.
-        self.size = turn.turned(self.source.turn().turned(self.size));
+        self.size = turn.turned(self.source.turn().back().turned(self.size));
         match &mut self.source {
             Source::Video(video) => video.turn = turn,
             Source::Pictures(pattern) => pattern.turn = turn,
@@ -85,10 +86,9 @@ impl Footage {
         if self.size != size && self.marked.turned(self.size) == size { self.as_stored() } else { self }
     }
 
-    /// A sentence about a video that is marked to be turned for display.
+    /// A sentence about footage that is marked to be turned for display.
     pub fn turned(&self) -> Option<String> {
-        let Source::Video(video) = &self.source else { return None };
-        let how = match (self.marked, video.turn) {
+        let how = match (self.marked, self.source.turn()) {
             (Turn::None, _) => return None,
             (marked, Turn::None) => format!("would be {} by a player, and is read as it is stored", marked.said()),
             (marked, turn) if turn == marked => format!("is {} when it is read, as players do", marked.said()),

@@ -11,7 +11,7 @@ use image::{GrayImage, RgbImage};
 
 use super::ignored::IgnoredFrames;
 use super::manifest::{Sequence, View, is_plate_size};
-use super::pictures::{PicturePattern, picture_size, read_picture};
+use super::pictures::{PicturePattern, read_picture, still};
 use super::program::Stopper;
 use super::resample::{area_average, nearest_mask};
 use super::source::Source;
@@ -108,9 +108,10 @@ impl Sequence {
     pub fn backgrounds(&self) -> Result<Vec<Option<RgbImage>>> {
         let plates = self.views.iter().zip(&self.sizes).map(|(view, &size)| {
             let Some(path) = &view.background else { return Ok(view.learnt.as_deref().cloned()) };
-            let found = picture_size(path)?;
+            let (turn, found) = still(path, |found| is_plate_size(found, view.size, size))?;
             let expected = if is_plate_size(found, view.size, size) { vec![found] } else { vec![view.size, size] };
-            Ok(Some(area_average(read_picture(path, &expected)?.into_rgb8(), size)))
+            let expected: Vec<[u32; 2]> = expected.into_iter().map(|size| turn.back().turned(size)).collect();
+            Ok(Some(area_average(turn.of(read_picture(path, &expected)?).into_rgb8(), size)))
         });
         plates.collect()
     }

@@ -12,7 +12,7 @@ use super::footage::{Footage, is_pattern};
 use super::ignored::Ignored;
 use super::live_options;
 use super::person::{Person, PersonTable, check_names};
-use super::pictures::{picture_size, shown};
+use super::pictures::{shown, still};
 use super::source::{LiveSource, Source};
 use super::synchrony::{MOST_DELAY, Recorded, Stamps, synchronise};
 use super::turn::Turn;
@@ -568,7 +568,8 @@ fn open_view(
     }
     let background = table.background.as_deref().map(|plate| existing(&key("background"), plate)).transpose()?;
     if let Some(plate) = &background {
-        let (found, working) = (picture_size(plate)?, working_size(camera.size, scale));
+        let working = working_size(camera.size, scale);
+        let (_, found) = still(plate, |found| is_plate_size(found, camera.size, working))?;
         if !is_plate_size(found, camera.size, working) {
             bail!(
                 "{} is {} pixels, expected {} (as camera {name:?} is calibrated), an exact fraction of that, or {} (the working \

@@ -79,7 +79,15 @@ impl PicturePattern {
     /// # Errors
     /// As [`read_picture`].
     pub(super) fn read(&self, frame: usize, size: [u32; 2]) -> Result<DynamicImage> {
-        Ok(self.turn.of(read_picture(&self.file(frame), &[self.turn.turned(size)])?))
+        Ok(self.turn.of(read_picture(&self.file(frame), &[self.turn.back().turned(size)])?))
+    }
+
+    /// How viewers turn the first picture: a telephone marks its photographs so (EXIF).
+    ///
+    /// # Errors
+    /// As [`picture_size`].
+    pub(super) fn marked(&self) -> Result<Turn> {
+        marked(&self.file(0))
     }
 }
 
@@ -127,6 +135,25 @@ fn number_of(text: &str, digits: usize) -> Option<u64> {
 /// When the file is missing or of none of the formats that are read.
 pub(super) fn picture_size(path: &Path) -> Result<[u32; 2]> {
     Ok(decoder(path)?.dimensions().into())
+}
+
+/// How viewers turn a picture; one whose mark cannot be read has none.
+///
+/// # Errors
+/// As [`picture_size`].
+fn marked(path: &Path) -> Result<Turn> {
+    Ok(decoder(path)?.orientation().map_or(Turn::None, Turn::of_photograph))
+}
+
+/// A still picture that goes with a camera's: upright, as its mark says, where that alone makes its size one of those that
+/// `fits` takes, or the mark changes no size; with its size.
+///
+/// # Errors
+/// As [`picture_size`].
+pub(super) fn still(path: &Path, fits: impl Fn([u32; 2]) -> bool) -> Result<(Turn, [u32; 2])> {
+    let (stored, mark) = (picture_size(path)?, marked(path)?);
+    let upright = mark.turned(stored);
+    Ok(if fits(stored) && !fits(upright) { (Turn::None, stored) } else { (mark, upright) })
 }
 
 /// Reads a picture as it is stored.
@@ -239,6 +266,48 @@ mod tests {
         image::codecs::gif::GifEncoder::new(fs::File::create(&path).unwrap()).encode_frames(frames).unwrap();
         let first = read_picture(&path, &[[8, 6]]).unwrap().into_luma8();
         assert!(first.pixels().all(|pixel| pixel[0].abs_diff(20) < 4), "{:?}", first.get_pixel(0, 0));
+    }
+
+    /// A JPEG with a mark of its orientation (EXIF, 1 to 8): a small TIFF with that one entry.
+    fn save_marked(path: &Path, picture: &image::RgbImage, orientation: u8) {
+        use image::ImageEncoder as _;
+        let mut exif = b"II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0".to_vec();
+        exif.extend([orientation, 0, 0, 0, 0, 0, 0, 0]);
+        let mut encoder = image::codecs::jpeg::JpegEncoder::new_with_quality(fs::File::create(path).unwrap(), 95);
+        encoder.set_exif_metadata(exif).unwrap();
+        encoder
+            .write_image(picture.as_raw(), picture.width(), picture.height(), image::ExtendedColorType::Rgb8)
+            .unwrap();
+    }
+
+    /// Of every mark that a camera writes, the picture comes out upright: its dark corner lies in the upper left.
+    #[test]
+    fn photographs_are_read_as_they_are_marked() {
+        let folder = tempfile::tempdir().unwrap();
+        let upright = image::RgbImage::from_fn(48, 32, |x, y| image::Rgb([if x < 16 && y < 8 { 20 } else { 230 }; 3]));
+        for orientation in 1..=8 {
+            let path = folder.path().join(format!("p{orientation}_1.jpg"));
+            let mark = Turn::of_photograph(image::metadata::Orientation::from_exif(orientation).unwrap());
+            let stored = mark.back().of(upright.clone().into()).into_rgb8();
+            save_marked(&path, &stored, orientation);
+            let footage = super::super::Footage::open(&folder.path().join(format!("p{orientation}_%d.jpg"))).unwrap();
+            assert_eq!((footage.size, footage.marked), ([48, 32], mark), "{orientation}");
+            assert_eq!(footage.turned().is_some(), mark != Turn::None);
+            let pattern = PicturePattern::open(&folder.path().join(format!("p{orientation}_%d.jpg"))).unwrap();
+            let read =
+                PicturePattern { turn: pattern.marked().unwrap(), ..pattern }.read(0, [48, 32]).unwrap().into_luma8();
+            assert!(read.get_pixel(4, 3)[0] < 60 && read.get_pixel(24, 3)[0] > 200 && read.get_pixel(4, 20)[0] > 200);
+            // A calibration of the pictures as they are stored has its way.
+            let lying = <[u32; 2]>::from(stored.dimensions());
+            if lying != [48, 32] {
+                let as_stored =
+                    super::super::Footage::open(&folder.path().join(format!("p{orientation}_%d.jpg"))).unwrap();
+                assert_eq!(as_stored.fitting(lying).size, lying);
+            }
+            let is = |size: [u32; 2]| move |found: [u32; 2]| found == size;
+            assert_eq!(still(&path, is([48, 32])).unwrap(), (mark, [48, 32]));
+            assert_eq!(still(&path, is(lying)).unwrap().1, lying);
+        }
     }
 
     /// A header may promise more than there is memory; nothing of it is taken before the size is known to be right.

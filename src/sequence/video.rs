@@ -51,7 +51,7 @@ fn probe_with(program: &Path, path: &Path) -> Result<VideoInfo> {
     command.args(["-v", "error", "-select_streams", "v:0", "-of", "flat", "-show_entries"]);
     // Packets are listed rather than counted: those an edit list cuts off are marked, and never become frames.
     command.arg(
-        "stream=width,height,nb_frames,avg_frame_rate,time_base:stream_side_data=rotation:stream_tags=creation_time:\
+        "stream=width,height,nb_frames,avg_frame_rate,time_base:stream_side_data=displaymatrix:stream_tags=creation_time:\
          packet=pts_time,flags",
     );
     command.args(["-protocol_whitelist", "file", "-i"]).arg(file_url(path));
@@ -83,7 +83,8 @@ fn probe_with(program: &Path, path: &Path) -> Result<VideoInfo> {
             Some("nb_frames") => promised = value.parse().unwrap_or(0),
             Some("avg_frame_rate") => fps = rate(value),
             Some("time_base") => tick = rate(value).unwrap_or(0.0),
-            Some("rotation") => turn = Turn::marked(value.parse().unwrap_or(0)),
+            // Its rows are told apart by an escaped end of a line.
+            Some("displaymatrix") => turn = Turn::of_matrix(&value.replace("\\n", " ")).unwrap_or(Turn::None),
             Some("creation_time") => made = Some(value.to_string()),
             _ => {}
         }

@@ -66,6 +66,49 @@ fn every_frame_is_found_by_its_number() {
     }
 }
 
+/// A matrix in a header says how a video is shown; one that mirrors was taken for half a turn once.
+#[test]
+fn mirrored_videos_are_known_by_their_matrix() {
+    if !ffmpeg_is_here("mirrored_videos_are_known_by_their_matrix") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plain.mp4");
+    make_video(&path, "64x48", 2, &[]);
+    let plain = fs::read(&path).unwrap();
+    // Behind the name of the track's header and what comes before its matrix.
+    let at = plain.windows(4).position(|word| word == b"tkhd").unwrap() + 44;
+    for (rows, turn) in [
+        ([-1, 0, 0, 1], Turn::Mirrored),
+        ([1, 0, 0, -1], Turn::Flipped),
+        ([-1, 0, 0, -1], Turn::Half),
+        ([0, 1, -1, 0], Turn::Clockwise),
+        ([0, 1, 1, 0], Turn::Transposed),
+    ] {
+        let mut marked = plain.clone();
+        for (number, place) in rows.into_iter().zip([0, 1, 3, 4]) {
+            marked[at + 4 * place..][..4].copy_from_slice(&(number * 65536_i32).to_be_bytes());
+        }
+        fs::write(&path, marked).unwrap();
+        let info = probe_video(&path).unwrap();
+        assert_eq!((info.turn, info.size), (turn, [64, 48]), "{rows:?}");
+        let video = Video { path: path.clone(), turn };
+        let shown = |video: &Video, size| {
+            VideoDecoder::open(video, None, 0..1, size, PixelFormat::Rgb).unwrap().next_frame().unwrap().unwrap()
+        };
+        let stored = image::RgbImage::from_raw(64, 48, shown(&as_stored(&path), [64, 48])).unwrap();
+        let expected = turn.of(stored.into()).into_rgb8();
+        // Colours have half the rows, which do not lie the same way upside down: whole pixels along edges of colours differ.
+        let turned = shown(&video, turn.turned([64, 48]));
+        let apart = |other: &image::RgbImage| {
+            let sum: u32 = turned.iter().zip(other.as_raw()).map(|(a, b)| u32::from(a.abs_diff(*b))).sum();
+            f64::from(sum) / turned.len() as f64
+        };
+        assert!(apart(&expected) < 12.0, "{turn:?}: {}", apart(&expected));
+        assert!(apart(&image::imageops::rotate180(&expected)) > 30.0, "{turn:?}");
+    }
+}
+
 #[test]
 fn irregular_time_stamps_neither_repeat_nor_drop_frames() {
     if !ffmpeg_is_here("irregular_time_stamps_neither_repeat_nor_drop_frames") {
