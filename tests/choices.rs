@@ -19,7 +19,7 @@ use pantin::matrix::{Arrangement, Multiplier, UnitKind};
 use pantin::motion::{Convention, MotionFormat, PointFormat, UpAxis};
 use pantin::search::SearchKind;
 use pantin::sequence::{CalibrationFormat, Orientation, Stamps};
-use pantin::study::{Axis, Value};
+use pantin::study::{Axis, Pace, Value};
 use pantin::synth::{Gait, Garment, LensKind, MotionUnit, PictureForm, RigKind, ScenePreset};
 use pantin::texture::materials::MaterialKind;
 use pantin::texture::noise::{NoiseWay, Sum};
@@ -77,6 +77,7 @@ fn lists() -> Vec<List> {
         list::<UnitKind>(),
         list::<Multiplier>(),
         list::<Axis>(),
+        list::<Pace>(),
         list::<Value>(),
         list::<Preset>(),
         list::<InstructionSet>(),

@@ -40,6 +40,10 @@ pub(super) struct StudyArgs {
     /// Write rows, tables and plots of the runs that the folder holds, and make none.
     #[arg(long, conflicts_with = "resume")]
     collect: bool,
+    /// Write the tables of runs.csv and stages.csv in the folder into this Markdown file, between their marks
+    /// (`<!-- study: NAME TABLE -->` to `<!-- end of study -->`), plots into the folder, and make no runs.
+    #[arg(long, value_name = "FILE.md", conflicts_with_all = ["resume", "run", "collect", "plan"])]
+    docs: Option<PathBuf>,
 }
 
 /// A line of a plan.
@@ -70,6 +74,12 @@ pub(super) fn run(args: &StudyArgs) -> Result<()> {
     }
     if let Some(index) = args.run {
         return run_one(args, &study, index);
+    }
+    if let Some(document) = &args.docs {
+        ensure!(args.output.is_dir(), "there is no folder {} to take rows from", args.output.display());
+        let tables = study::write_docs(&study, &OutputFolder::open(&args.output)?, document)?;
+        say!("wrote {tables} tables into {}", document.display());
+        return Ok(());
     }
     if args.collect {
         ensure!(args.output.is_dir(), "there is no folder {} to collect runs from", args.output.display());

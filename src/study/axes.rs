@@ -23,6 +23,8 @@ choices! {
         "iterations" Iterations,
         /// Poses scored a frame: particles times iterations.
         "evaluations" Evaluations,
+        /// How it keeps time.
+        "pace" Pace,
     }
 }
 
@@ -38,6 +40,7 @@ impl Axis {
             Self::Particles => run.particles.to_string(),
             Self::Iterations => run.iterations.to_string(),
             Self::Evaluations => (run.particles * run.iterations).to_string(),
+            Self::Pace => run.pace.to_string(),
         }
     }
 
@@ -45,7 +48,7 @@ impl Axis {
     pub(super) fn is_number(self) -> bool {
         match self {
             Self::Particles | Self::Iterations | Self::Evaluations => true,
-            Self::Sequence | Self::Backend | Self::Model | Self::Objective | Self::Search => false,
+            Self::Sequence | Self::Backend | Self::Model | Self::Objective | Self::Search | Self::Pace => false,
         }
     }
 
@@ -55,7 +58,7 @@ impl Axis {
             Self::Particles => Some(run.particles as f64),
             Self::Iterations => Some(run.iterations as f64),
             Self::Evaluations => Some((run.particles * run.iterations) as f64),
-            Self::Sequence | Self::Backend | Self::Model | Self::Objective | Self::Search => None,
+            Self::Sequence | Self::Backend | Self::Model | Self::Objective | Self::Search | Self::Pace => None,
         }
     }
 }
@@ -77,6 +80,8 @@ choices! {
         "fitness" Fitness,
         /// Mean confidence.
         "confidence" Confidence,
+        /// The share of the frames that a run in real time passed over, %.
+        "skipped" Skipped,
     }
 }
 
@@ -91,6 +96,7 @@ impl Value {
             Self::EvaluationTime => "evaluation a frame, ms",
             Self::Fitness => "fitness",
             Self::Confidence => "confidence",
+            Self::Skipped => "frames passed over, %",
         }
     }
 
@@ -104,6 +110,7 @@ impl Value {
             Self::EvaluationTime => outcome.stage("evaluate"),
             Self::Fitness => Some(outcome.fitness),
             Self::Confidence => Some(outcome.confidence),
+            Self::Skipped => outcome.skipped.map(|share| 100.0 * share),
         }
     }
 }

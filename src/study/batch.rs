@@ -8,7 +8,8 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 
-use super::runner::{BEGUN, RESULT, Watch};
+use super::outcome::RESULT;
+use super::runner::{BEGUN, Watch};
 use crate::files::OutputFolder;
 use crate::sequence::Sequence;
 use crate::track::{TrackSettings, TrackSummary, track_all};

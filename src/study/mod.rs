@@ -6,8 +6,10 @@
 
 mod axes;
 mod batch;
+mod docs;
 mod lottery;
 mod outcome;
+mod pace;
 mod plan;
 mod plots;
 mod run;
@@ -23,8 +25,10 @@ pub use axes::{Axis, Value};
 pub use batch::{
     BatchProgress, BatchSummary, Trial, TrialRow, batch, collect as collect_trials, numbered, track_trial, trials,
 };
+pub use docs::write_docs;
 pub use lottery::{LotteryManifest, LotteryTable};
 pub use outcome::{Outcome, Row, StageShare};
+pub use pace::Pace;
 pub use run::Run;
 pub use runner::{Progress, StudySummary, collect, run, run_one};
 pub use settings::{PlotSettings, SequenceSettings, SharesSettings, Study, TableSettings};

@@ -3,6 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::run::Run;
+use crate::files::Limit;
+
+/// What is read of a run or trial that is done.
+pub(super) const RESULT: Limit = Limit { what: "the results of a run", most: 64 << 20 };
 
 /// A run and what it yielded: `row.json` of its folder, a row of runs.csv.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -34,6 +38,9 @@ pub struct Outcome {
     pub fitness: f64,
     /// Mean confidence.
     pub confidence: f64,
+    /// The share of the frames that a run in real time passed over.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub skipped: Option<f64>,
     /// Where the time went.
     pub stages: Vec<StageShare>,
     /// The evaluator's name and variant, as `auto` resolved it.

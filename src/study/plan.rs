@@ -23,7 +23,7 @@ impl Study {
                             for &search in &self.searches {
                                 for &particles in &self.particles {
                                     for &iterations in &self.iterations {
-                                        runs.push(Run {
+                                        runs.extend(self.paces.iter().map(|&pace| Run {
                                             sequence: name.clone(),
                                             backend,
                                             model,
@@ -31,11 +31,12 @@ impl Study {
                                             search,
                                             particles,
                                             iterations,
+                                            pace,
                                             seed,
                                             frames: frames.clone(),
                                             spread,
                                             passes: self.passes,
-                                        });
+                                        }));
                                     }
                                 }
                             }

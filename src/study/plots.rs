@@ -13,7 +13,10 @@ const WIDTH: u32 = 860;
 
 /// A value against a number, one line a place on the other axes, with standard deviations.
 pub(super) fn plot(settings: &PlotSettings, rows: &[Row]) -> Result<String> {
-    let PlotSettings { value, x, lines, .. } = settings;
+    let PlotSettings { value, x, lines, sequence, .. } = settings;
+    let is_meant = |row: &&Row| sequence.as_ref().is_none_or(|name| row.run.sequence == *name);
+    let rows: Vec<Row> = rows.iter().filter(is_meant).cloned().collect();
+    let rows = &rows[..];
     let lines: Vec<XyLine> = places(rows, lines)
         .into_iter()
         .map(|here| {
@@ -67,7 +70,13 @@ pub(super) fn settings(study: &Study) -> Vec<PlotSettings> {
     let mut lines = vec![Axis::Sequence];
     lines.extend(study.searches.get(1).map(|_| Axis::Search));
     [("error", Value::Error), ("rate", Value::FramesPerSecond)]
-        .map(|(name, value)| PlotSettings { name: name.to_string(), value, x: Axis::Particles, lines: lines.clone() })
+        .map(|(name, value)| PlotSettings {
+            name: name.to_string(),
+            value,
+            x: Axis::Particles,
+            lines: lines.clone(),
+            sequence: None,
+        })
         .to_vec()
 }
 

@@ -2,10 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::pace::Pace;
 use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
 use crate::search::SearchKind;
 use crate::track::{Drawing, Passes};
+
+/// What stands for the objective that `track` takes by itself.
+pub(super) const USUAL: &str = "usual";
 
 /// One run: everything that decides what it yields.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
@@ -26,6 +30,9 @@ pub struct Run {
     pub particles: usize,
     /// Times that many poses are scored a frame.
     pub iterations: usize,
+    /// How it keeps time.
+    #[serde(default, skip_serializing_if = "Pace::is_usual")]
+    pub pace: Pace,
     /// The seed of the search.
     pub seed: u64,
     /// Which frames, `A..B`.
@@ -40,7 +47,7 @@ pub struct Run {
 impl Run {
     /// The name of its objective function.
     pub(super) fn objective_name(&self) -> &'static str {
-        self.objective.map_or("usual", ObjectiveKind::name)
+        self.objective.map_or(USUAL, ObjectiveKind::name)
     }
 
     /// Its folder within the study's.
@@ -52,6 +59,7 @@ impl Run {
     pub fn folder(&self) -> String {
         let objective = self.objective_name();
         let Self { sequence, backend, model, search, particles, iterations, seed, .. } = self;
-        format!("{sequence}_{backend}_{model}_{objective}_{search}_{particles}x{iterations}_seed{seed}")
+        let pace = if self.pace.is_usual() { String::new() } else { format!("_{}", self.pace) };
+        format!("{sequence}_{backend}_{model}_{objective}_{search}_{particles}x{iterations}{pace}_seed{seed}")
     }
 }

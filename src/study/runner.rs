@@ -6,21 +6,20 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 
-use super::outcome::{Outcome, Row, StageShare};
+use super::outcome::{Outcome, RESULT, Row, StageShare};
+use super::pace::Pace;
 use super::plots;
 use super::run::Run;
 use super::runs_csv::{write_runs, write_stages};
 use super::scenes::Prepared;
 use super::settings::Study;
 use super::tables::{self, Table};
-use crate::files::{Limit, OutputFolder};
+use crate::files::OutputFolder;
 use crate::search::SearchSettings;
-use crate::track::{self, ObjectiveChoice, Passes, TrackSettings, TrackSummary, track};
+use crate::track::{self, ObjectiveChoice, Passes, RealtimeSettings, TrackSettings, TrackSummary, track};
 
 /// A finished run's file in its folder.
 const ROW: &str = "row.json";
-/// What is read of a run or trial that is done.
-pub(super) const RESULT: Limit = Limit { what: "the results of a run", most: 64 << 20 };
 /// The journal of a run in work; a folder with one and without a row is gone on with.
 pub(super) const BEGUN: &str = "run.toml";
 
@@ -220,13 +219,15 @@ pub(super) fn settings(run: &Run, folder: &Path) -> Result<TrackSettings> {
         passes: run.passes,
         frames: run.frames.parse()?,
         overlay_every: 0,
-        resume: folder.join(BEGUN).exists(),
+        realtime: (run.pace == Pace::Realtime).then(RealtimeSettings::default),
+        // A run in real time that was stopped has lost its time.
+        resume: run.pace == Pace::Offline && folder.join(BEGUN).exists(),
         ..TrackSettings::default()
     })
 }
 
 fn outcome(prepared: &Prepared, folder: &OutputFolder, summary: &TrackSummary) -> Result<Outcome> {
-    let errors = prepared.errors(folder, summary.error.as_ref())?;
+    let errors = prepared.errors(folder, summary)?;
     let timings = summary.timings.iter();
     Ok(Outcome {
         frames: summary.frames.len(),
@@ -236,6 +237,7 @@ fn outcome(prepared: &Prepared, folder: &OutputFolder, summary: &TrackSummary) -
         error_without_offset: errors.without_offset,
         frames_per_second: summary.frames_per_second,
         fitness: summary.mean_fitness,
+        skipped: summary.realtime.as_ref().map(|it| 1.0 - it.poses as f64 / it.captured.max(1) as f64),
         confidence: summary.mean_confidence,
         stages: timings.map(|it| StageShare { name: it.name.clone(), ms: it.mean() }).collect(),
         evaluator: summary.backend.join(" "),
@@ -246,6 +248,7 @@ fn outcome(prepared: &Prepared, folder: &OutputFolder, summary: &TrackSummary) -
 fn write(study: &Study, rows: &[Row], output: &OutputFolder) -> Result<String> {
     output.write("runs.csv", |out| write_runs(out, rows))?;
     output.write("stages.csv", |out| write_stages(out, rows))?;
+    write_pictures(study, rows, output)?;
     let mut text = String::new();
     for settings in tables::settings(study) {
         let table = Table::new(&settings, rows);
@@ -254,6 +257,11 @@ fn write(study: &Study, rows: &[Row], output: &OutputFolder) -> Result<String> {
         text += "\n";
     }
     output.write("tables.md", |out| Ok(out.write_all(text.as_bytes())?))?;
+    Ok(text)
+}
+
+/// Writes the plots.
+pub(super) fn write_pictures(study: &Study, rows: &[Row], output: &OutputFolder) -> Result<()> {
     let svg =
         |name: &str, svg: String| output.write(&format!("plot-{name}.svg"), |out| Ok(out.write_all(svg.as_bytes())?));
     for settings in plots::settings(study) {
@@ -262,5 +270,5 @@ fn write(study: &Study, rows: &[Row], output: &OutputFolder) -> Result<String> {
     for settings in plots::share_settings(study) {
         svg(&settings.name, plots::shares(&settings, rows)?)?;
     }
-    Ok(text)
+    Ok(())
 }

@@ -11,7 +11,7 @@ use crate::files::{OutputFolder, Overwrite};
 use crate::motion::{PointTrajectory, TrajectoryError, read_points, read_y_up_points};
 use crate::sequence::Sequence;
 use crate::synth::{Scene, SyntheticSequence};
-use crate::track::{ErrorSummary, tracked_points};
+use crate::track::{TrackSummary, tracked_points};
 
 /// A sequence that is ready to be tracked.
 pub(super) struct Prepared {
@@ -88,14 +88,15 @@ impl Prepared {
     ///
     /// # Errors
     /// When track and truth share no points or frames.
-    pub(super) fn errors(&self, track: &OutputFolder, summary: Option<&ErrorSummary>) -> Result<Errors> {
+    pub(super) fn errors(&self, track: &OutputFolder, summary: &TrackSummary) -> Result<Errors> {
         let name = self.settings.name();
         let own = match (&self.truth, &self.sequence.truth) {
             (Some(truth), _) => truth,
             (None, Some(path)) => &read_points(path)?,
             (None, None) => return Ok(Errors::default()),
         };
-        if self.truth.is_none() && summary.is_none() {
+        let in_real_time = summary.realtime.as_ref().and_then(|it| it.error_mm);
+        if self.truth.is_none() && summary.error.is_none() && in_real_time.is_none() {
             return Ok(Errors::default());
         }
         let map: Vec<(String, String)> = self.settings.map.clone().into_iter().collect();

@@ -8,9 +8,10 @@ use serde::Deserialize;
 
 use super::axes::{Axis, Value};
 use super::lottery::{Drawn, LotteryTable};
+use super::pace::Pace;
 use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
-use crate::files::{parse_toml, read_toml, shortened};
+use crate::files::{expected, parse_toml, read_toml, shortened};
 use crate::search::{SearchKind, SearchSettings};
 use crate::track::{Drawing, FrameRange, Passes};
 
@@ -43,6 +44,9 @@ pub struct Study {
     /// Who scores the poses, and how.
     #[serde(default = "only_default")]
     pub backends: Vec<Drawing>,
+    /// How runs keep time.
+    #[serde(default = "only_default")]
+    pub paces: Vec<Pace>,
     /// Factor on the width of the search round the previous pose.
     #[serde(default = "default_spread")]
     pub spread: f64,
@@ -138,6 +142,8 @@ pub struct PlotSettings {
     /// What makes a line.
     #[serde(default)]
     pub lines: Vec<Axis>,
+    /// The sequence whose runs alone are plotted, if not those of all.
+    pub sequence: Option<String>,
 }
 
 /// A picture of the stages' shares of the time.
@@ -268,6 +274,11 @@ impl Study {
         several("searches", &self.searches)?;
         several("models", &self.models)?;
         several("backends", &self.backends)?;
+        several("paces", &self.paces)?;
+        ensure!(
+            !self.paces.contains(&Pace::Realtime) || self.passes.is_none_or(|passes| passes == Passes::Forward),
+            "paces holds realtime, which goes over its frames once, expected passes = \"forward\" or none"
+        );
         if let Some(lottery) = &self.lottery {
             several("[lottery] seeds", &lottery.seeds)?;
             several("[lottery] manifests", &lottery.manifests)?;
@@ -292,7 +303,8 @@ impl Study {
         }
         self.check_pictures()?;
         let lists = [self.seeds.len(), self.particles.len(), self.iterations.len(), self.objectives().len()];
-        let more = [self.searches.len(), self.models.len(), self.backends.len(), self.sequences.len()];
+        let more =
+            [self.searches.len(), self.models.len(), self.backends.len(), self.paces.len(), self.sequences.len()];
         let runs = lists.into_iter().chain(more).fold(1_usize, usize::saturating_mul);
         ensure!(runs <= MOST_RUNS, "the lists make {runs} runs, expected at most {MOST_RUNS}");
         Ok(())
@@ -321,7 +333,14 @@ impl Study {
                     plot.x.name()
                 );
                 ensure!(!plot.lines.contains(&plot.x), "`{}` is both x and a line", plot.x.name());
-                Ok(())
+                let names: Vec<String> = self.sequences.iter().map(SequenceSettings::name).collect();
+                match &plot.sequence {
+                    Some(name) if !names.contains(name) => {
+                        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+                        bail!("there is no sequence `{name}`, {}", expected(name, &names))
+                    }
+                    _ => Ok(()),
+                }
             })()
             .with_context(|| format!("[[plot]] {:?}", plot.name))?;
         }

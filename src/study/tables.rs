@@ -48,8 +48,14 @@ impl Table<'_> {
     /// The table in Markdown under its title; a cell is `mean ± standard deviation`, the best of a column in bold where
     /// smaller or larger is better.
     pub(super) fn markdown(&self) -> String {
-        let TableSettings { name, title, value, rows, columns } = self.settings;
+        let TableSettings { name, title, value, .. } = self.settings;
         let title = if title.is_empty() { name } else { title };
+        format!("**{title}** ({})\n\n{}", value.heading(), self.body())
+    }
+
+    /// The same without its title.
+    pub(super) fn body(&self) -> String {
+        let TableSettings { value, rows, columns, .. } = self.settings;
         let head = |place: &Vec<String>| {
             let named = columns.iter().zip(place).map(|(axis, at)| match axis {
                 axis if axis.is_number() => format!("{at} {}", axis.name()),
@@ -57,7 +63,7 @@ impl Table<'_> {
             });
             named.collect::<Vec<_>>().join(", ")
         };
-        let mut text = format!("**{title}** ({})\n\n|", value.heading());
+        let mut text = String::from("|");
         for axis in rows {
             text += &format!(" {} |", axis.name());
         }
@@ -89,7 +95,7 @@ impl Table<'_> {
         let means = self.cells.iter().skip(column).step_by(self.columns.len());
         let means = means.filter_map(|cell| cell.statistic.map(|it| it.mean));
         match self.settings.value {
-            Value::Error | Value::ErrorWithoutOffset | Value::SearchTime | Value::EvaluationTime => {
+            Value::Error | Value::ErrorWithoutOffset | Value::SearchTime | Value::EvaluationTime | Value::Skipped => {
                 means.min_by(f64::total_cmp)
             }
             Value::FramesPerSecond | Value::Fitness | Value::Confidence => means.max_by(f64::total_cmp),
@@ -108,6 +114,7 @@ pub(super) fn settings(study: &Study) -> Vec<TableSettings> {
         (Axis::Objective, study.objectives().len()),
         (Axis::Search, study.searches.len()),
         (Axis::Iterations, study.iterations.len()),
+        (Axis::Pace, study.paces.len()),
     ]
     .into_iter()
     .filter_map(|(axis, entries)| (entries > 1).then_some(axis))

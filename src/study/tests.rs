@@ -99,6 +99,30 @@ fn a_stopped_study_goes_on_to_the_same_rows() {
     assert!(error.contains("row.json") && error.contains("spread 0.5") && error.contains("0.7"), "{error}");
 }
 
+/// A run in real time stands beside the one without a clock, with what it passed over, in rows that are read as they were written.
+#[test]
+fn real_time_is_a_pace_of_a_study() {
+    let text = SMALL.replace("[1, 2]", "[1]").replace("[12, 24]", "[12]");
+    let text = text.replace("spread = 0.5\n", "spread = 0.5\npaces = [\"offline\", \"realtime\"]\n");
+    let study = Study::parse(&text, "s").unwrap();
+    let runs = study.runs().unwrap();
+    assert_eq!(runs.len(), 2);
+    assert!(runs[1].folder().contains("12x2_realtime_seed1") && !runs[0].folder().contains("offline"));
+    let folder = tempfile::tempdir().unwrap();
+    let output = OutputFolder::open(folder.path()).unwrap();
+    let summary = run(&study, &output, &StopAfter::new(usize::MAX)).unwrap();
+    let skipped: Vec<Option<f64>> = summary.rows.iter().map(|row| row.outcome.skipped).collect();
+    assert!(skipped[0].is_none() && skipped[1].is_some_and(|share| (0.0..1.0).contains(&share)), "{skipped:?}");
+    let read = runs_csv::read_rows(folder.path()).unwrap();
+    for (read, row) in read.iter().zip(&summary.rows) {
+        assert_eq!((Axis::Pace.of(&read.run), read.run.seed), (Axis::Pace.of(&row.run), row.run.seed));
+        assert!((read.outcome.error.unwrap() - row.outcome.error.unwrap()).abs() < 1e-4);
+        assert_eq!(read.outcome.stages.len(), row.outcome.stages.len());
+    }
+    let error = Study::parse(&text.replace("spread", "passes = \"both\"\nspread"), "s").unwrap_err();
+    assert!(format!("{error:#}").contains("paces holds realtime"), "{error:#}");
+}
+
 #[test]
 fn a_failing_run_does_not_end_the_study() {
     let text = SMALL.replace("[1, 2]", "[1]").replace("[12, 24]", "[12]");
@@ -187,6 +211,8 @@ fn what_makes_no_sense_is_named() {
         ("spread = 0.5", "spread = inf", &["spread is inf, expected 0.01 to 100"]),
         ("length = 3", "length = 3\nspread = 0.0", &["\"demo\"", "spread is 0, expected 0.01 to 100"]),
         ("[12, 24]", "[12, 0]", &["particles"]),
+        ("spread = 0.5", "paces = [\"late\"]", &["unknown pace `late`", "offline, realtime"]),
+        ("x = \"particles\"", "x = \"particles\"\nsequence = \"dem\"", &["there is no sequence `dem`", "demo"]),
         (
             "[[plot]]",
             "[[shares]]\nname = \"Errors\"\nbars = [\"model\"]\n[[plot]]",
