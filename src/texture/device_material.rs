@@ -7,7 +7,7 @@ use anyhow::Result;
 use rayon::prelude::*;
 
 use super::materials::Material;
-use super::noise::{NoiseSource, TABLE, VOLUME_SIDE};
+use super::noise::{NoiseMaker, TABLE, VOLUME_SIDE};
 use super::picture::{Heights, Picture, Seen, View, sample_place};
 use super::shaders::{SHOWS_COLOURS, SHOWS_HEIGHTS, SHOWS_RAYS, layout, material_comp};
 use crate::gpu::{Buffer, Device, Format, Groups, Image, ImageUse, Memory, Recording, Timing};
@@ -63,16 +63,16 @@ impl DeviceMaterial {
         }
         let noise_tables = device.image("noise tables", Format::R32Uint, [TABLE as u32, 2], ImageUse::Sampled)?;
         // Vulkan wants an image where the stage has one.
-        let side = if matches!(material.source(), NoiseSource::Volume(_)) { VOLUME_SIDE as u32 } else { 1 };
+        let side = if matches!(material.source(), NoiseMaker::Volume(_)) { VOLUME_SIDE as u32 } else { 1 };
         let noise_volume = device.volume("noise volume", Format::R32Float, [side; 3])?;
         let way = match material.source() {
-            NoiseSource::Arithmetic => 0,
-            NoiseSource::Tables(entries) => {
+            NoiseMaker::Arithmetic => 0,
+            NoiseMaker::Tables(entries) => {
                 let words: Vec<u32> = entries.order.iter().chain(&entries.words).copied().collect();
                 fill(device, &noise_tables, &words)?;
                 1
             }
-            NoiseSource::Volume(volume) => {
+            NoiseMaker::Volume(volume) => {
                 fill(device, &noise_volume, volume.samples())?;
                 2
             }

@@ -43,7 +43,7 @@ pub use terrain::{Band, Fractal, Map, Terrain};
 pub use timber::Timber;
 pub use wood::Wood;
 
-use super::noise::{NoiseSource, NoiseWay};
+use super::noise::{NoiseMaker, NoiseWay};
 use super::shaders::{MATERIALS_OF_CLOTHES, layout};
 use crate::files::{choices, parse_table, read_toml};
 
@@ -163,7 +163,7 @@ pub struct Material {
     solid: Box<dyn Solid>,
     seed: u64,
     tile: Option<[f32; 2]>,
-    source: NoiseSource,
+    source: NoiseMaker,
 }
 
 impl std::fmt::Debug for Material {
@@ -204,7 +204,7 @@ impl Material {
             );
         }
         parameters.check()?;
-        Ok(Self { solid: (kind.made().build)(parameters, seed)?, seed, tile, source: NoiseSource::new(way, seed) })
+        Ok(Self { solid: (kind.made().build)(parameters, seed)?, seed, tile, source: NoiseMaker::new(way, seed) })
     }
 
     fn space(&self) -> Space<'_> {
@@ -212,7 +212,7 @@ impl Material {
     }
 
     /// Where its noise comes from.
-    pub(super) fn source(&self) -> &NoiseSource {
+    pub(super) fn source(&self) -> &NoiseMaker {
         &self.source
     }
 

@@ -2,7 +2,7 @@
 
 use super::staged::StagedSum;
 use crate::arithmetic::sine_of_turns;
-use crate::texture::noise::{HashLattice, NoiseSource, Octaves, Sum, mixed};
+use crate::texture::noise::{HashLattice, NoiseMaker, Octaves, Sum, mixed};
 use crate::texture::shaders::layout;
 
 /// Noise is looked up off the plane z = 0, which would be a plane of lattice points for every octave.
@@ -14,12 +14,12 @@ pub struct Space<'a> {
     seed: u64,
     lattice: HashLattice,
     tile: [f32; 3],
-    source: &'a NoiseSource,
+    source: &'a NoiseMaker,
 }
 
 impl<'a> Space<'a> {
     /// A space; `tile` is the length after which x and y repeat, object units, if they shall.
-    pub fn new(seed: u64, tile: Option<[f32; 2]>, source: &'a NoiseSource) -> Self {
+    pub fn new(seed: u64, tile: Option<[f32; 2]>, source: &'a NoiseMaker) -> Self {
         let tile = tile.map_or([0.0; 3], |[x, y]| [x, y, 0.0]);
         Self { seed, lattice: HashLattice::new(seed), tile, source }
     }

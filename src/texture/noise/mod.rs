@@ -19,7 +19,7 @@ pub use octaves::{Kernel, Octaves, Row, Sum};
 pub(super) use tests::hard_coordinates;
 pub use value::{value1, value2, value3, value4};
 pub use volume::{Sampled, VOLUME_SIDE, Volume};
-pub use ways::{NoiseSource, NoiseWay};
+pub use ways::{NoiseMaker, NoiseWay};
 
 /// A noise of `N` dimensions.
 pub trait Noise<const N: usize>: Copy + Send + Sync {

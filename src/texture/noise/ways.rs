@@ -18,7 +18,7 @@ choices! {
 
 /// A way with what it reads.
 #[derive(Clone, Debug)]
-pub enum NoiseSource {
+pub enum NoiseMaker {
     /// Nothing.
     Arithmetic,
     /// Tables of a seed.
@@ -27,7 +27,7 @@ pub enum NoiseSource {
     Volume(Volume),
 }
 
-impl NoiseSource {
+impl NoiseMaker {
     /// What a way reads, of a seed.
     pub fn new(way: NoiseWay, seed: u64) -> Self {
         match way {
