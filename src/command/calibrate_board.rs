@@ -12,7 +12,7 @@ use super::progress::ProgressBar;
 use crate::calibrate::{
     Board, BoardCalibration, BoardDetector, BoardKind, BoardMoment, BoardSettings, Floor, SeenCorner, calibrate_board,
 };
-use crate::sequence::{Footage, SAME_RATE, SpreadFrames};
+use crate::sequence::{Footage, InStep, SAME_RATE, SpreadFrames, in_step};
 
 /// A camera fitted with the others may have this many times the noise it has alone, and this much more, pixels, before the
 /// videos are suspected.
@@ -130,11 +130,18 @@ impl BoardFlags {
         let board = self.board()?;
         let detector = BoardDetector::new(&board)?;
         let names = names(videos)?;
-        let mut footage = videos.iter().map(|video| Footage::open(video)).collect::<Result<Vec<_>>>()?;
+        let footage = videos.iter().map(|video| Footage::open(video)).collect::<Result<Vec<_>>>()?;
         for turned in footage.iter().filter_map(Footage::turned) {
             tell!("note: {turned}");
         }
-        tell_of_times(&footage);
+        let InStep { mut footage, picked_at } = in_step(footage)?;
+        match picked_at {
+            Some(rate) => tell!(
+                "note: the videos have several frame rates or lack pictures: they are taken in step at {rate:.3} frames a second by their \
+                 time stamps, and frames are counted so"
+            ),
+            None => tell_of_times(&footage),
+        }
         let shortest = footage.iter().map(|footage| footage.frame_count).min().unwrap_or(0);
         if let Some(longer) = footage.iter().find(|footage| footage.frame_count > shortest) {
             tell!(
@@ -155,7 +162,7 @@ impl BoardFlags {
     }
 }
 
-/// Says which videos lack pictures: frames of one number are taken for one moment.
+/// Says which videos lack pictures where one of them has no time stamps: frames of one number are taken for one moment.
 fn tell_of_times(footage: &[Footage]) {
     for one in footage {
         if let Some(times) = one.times.as_ref().filter(|times| !times.is_regular()) {

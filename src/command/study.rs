@@ -76,7 +76,11 @@ pub(super) fn run(args: &StudyArgs) -> Result<()> {
         return run_one(args, &study, index);
     }
     if let Some(document) = &args.docs {
-        ensure!(args.output.is_dir(), "there is no folder {} to take rows from", args.output.display());
+        ensure!(
+            args.output.is_dir(),
+            "--docs takes its rows from the folder of -o, and there is none called {}",
+            args.output.display()
+        );
         let tables = study::write_docs(&study, &OutputFolder::open(&args.output)?, document)?;
         say!("wrote {tables} tables into {}", document.display());
         return Ok(());

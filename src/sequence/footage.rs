@@ -1,6 +1,7 @@
 //! A video or numbered pictures by themselves: what one camera saw, without a manifest that names it.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
 use image::RgbImage;
@@ -10,7 +11,7 @@ use super::resample::area_average;
 use super::source::{Source, Video};
 use super::timestamps::Timestamps;
 use super::turn::Turn;
-use super::video::{VideoDecoder, VideoInfo, probe_video};
+use super::video::{PixelFormat, VideoDecoder, VideoInfo, probe_video};
 use crate::files::check_regular;
 
 /// A video or numbered pictures (`frames/cam01_%04d.png`), looked at and not yet read.
@@ -32,12 +33,14 @@ pub struct Footage {
     pub times: Option<Timestamps>,
     /// When it was made by the camera's own clock, as a video writes it.
     pub made: Option<String>,
+    /// The picture of each frame where frames are not its pictures one by one; as many as there are frames.
+    pub(crate) picks: Option<Arc<[u32]>>,
 }
 
 impl Footage {
     /// Of a source of which nothing but size and length is known.
     pub(super) fn plain(shown: String, source: Source, size: [u32; 2], frame_count: usize) -> Self {
-        Self { shown, source, size, frame_count, marked: Turn::None, fps: None, times: None, made: None }
+        Self { shown, source, size, frame_count, marked: Turn::None, fps: None, times: None, made: None, picks: None }
     }
 
     /// Looks at a file that ffmpeg reads, or at numbered pictures; videos are counted, not decoded. What is marked to be turned for
@@ -58,7 +61,8 @@ impl Footage {
         }
         let VideoInfo { size, frame_count, turn, fps, times, made } = probe_video(file)?;
         let source = Source::Video(Video { path: file.to_path_buf(), turn });
-        Ok(Self { shown, source, size: turn.turned(size), frame_count, marked: turn, fps, times, made })
+        let size = turn.turned(size);
+        Ok(Self { shown, source, size, frame_count, marked: turn, fps, times, made, picks: None })
     }
 
     /// The same footage with its pictures as they are stored.
@@ -117,7 +121,15 @@ impl Footage {
     pub fn spread(&self, count: usize, size: [u32; 2]) -> Result<SpreadFrames> {
         let count = count.min(self.frame_count);
         let frames = match &self.source {
-            Source::Video(video) => Frames::Video(VideoDecoder::open_spread(video, self.frame_count, count, size)?),
+            Source::Video(video) => Frames::Video(match &self.picks {
+                None => VideoDecoder::open_spread(video, self.frame_count, count, size)?,
+                // The same frames: the last of each share.
+                Some(picks) => {
+                    let chosen = (1..=count).filter_map(|next| picks.get(last_of_share(next, self.frame_count, count)));
+                    let chosen: Arc<[u32]> = chosen.copied().collect();
+                    VideoDecoder::open(video, Some(&chosen), 0..chosen.len(), size, PixelFormat::Rgb)?
+                }
+            }),
             Source::Pictures(pattern) => Frames::Pictures(pattern.clone()),
             Source::Live(live) => bail!("{} is live, expected a recording", live.address),
         };
@@ -128,6 +140,11 @@ impl Footage {
 /// Whether a name is one of numbered pictures. A file may carry a percent sign in its plain name; then it is that file.
 pub(super) fn is_pattern(file: &Path) -> bool {
     file.file_name().is_some_and(|name| name.to_string_lossy().contains('%')) && !file.is_file()
+}
+
+/// The last frame of share `number`, counted from 1, of so many equal shares of all frames.
+fn last_of_share(number: usize, frames: usize, shares: usize) -> usize {
+    (number * frames).div_ceil(shares) - 1
 }
 
 /// Frames that are evenly spread over footage, one after the other.
@@ -173,7 +190,7 @@ impl SpreadFrames {
             }
             // The same frames as a video's: the last of each share.
             Frames::Pictures(pattern) => {
-                let frame = (self.next * self.total).div_ceil(self.count) - 1;
+                let frame = last_of_share(self.next, self.total, self.count);
                 Ok(area_average(pattern.read(frame, self.stored)?.into_rgb8(), self.size))
             }
         }
