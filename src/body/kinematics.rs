@@ -124,7 +124,7 @@ impl Body {
             self.world_from_bones_into(pose, &mut bones)?;
             frames[frame - first] = positions(self, &bones).into_iter().map(Some).collect();
         }
-        Ok(PointTrajectory { names, rate, first_frame: first, frames })
+        Ok(PointTrajectory { names, rate, first_frame: first, frames, smoothed: None })
     }
 
     /// The rest pose (every value 0, or the limit nearest to it) stood on the floor z = 0: where the root can move along

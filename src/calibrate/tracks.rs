@@ -82,6 +82,7 @@ mod tests {
             rate: 50.0,
             first_frame: 3,
             frames: vec![vec![Some(DVec3::X), None], vec![Some(DVec3::Y), Some(DVec3::Z)]],
+            smoothed: None,
         }
     }
 

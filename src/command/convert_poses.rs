@@ -7,7 +7,9 @@ use anyhow::{Context, Result, ensure};
 use super::output::{say, tell};
 use crate::body::{Body, Coordinates, PoseTable};
 use crate::files::{Overwrite, write_atomically};
-use crate::motion::{Convention, LeftAsIs, LowPass, PointFormat, write_bvh, write_mot, write_points_by};
+use crate::motion::{
+    Convention, LeftAsIs, LowPass, PointFormat, PointTrajectory, write_bvh, write_mot, write_points_by,
+};
 
 /// How poses become other files.
 #[derive(clap::Args, Debug)]
@@ -67,10 +69,12 @@ impl PoseFlags {
         let body = Body::load(body)?;
         let mut poses = PoseTable::read(input, &body)?;
         let rate = rate.with_context(|| format!("{} has no times, expected --rate HZ", input.display()))?;
+        let mut smoothed = None;
         if let Some(cutoff) = smooth {
             let low_pass = LowPass::new(cutoff, rate).with_context(|| input.display().to_string())?;
             let left = poses.smooth(&body, &low_pass, &|_| false).with_context(|| input.display().to_string())?;
             tell_smoothed(&low_pass, left);
+            smoothed = Some(low_pass.cutoff());
         }
         let frames = poses.frames.len();
         let name = output.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -92,7 +96,10 @@ impl PoseFlags {
                 let motion = body.to_bvh(&poses, rate)?.in_unit(convention.bvh_unit())?;
                 write_atomically(output, overwrite, |out| write_bvh(out, &motion))?;
             }
-            None => write_points_by(output, body.joint_trajectory(&poses, rate)?, convention, overwrite)?,
+            None => {
+                let points = PointTrajectory { smoothed, ..body.joint_trajectory(&poses, rate)? };
+                write_points_by(output, points, convention, overwrite)?;
+            }
         }
         say!("{}: {} bones, {frames} frames", output.display(), body.bones.len());
         Ok(true)

@@ -74,7 +74,7 @@ mod tests {
     /// One point on the x axis, a gap where the number is negative.
     fn along(places: &[f64]) -> PointTrajectory {
         let frames = places.iter().map(|&x| vec![(x >= 0.0).then(|| DVec3::new(x, 0.0, 0.0))]).collect();
-        PointTrajectory { names: vec!["a".into()], rate: 50.0, first_frame: 10, frames }
+        PointTrajectory { names: vec!["a".into()], rate: 50.0, first_frame: 10, frames, smoothed: None }
     }
 
     fn places(points: &PointTrajectory) -> Vec<f64> {

@@ -30,6 +30,8 @@ pub struct LeftAsIs {
 }
 
 impl LowPass {
+    /// What it is, in words.
+    pub const FILTER: &str = "Butterworth low-pass without delay, second order forwards and backwards";
     /// Consecutive frames that it takes at least.
     pub const FEWEST: usize = 10;
 
@@ -57,10 +59,12 @@ impl LowPass {
 
     /// What was done, as files and reports say it.
     pub fn told(&self) -> String {
-        format!(
-            "{} Hz (-3 dB after both passes): Butterworth low-pass without delay, second order forwards and backwards",
-            self.cutoff
-        )
+        format!("{} Hz (-3 dB after both passes): {}", self.cutoff, Self::FILTER)
+    }
+
+    /// The cut-off, Hz.
+    pub fn cutoff(&self) -> f64 {
+        self.cutoff
     }
 
     /// Smooths consecutive samples, [`Self::FEWEST`] or more; fewer stay as they are.
@@ -125,6 +129,7 @@ impl LowPass {
             }
         }
         ensure!(any, "no point is there in {} consecutive frames, which smoothing takes at least", Self::FEWEST);
+        points.smoothed = Some(self.cutoff);
         Ok(left)
     }
 }
@@ -233,6 +238,7 @@ mod tests {
             rate: 50.0,
             first_frame: 0,
             frames: (0..60).map(row).collect(),
+            smoothed: None,
         };
         let left = LowPass::new(6.0, 50.0).unwrap().smooth_points(&mut points).unwrap();
         assert_eq!(left, LeftAsIs { runs: 1, frames: 4 });

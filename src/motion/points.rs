@@ -24,6 +24,8 @@ pub struct PointTrajectory {
     pub first_frame: usize,
     /// One row a frame, one entry a name; `None` where the point is missing.
     pub frames: Vec<Vec<Option<DVec3>>>,
+    /// Cut-off, Hz, of the [`super::LowPass`] that smoothed them last; none where they are not known to be smoothed.
+    pub smoothed: Option<f64>,
 }
 
 /// How files of a format of points are read and written.
@@ -178,6 +180,7 @@ mod tests {
             rate: 50.0,
             first_frame: 3,
             frames: vec![vec![Some(DVec3::new(1.0, 2.0, 3.0)), None]],
+            smoothed: None,
         }
     }
 

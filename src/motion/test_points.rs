@@ -21,6 +21,7 @@ pub(crate) fn trajectories() -> impl Strategy<Value = PointTrajectory> {
                     rate: f64::from(super::points::meant_rate(rate) as f32),
                     first_frame,
                     frames: rows.into_iter().map(|r| r.into_iter().map(|p| p.map(DVec3::from)).collect()).collect(),
+                    smoothed: None,
                 })
         },
     )
@@ -57,5 +58,11 @@ pub(crate) fn trajectory(rate: f64, first_frame: usize, frames: usize) -> PointT
         let seconds = (first_frame + i) as f64 / rate;
         vec![Some(DVec3::new(seconds * 100.0, 0.0, 0.0)), Some(DVec3::new(0.0, seconds * 50.0, 1000.0))]
     };
-    PointTrajectory { names: vec!["a".into(), "b".into()], rate, first_frame, frames: (0..frames).map(row).collect() }
+    PointTrajectory {
+        names: vec!["a".into(), "b".into()],
+        rate,
+        first_frame,
+        frames: (0..frames).map(row).collect(),
+        smoothed: None,
+    }
 }

@@ -82,7 +82,8 @@ pub fn parse_trc(text: &str, name: &str) -> Result<PointTrajectory> {
     // The X1 Y1 Z1 line says nothing that the names do not.
     next("the line of axes")?;
 
-    let mut trajectory = PointTrajectory { names, rate: header.rate, first_frame: 0, frames: Vec::new() };
+    let mut trajectory =
+        PointTrajectory { names, rate: header.rate, first_frame: 0, frames: Vec::new(), smoothed: None };
     let mut expected_number = None;
     for (line, row) in lines.filter(|(_, row)| !row.trim().is_empty()) {
         let (number, points) =
@@ -301,6 +302,7 @@ mod tests {
             rate: 60.0,
             first_frame: 30,
             frames: vec![vec![Some(glam::DVec3::new(1000.0, 2000.0, 3000.0)), None]],
+            smoothed: None,
         };
         let mut out = Vec::new();
         write_pose2sim_trc(&mut out, &points, "walk_30-30.trc").unwrap();

@@ -90,6 +90,7 @@ pub(super) fn taken_truth(truth: &PointTrajectory, settings: &SequenceSettings, 
         rate: truth.rate / settings.every.unwrap_or(1).max(1) as f64,
         first_frame: 0,
         frames: shown(settings, frame_count).into_iter().map(row).collect(),
+        smoothed: None,
     }
 }
 
@@ -203,6 +204,7 @@ mod tests {
             rate: 60.0,
             first_frame: 1,
             frames: (1..7).map(|frame| vec![at(frame)]).collect(),
+            smoothed: None,
         };
         let rows = |settings: &SequenceSettings| {
             let taken = taken_truth(&truth, settings, 7);

@@ -11,6 +11,8 @@ pub(super) struct Held {
     pub(super) table: PoseTable,
     /// Rows that are gaps.
     gaps: Vec<usize>,
+    /// Cut-off, Hz, where the poses were smoothed.
+    pub(super) smoothed: Option<f64>,
 }
 
 impl Held {
@@ -24,14 +26,15 @@ impl Held {
             results[held].pose.iter().map(|value| f64::from(*value)).collect()
         });
         let table = PoseTable { poses: poses.collect(), frames: results.iter().map(|result| result.frame).collect() };
-        Self { table, gaps: (0..results.len()).filter(|&row| lost(row)).collect() }
+        Self { table, gaps: (0..results.len()).filter(|&row| lost(row)).collect(), smoothed: None }
     }
 
-    /// Takes the points of the gaps out of a trajectory of the table.
+    /// Takes the points of the gaps out of a trajectory of the table, and has it say how the poses were smoothed.
     pub(super) fn with_gaps(&self, mut points: PointTrajectory) -> PointTrajectory {
         for &row in &self.gaps {
             points.frames[row].fill(None);
         }
+        points.smoothed = self.smoothed;
         points
     }
 

@@ -53,7 +53,8 @@ pub(super) fn write(
         .zip(&table.poses)
         .map(|(result, smooth)| FrameResult { pose: pose(smooth), ..result.clone() })
         .collect();
-    let held = Held::new(&smoothed, confidences, has_gaps);
+    let mut held = Held::new(&smoothed, confidences, has_gaps);
+    held.smoothed = Some(cutoff);
     let folder = OutputFolder::open(&output.path().join(FOLDER))?;
     results::write(&folder, body, &sequence.cameras, &smoothed, confidences, &held, sequence.fps)?;
     folder.write(NOTE, |writer| {

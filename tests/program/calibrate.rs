@@ -80,7 +80,7 @@ fn a_wand_and_its_tracks_become_cameras() {
     let cloud = points(100);
     let frames = cloud.iter().map(|p| vec![Some(*p), Some(*p + DVec3::new(60.0, 300.0, 90.0))]).collect();
     let names = vec!["W1".to_string(), "W2".to_string()];
-    let wand = PointTrajectory { names, rate: 50.0, first_frame: 0, frames };
+    let wand = PointTrajectory { names, rate: 50.0, first_frame: 0, frames, smoothed: None };
     write_points(&at.join("wand.c3d"), &wand, Overwrite::Refuse).unwrap();
     // C3D holds single precision: what is in the file is what was seen.
     let wand = read_points(&at.join("wand.c3d")).unwrap();

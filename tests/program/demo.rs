@@ -63,6 +63,8 @@ fn smoothed_results_lie_beside_those_found(sequence: &Path, output: &Path) {
     assert!(read("run.toml").contains("smooth = 6.0") && read("run.toml").contains(" --smooth 6"));
     assert!(read("smoothed/smoothing.toml").contains("cut_off = 6.0 # Hz"), "{}", read("smoothed/smoothing.toml"));
     assert!(read("report.html").contains("results smoothed at 6 Hz"));
+    let cut_off = |name: &str| pantin::motion::read_points(&output.join(name)).unwrap().smoothed;
+    assert_eq!([cut_off("markers.c3d"), cut_off("smoothed/markers.c3d")], [None, Some(6.0)]);
     // The steps from step to step tremble less.
     let body = pantin::body::Body::load(&sequence.join("body.toml")).unwrap();
     let trembling = |name: &str| {

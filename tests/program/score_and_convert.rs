@@ -19,6 +19,7 @@ fn points(names: &[&str], frames: usize, offset: DVec3) -> PointTrajectory {
         frames: (0..frames)
             .map(|i| (0..names.len()).map(|j| Some(DVec3::new(i as f64, j as f64, 0.0) + offset)).collect())
             .collect(),
+        smoothed: None,
     }
 }
 

@@ -184,7 +184,7 @@ impl BvhMotion {
         let mut global = vec![DAffine3::IDENTITY; self.joints.len()];
         let frames = self.frames.iter().map(|row| self.pose(row, &mut global)).collect();
         let rate = super::points::meant_rate(1.0 / self.frame_time);
-        let mut points = PointTrajectory { names, rate, first_frame: 0, frames };
+        let mut points = PointTrajectory { names, rate, first_frame: 0, frames, smoothed: None };
         if let Some(BvhStatement { millimetres, first_frame }) = self.statement {
             points = PointTrajectory { first_frame, ..points.scaled(millimetres).y_up_to_z_up() };
         }

@@ -21,3 +21,10 @@ const BLOCK: usize = 512;
 /// Groups of POINT whose points are no positions: Vicon stores angles, forces, moments and powers as if they were
 /// markers.
 const NOT_POSITIONS: [&str; 6] = ["ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS", "REACTIONS"];
+
+/// The group that says how points were smoothed; files of points that were not have none.
+const SMOOTHING: &str = "SMOOTHING";
+/// In it the cut-off of [`super::LowPass`], Hz.
+const CUT_OFF: &str = "CUT_OFF";
+/// In it [`super::LowPass::FILTER`].
+const FILTER: &str = "FILTER";

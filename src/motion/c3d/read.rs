@@ -5,10 +5,11 @@ use std::collections::{HashMap, HashSet};
 use anyhow::{Context, Result, bail, ensure};
 use glam::DVec3;
 
+use super::super::LowPass;
 use super::super::points::{LARGEST_COORDINATE, PointTrajectory, millimetres_in, numbered};
 use super::numbers::Processor;
 use super::parameters::Parameters;
-use super::{BLOCK, NOT_POSITIONS};
+use super::{BLOCK, CUT_OFF, FILTER, NOT_POSITIONS, SMOOTHING};
 
 /// The first frame that the header's 16 bits cannot count.
 const SATURATED: usize = 65535;
@@ -75,7 +76,11 @@ fn parse(bytes: &[u8]) -> Result<PointTrajectory> {
         frames.push(points);
     }
     let names = columns.into_iter().map(|(_, label)| label).collect();
-    Ok(PointTrajectory { names, rate: layout.rate, first_frame: layout.first_frame, frames })
+    // A cut-off in another program's file may be that of another filter.
+    let is_ours = parameters.texts(SMOOTHING, FILTER).first().is_some_and(|filter| filter == LowPass::FILTER);
+    let cutoff =
+        parameters.number(SMOOTHING, CUT_OFF, 0).filter(|cutoff| is_ours && cutoff.is_finite() && *cutoff > 0.0);
+    Ok(PointTrajectory { names, rate: layout.rate, first_frame: layout.first_frame, frames, smoothed: cutoff })
 }
 
 /// Where the numbers lie.
@@ -220,6 +225,7 @@ mod tests {
                 vec![Some(DVec3::new(1.5, -2.0, 3.0)), None],
                 vec![Some(DVec3::new(4.0, 5.0, 6.0)), Some(DVec3::new(7.0, 8.0, 9.0))],
             ],
+            smoothed: None,
         }
     }
 
@@ -418,6 +424,21 @@ mod tests {
     }
 
     #[test]
+    fn smoothed_points_say_their_cut_off() {
+        let mut points = crate::motion::test_points::trajectory(50.0, 0, 20);
+        assert!(!written(&points).windows(SMOOTHING.len()).any(|bytes| bytes == SMOOTHING.as_bytes()));
+        LowPass::new(6.25, points.rate).unwrap().smooth_points(&mut points).unwrap();
+        let bytes = written(&points);
+        assert_eq!(parse_c3d(&bytes, "s.c3d").unwrap().smoothed, Some(6.25));
+        // Whoever does not know the group reads the points all the same.
+        same_as_c3dio(&bytes, &points);
+        let mut foreign = bytes;
+        let at = values_of(&foreign, "FILTER");
+        foreign[at] = b'b';
+        assert_eq!(parse_c3d(&foreign, "s.c3d").unwrap().smoothed, None, "another program's filter");
+    }
+
+    #[test]
     fn more_labels_than_one_parameter_holds() {
         for count in [127, 128, 255, 256, 600] {
             let points = PointTrajectory {
@@ -425,6 +446,7 @@ mod tests {
                 rate: 100.0,
                 first_frame: 0,
                 frames: vec![(0..count).map(|i| (i % 7 != 0).then(|| DVec3::splat(f64::from(i)))).collect(); 2],
+                smoothed: None,
             };
             let bytes = written(&points);
             assert_eq!(parse_c3d(&bytes, "t.c3d").unwrap(), points, "{count}");
@@ -440,6 +462,7 @@ mod tests {
                 rate: 100.0,
                 first_frame,
                 frames: (0..frames).map(|i| vec![Some(DVec3::new(f64::from(i), 1.0, 2.0))]).collect(),
+                smoothed: None,
             };
             let bytes = written(&points);
             let again = parse_c3d(&bytes, "long.c3d").unwrap();
@@ -457,7 +480,8 @@ mod tests {
         points.names[0] = "n".repeat(121);
         assert!(message(&points).contains("121 bytes long, expected at most 120"));
         let names: Vec<String> = (0..5000).map(|i| format!("{i:0>100}")).collect();
-        let crowd = PointTrajectory { frames: vec![vec![None; names.len()]], names, rate: 1.0, first_frame: 0 };
+        let crowd =
+            PointTrajectory { frames: vec![vec![None; names.len()]], names, rate: 1.0, first_frame: 0, smoothed: None };
         assert!(message(&crowd).contains("blocks of parameters, expected at most 255"));
         points = small();
         points.first_frame = usize::MAX - 1;

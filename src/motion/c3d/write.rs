@@ -4,8 +4,9 @@ use std::io::Write;
 
 use anyhow::{Result, ensure};
 
+use super::super::LowPass;
 use super::super::points::{PointFile, PointTrajectory};
-use super::{BLOCK, parse_c3d};
+use super::{BLOCK, CUT_OFF, FILTER, SMOOTHING, parse_c3d};
 
 /// Files of points.
 pub(crate) const POINTS: PointFile =
@@ -21,7 +22,7 @@ const LAST_FRAME: usize = 1 << 24;
 const LAST_COUNTED: usize = 65535;
 
 /// Writes the points as C3D in mm with 32-bit reals; a missing point has the residual -1. Recordings past 65535 frames
-/// get `POINT:LONG_FRAMES` and `TRIAL:ACTUAL_START_FIELD`, `ACTUAL_END_FIELD`.
+/// get `POINT:LONG_FRAMES` and `TRIAL:ACTUAL_START_FIELD`, `ACTUAL_END_FIELD`, smoothed points `SMOOTHING:CUT_OFF` and `FILTER`.
 ///
 /// # Errors
 /// When the trajectory breaks [`PointTrajectory::check`], its rate is unknown, a name is longer than 120 bytes, there
@@ -103,6 +104,11 @@ fn parameter_section(points: &PointTrajectory, data_start: u16) -> Result<Vec<u8
         let halves = |frame: usize| [(frame & 0xffff) as u16, (frame >> 16) as u16];
         section.integers(group, "ACTUAL_START_FIELD", &halves(first))?;
         section.integers(group, "ACTUAL_END_FIELD", &halves(last))?;
+    }
+    if let Some(cutoff) = points.smoothed {
+        let group = section.group(SMOOTHING)?;
+        section.reals(group, CUT_OFF, &[cutoff as f32])?;
+        section.texts(group, FILTER, &[LowPass::FILTER.to_string()])?;
     }
     Ok(section.finish())
 }

@@ -110,6 +110,7 @@ mod tests {
             rate: 60.0,
             first_frame: 0,
             frames: places.iter().map(|&x| vec![(x >= 0.0).then(|| DVec3::new(x, 1.0, 0.0))]).collect(),
+            smoothed: None,
         };
         let places = |large| -> Vec<f64> {
             let filled = with_filled_gaps(gappy(&[1.0, -1.0, 3.0, -1.0, -1.0, 9.0]), 1, large);
