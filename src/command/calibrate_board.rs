@@ -12,7 +12,7 @@ use super::progress::ProgressBar;
 use crate::calibrate::{
     Board, BoardCalibration, BoardDetector, BoardKind, BoardMoment, BoardSettings, Floor, SeenCorner, calibrate_board,
 };
-use crate::sequence::{Footage, InStep, SAME_RATE, SpreadFrames, in_step};
+use crate::sequence::{Footage, InStep, SAME_RATE, SpreadFrames, in_step, last_of_share};
 
 /// A camera fitted with the others may have this many times the noise it has alone, and this much more, pixels, before the
 /// videos are suspected.
@@ -282,7 +282,7 @@ fn look(
         let grey: Vec<GrayImage> =
             pictures?.into_iter().map(|picture| DynamicImage::ImageRgb8(picture).into_luma8()).collect();
         let views: Vec<Vec<SeenCorner>> = grey.par_iter().map(|picture| detector.find(picture)).collect();
-        moments.push(BoardMoment { frame: (sample * total).div_ceil(samples) - 1, views });
+        moments.push(BoardMoment { frame: last_of_share(sample, total, samples), views });
         advance();
     }
     Ok(moments)

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use anyhow::{Context, Result, bail};
 use image::RgbImage;
 
-use super::pictures::{PicturePattern, picture_size, shown as shown_size};
+use super::pictures::{PicturePattern, shown as shown_size};
 use super::resample::area_average;
 use super::source::{Source, Video};
 use super::timestamps::Timestamps;
@@ -52,8 +52,7 @@ impl Footage {
         let shown = file.display().to_string();
         if is_pattern(file) {
             let pattern = PicturePattern::open(file)?;
-            let (size, frame_count, marked) =
-                (picture_size(&pattern.file(0))?, pattern.frame_count(), pattern.marked()?);
+            let ((marked, size), frame_count) = (pattern.header()?, pattern.frame_count());
             return Ok(Self { marked, ..Self::plain(shown, Source::Pictures(pattern), size, frame_count) }.put(marked));
         }
         if let Err(why) = check_regular(file) {
@@ -143,7 +142,7 @@ pub(super) fn is_pattern(file: &Path) -> bool {
 }
 
 /// The last frame of share `number`, counted from 1, of so many equal shares of all frames.
-fn last_of_share(number: usize, frames: usize, shares: usize) -> usize {
+pub(crate) fn last_of_share(number: usize, frames: usize, shares: usize) -> usize {
     (number * frames).div_ceil(shares) - 1
 }
 

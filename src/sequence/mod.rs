@@ -28,6 +28,7 @@ pub use calibration::{
     parse_vicon, read_cameras, write_cameras_toml,
 };
 pub use coverage::nearest_to_axes;
+pub(crate) use footage::last_of_share;
 pub use footage::{Footage, SpreadFrames};
 pub use frames::{FrameReader, FrameSet, STALL_TIMEOUT};
 pub use ignored::Ignored;

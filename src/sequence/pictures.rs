@@ -82,12 +82,12 @@ impl PicturePattern {
         Ok(self.turn.of(read_picture(&self.file(frame), &[self.turn.back().turned(size)])?))
     }
 
-    /// How viewers turn the first picture: a telephone marks its photographs so (EXIF).
+    /// [`header`] of the first picture.
     ///
     /// # Errors
     /// As [`picture_size`].
-    pub(super) fn marked(&self) -> Result<Turn> {
-        marked(&self.file(0))
+    pub(super) fn header(&self) -> Result<(Turn, [u32; 2])> {
+        header(&self.file(0))
     }
 }
 
@@ -137,12 +137,15 @@ pub(super) fn picture_size(path: &Path) -> Result<[u32; 2]> {
     Ok(decoder(path)?.dimensions().into())
 }
 
-/// How viewers turn a picture; one whose mark cannot be read has none.
+/// How viewers turn a picture, and its size as it is stored: a telephone marks its photographs so (EXIF); one whose mark cannot be read
+/// has none.
 ///
 /// # Errors
 /// As [`picture_size`].
-fn marked(path: &Path) -> Result<Turn> {
-    Ok(decoder(path)?.orientation().map_or(Turn::None, Turn::of_photograph))
+fn header(path: &Path) -> Result<(Turn, [u32; 2])> {
+    let mut decoder = decoder(path)?;
+    let mark = decoder.orientation().map_or(Turn::None, Turn::of_photograph);
+    Ok((mark, decoder.dimensions().into()))
 }
 
 /// A still picture that goes with a camera's: upright, as its mark says, where that alone makes its size one of those that
@@ -151,7 +154,7 @@ fn marked(path: &Path) -> Result<Turn> {
 /// # Errors
 /// As [`picture_size`].
 pub(super) fn still(path: &Path, fits: impl Fn([u32; 2]) -> bool) -> Result<(Turn, [u32; 2])> {
-    let (stored, mark) = (picture_size(path)?, marked(path)?);
+    let (mark, stored) = header(path)?;
     let upright = mark.turned(stored);
     Ok(if fits(stored) && !fits(upright) { (Turn::None, stored) } else { (mark, upright) })
 }
@@ -295,7 +298,7 @@ mod tests {
             assert_eq!(footage.turned().is_some(), mark != Turn::None);
             let pattern = PicturePattern::open(&folder.path().join(format!("p{orientation}_%d.jpg"))).unwrap();
             let read =
-                PicturePattern { turn: pattern.marked().unwrap(), ..pattern }.read(0, [48, 32]).unwrap().into_luma8();
+                PicturePattern { turn: pattern.header().unwrap().0, ..pattern }.read(0, [48, 32]).unwrap().into_luma8();
             assert!(read.get_pixel(4, 3)[0] < 60 && read.get_pixel(24, 3)[0] > 200 && read.get_pixel(4, 20)[0] > 200);
             // A calibration of the pictures as they are stored has its way.
             let lying = <[u32; 2]>::from(stored.dimensions());

@@ -5,6 +5,7 @@ use anyhow::Result;
 use super::materials::Texel;
 use super::painter::Painter;
 use super::picture::{Picture, SAMPLES, View, rendered};
+use super::solids::{dot, inside, normalised};
 
 /// How high a height of 1 rises; half of the block's longer side is 1.
 const RISE: f32 = 0.45;
@@ -33,6 +34,7 @@ struct Land {
     colours: Vec<[f32; 3]>,
     heights: Vec<f32>,
     highest: f32,
+    to_light: [f32; 3],
 }
 
 /// The surface that a material's heights make over a checked view, in its colours, with the shadows it casts.
@@ -66,6 +68,7 @@ impl Land {
             size,
             half: size.map(|side| side as f32 / longer),
             colours: picture.pixels().map(|p| Texel { colour: p.0.map(fraction), height: 0.0 }.linear()).collect(),
+            to_light: normalised(LIGHT),
             highest: heights.iter().copied().fold(0.0, f32::max),
             heights,
         })
@@ -104,23 +107,10 @@ impl Land {
         self.colours[cell(1) * self.size[0] + cell(0)]
     }
 
-    /// The part of a ray inside of the block, up to the highest point, and the axis of the face it comes in by.
-    fn inside(&self, origin: [f32; 3], direction: [f32; 3]) -> Option<(f32, f32, usize)> {
-        let (low, high) = ([-self.half[0], -self.half[1], -BASE], [self.half[0], self.half[1], self.highest]);
-        let (mut near, mut far, mut face) = (0.0, f32::MAX, 2);
-        for axis in 0..3 {
-            let [a, b] = [low[axis], high[axis]].map(|side| (side - origin[axis]) / direction[axis]);
-            if a.min(b) > near {
-                (near, face) = (a.min(b), axis);
-            }
-            far = far.min(a.max(b));
-        }
-        (near <= far).then_some((near, far, face))
-    }
-
     /// The light along a ray; none where it misses the block.
     fn light(&self, origin: [f32; 3], direction: [f32; 3]) -> Option<[f32; 3]> {
-        let (near, far, face) = self.inside(origin, direction)?;
+        let [x, y] = self.half;
+        let (near, far, face) = inside([-x, -y, -BASE], [x, y, self.highest], origin, direction)?;
         let at = |t: f32| [0, 1, 2].map(|axis| origin[axis] + t * direction[axis]);
         let above = |t: f32| {
             let [x, y, z] = at(t);
@@ -164,8 +154,7 @@ impl Land {
 
     /// How much light falls on a point of the block.
     fn lit(&self, [x, y, z]: [f32; 3], normal: [f32; 3]) -> f32 {
-        let length = LIGHT.iter().map(|c| c * c).sum::<f32>().sqrt();
-        let cosine = (0..3).map(|axis| normal[axis] * LIGHT[axis] / length).sum::<f32>();
+        let cosine = dot(normal, self.to_light);
         // From a little above, so that a slope does not shade itself by the grid's steps.
         let step = self.cell();
         let mut up = step;

@@ -26,9 +26,28 @@ pub(super) fn normalised(v: [f32; 3]) -> [f32; 3] {
 }
 
 /// Towards the one light: from the upper left, before the object.
-pub(super) const LIGHT: [f32; 3] = [-0.45, 0.6, 0.66];
+const LIGHT: [f32; 3] = [-0.45, 0.6, 0.66];
 /// Half of what the view of a solid is wide, units of the object: a little more than any of them takes.
 const HALF_VIEW: f32 = 1.45;
+
+/// The part of a ray inside of a box of two opposite corners, as multiples of its direction, and the axis of the face it comes in by; none
+/// where it misses the box.
+pub(super) fn inside(
+    low: [f32; 3],
+    high: [f32; 3],
+    origin: [f32; 3],
+    direction: [f32; 3],
+) -> Option<(f32, f32, usize)> {
+    let (mut near, mut far, mut face) = (0.0, f32::MAX, 0);
+    for axis in 0..3 {
+        let [a, b] = [low[axis], high[axis]].map(|side| (side - origin[axis]) / direction[axis]);
+        if a.min(b) > near {
+            (near, face) = (a.min(b), axis);
+        }
+        far = far.min(a.max(b));
+    }
+    (near <= far).then_some((near, far, face))
+}
 
 /// Where the ray through (u, v) in [-1, 1]^2 along -z meets the object: point and normal in object space, and the normal
 /// as the light sees it.
@@ -56,17 +75,7 @@ fn hit(solid: Solid, u: f32, v: f32) -> Option<([f32; 3], [f32; 3])> {
                 [p[0] * ca - z * sa, y, p[0] * sa + z * ca]
             };
             let (origin, direction) = (to_object([u * 1.2, v * 1.2, 4.0]), to_object([0.0, 0.0, -1.0]));
-            let half = 0.65;
-            let (mut near, mut far, mut face) = (f32::MIN, f32::MAX, 0);
-            for axis in 0..3 {
-                let a = (-half - origin[axis]) / direction[axis];
-                let b = (half - origin[axis]) / direction[axis];
-                if a.min(b) > near {
-                    (near, face) = (a.min(b), axis);
-                }
-                far = far.min(a.max(b));
-            }
-            (near <= far).then(|| {
+            inside([-0.65; 3], [0.65; 3], origin, direction).map(|(near, _, face)| {
                 let p = std::array::from_fn(|axis| origin[axis] + near * direction[axis]);
                 // The light turns with the object instead of the normal turning back.
                 let sign = -direction[face].signum();

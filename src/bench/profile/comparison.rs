@@ -22,12 +22,12 @@ impl Display for Comparison<'_> {
         for profile in &now.profiles {
             match before.profiles.iter().find(|other| is_same(other, profile)) {
                 Some(other) => of_profile(f, other, profile)?,
-                None => writeln!(f, "\n{}: only now", title(profile))?,
+                None => writeln!(f, "\n{}: only now", profile.title())?,
             }
         }
         for profile in &before.profiles {
             if !now.profiles.iter().any(|other| is_same(other, profile)) {
-                writeln!(f, "\n{}: only before", title(profile))?;
+                writeln!(f, "\n{}: only before", profile.title())?;
             }
         }
         Ok(())
@@ -40,13 +40,8 @@ fn is_same(left: &Profile, right: &Profile) -> bool {
         && of(left) == of(right)
 }
 
-fn title(profile: &Profile) -> String {
-    let Profile { backend, variant, model, particles, views, width, height, .. } = profile;
-    format!("{backend} {variant}: {model} model, {particles} particles, {views} cameras of {width}x{height}")
-}
-
 fn of_profile(f: &mut Formatter<'_>, before: &Profile, now: &Profile) -> fmt::Result {
-    writeln!(f, "\n{}", title(now))?;
+    writeln!(f, "\n{}", now.title())?;
     writeln!(
         f,
         "{:26} {:>9} {:>9} {:>7} {:>9} {:>9} {:>9}",

@@ -71,6 +71,14 @@ pub struct Profile {
     pub passes: Vec<Pass>,
 }
 
+impl Profile {
+    /// What was measured, as tables say it.
+    pub(super) fn title(&self) -> String {
+        let Self { backend, variant, model, particles, views, width, height, .. } = self;
+        format!("{backend} {variant}: {model} model, {particles} particles, {views} cameras of {width}x{height}")
+    }
+}
+
 /// A number that a driver tells of a stage, under its own name for it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Statistic {

@@ -46,13 +46,9 @@ impl Display for ProfileReport {
 }
 
 fn of_profile(f: &mut Formatter<'_>, profile: &Profile) -> fmt::Result {
-    let Profile { backend, variant, model, particles, views, width, height, ms, gaps_ms, passes } = profile;
+    let Profile { ms, gaps_ms, passes, .. } = profile;
     let busy: f64 = passes.iter().map(|pass| pass.ms).sum();
-    writeln!(
-        f,
-        "\n{backend} {variant}: {model} model, {particles} particles, {views} cameras of {width}x{height}\n\
-         {ms:.3} ms an iteration; passes {busy:.3} ms, {gaps_ms:.3} ms between them"
-    )?;
+    writeln!(f, "\n{}\n{ms:.3} ms an iteration; passes {busy:.3} ms, {gaps_ms:.3} ms between them", profile.title())?;
     writeln!(
         f,
         "{:26} {:>9} {:>6} {:>7} {:>12} {:>9} {:>9} {:>8} {:>8} | {:>5} {:>5} {:>6} {:>6}",
