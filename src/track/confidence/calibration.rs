@@ -1,38 +1,39 @@
 //! What is known of a joint and a frame as numbers that mean something: an expected error in mm, and the probability that the pose is
-//! wrong (METHOD A13). Fitted on development scenes drawn by lot, held out scene by scene; docs/CONFIDENCE.md shows how they hold.
+//! wrong (METHOD A13). Fitted on development scenes drawn by lot with the bodies measured in them, held out scene by scene;
+//! docs/CONFIDENCE.md shows how they hold.
 
 use super::hints::JointHints;
 
 /// Constant of each kind of joint, left and right together, in the logarithm of its error.
 const JOINTS: [(&str, f64); 12] = [
-    ("pelvis", -0.521),
-    ("hip", -0.509),
-    ("knee", -1.343),
-    ("ankle", -2.073),
-    ("axis", -0.521),
-    ("thorax", -0.487),
-    ("clavicle", -0.714),
-    ("shoulder", -1.016),
-    ("elbow", -1.608),
-    ("wrist", -1.904),
-    ("head", -0.945),
-    ("head_top", -2.172),
+    ("pelvis", 0.544),
+    ("hip", 0.741),
+    ("knee", -0.079),
+    ("ankle", -0.702),
+    ("axis", 0.544),
+    ("thorax", 0.608),
+    ("clavicle", 0.386),
+    ("shoulder", 0.226),
+    ("elbow", -0.165),
+    ("wrist", -0.692),
+    ("head", 0.105),
+    ("head_top", -0.794),
 ];
 /// Constant of a joint of another name.
-const OTHER_JOINT: f64 = -1.151;
+const OTHER_JOINT: f64 = 0.060;
 /// Factors of what is known, in the same logarithm.
-const LOOSENESS: f64 = 1.025;
-const SUPPORT: f64 = 0.409;
-const FITNESS: f64 = 2.683;
-const SEEN: f64 = 0.392;
-const SPREAD: f64 = 0.046;
+const LOOSENESS: f64 = 0.823;
+const SUPPORT: f64 = 0.507;
+const FITNESS: f64 = 1.580;
+const SEEN: f64 = 0.114;
+const SPREAD: f64 = 0.060;
 /// Expected errors are held within these, mm.
 const LIMITS: [f64; 2] = [3.0, 1000.0];
 
 /// An error, root mean square over the joints, from which on a pose is wrong, mm: what `wrong` is the probability of.
 pub const WRONG: f64 = 150.0;
 /// The logit of a wrong pose over the logarithm of the joints' expected error: root mean square.
-const WRONG_AT: [f64; 2] = [-22.139, 4.498];
+const WRONG_AT: [f64; 2] = [-17.666, 3.713];
 /// An agreement of the views at which it is as likely as not that nobody stands there, and how quickly that changes.
 const NOBODY_AT: f64 = 0.8;
 const NOBODY_WIDTH: f64 = 0.04;
