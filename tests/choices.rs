@@ -23,7 +23,7 @@ use pantin::study::{Axis, Pace, Value};
 use pantin::synth::{Gait, Garment, LensKind, MotionUnit, PictureForm, RigKind, ScenePreset};
 use pantin::texture::materials::MaterialKind;
 use pantin::texture::noise::{NoiseWay, Sum};
-use pantin::track::{Backend, Passes, Prediction, Width};
+use pantin::track::{Backend, FeaturesOn, Passes, Prediction, Width};
 
 /// What a document calls a list, and its table.
 type List = (&'static str, String);
@@ -36,6 +36,7 @@ fn list<T: Choice>() -> List {
 fn lists() -> Vec<List> {
     vec![
         list::<Backend>(),
+        list::<FeaturesOn>(),
         list::<Model>(),
         list::<ObjectiveKind>(),
         list::<SearchKind>(),

@@ -953,7 +953,7 @@ pub mod pack_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "features/pack.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<686, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<1030, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/features/pack.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 24,
@@ -961,7 +961,8 @@ pub mod pack_comp {
             crate::gpu::BindingLayout { name: "Silhouette", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "Codes", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "Proximity", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
-            crate::gpu::BindingLayout { name: "Packed", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+            crate::gpu::BindingLayout { name: "Pixels", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+            crate::gpu::BindingLayout { name: "Planes", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
         ],
         constants: &[
         ],
@@ -981,17 +982,20 @@ pub mod pack_comp {
         pub codes: &'a crate::gpu::Buffer,
         /// Storage buffer `Proximity`, read; set 0, binding 2.
         pub proximity: &'a crate::gpu::Buffer,
-        /// Storage buffer `Packed`, written; set 0, binding 3.
-        pub packed: &'a crate::gpu::Buffer,
+        /// Storage buffer `Pixels`, written; set 0, binding 3.
+        pub pixels: &'a crate::gpu::Buffer,
+        /// Storage buffer `Planes`, written; set 0, binding 4.
+        pub planes: &'a crate::gpu::Buffer,
     }
     impl<'a> Bindings<'a> {
         /// Each resource with the place it goes to.
-        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 4] {
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 5] {
             [
                 crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.silhouette) },
                 crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.codes) },
                 crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.proximity) },
-                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.packed) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.pixels) },
+                crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.planes) },
             ]
         }
     }

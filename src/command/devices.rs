@@ -7,7 +7,7 @@ use super::output::say;
 use crate::bench::Scene;
 use crate::evaluate::device::kept_kernels;
 use crate::gpu::{DeviceFacts, Instance, Validation, devices};
-use crate::track::Drawing;
+use crate::track::{Drawing, makes_features};
 
 /// Lists the Vulkan devices of this machine in Vulkan's order: what each can do, whether pantin can use it, what it lacks;
 /// and which backend --backend auto would take on a built-in scene, and why. Without Vulkan the list is empty.
@@ -88,8 +88,18 @@ fn print_table(found: &[DeviceFacts]) {
         say!("{}", cells.join("  ").trim_end());
         let reasons = index.checked_sub(1).map_or(&[][..], |device| &found[device].reasons);
         let kept = index.checked_sub(1).map(|device| kept_kernels(&found[device])).unwrap_or_default();
-        for sentence in reasons.iter().chain(&kept) {
+        let made = index.checked_sub(1).map(|device| features_made(&found[device]));
+        for sentence in reasons.iter().chain(&kept).map(String::as_str).chain(made) {
             say!("       - {sentence}");
         }
+    }
+}
+
+/// Who makes the features of a run that is searched on a device.
+fn features_made(device: &DeviceFacts) -> &'static str {
+    if makes_features(device.kind) {
+        "track makes the features there, and what is compared stays there"
+    } else {
+        "track leaves the features to the processor, of which the device is a part (--features device)"
     }
 }

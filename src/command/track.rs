@@ -19,8 +19,8 @@ use crate::live::SentSummary;
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::{STALL_TIMEOUT, Sequence};
 use crate::track::{
-    FrameDone, FrameRange, Passes, Prediction, Progress, RealtimeSummary, RunStart, TrackSettings, TrackSummary, Width,
-    track_all,
+    FeaturesOn, FrameDone, FrameRange, Passes, Prediction, Progress, RealtimeSummary, RunStart, TrackSettings,
+    TrackSummary, Width, track_all,
 };
 
 /// Tracks a person through a sequence: poses, joints and markers over time (CSV, TRC, C3D), how far they can be
@@ -49,6 +49,10 @@ pub(super) struct TrackArgs {
 pub(super) struct TrackOptions {
     #[command(flatten)]
     drawing: DrawingFlags,
+    /// Who makes the features. Without: the device that poses are scored on, where it is a single one, no part of the processor, and can
+    /// hold what is compared; else the processor. The bits are the same.
+    #[arg(long = "features", value_name = "NAME", default_value_t)]
+    features_on: FeaturesOn,
     /// What the body is drawn as.
     #[arg(long, value_name = "NAME", default_value_t)]
     model: Model,
@@ -132,6 +136,7 @@ impl TrackOptions {
         let settings = TrackSettings {
             drawing: self.drawing.drawing(self.model)?,
             devices: self.drawing.devices.clone(),
+            features_on: self.features_on,
             model: self.model,
             objective: self.objective.choice(),
             search: SearchSettings {

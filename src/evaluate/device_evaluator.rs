@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use super::objective::Objective;
-use crate::gpu::{Buffer, Device, Recorder};
+use crate::gpu::{Buffer, Device, Recorder, Recording};
 
 /// An evaluator whose poses and fitness stay on the device, so that all iterations of a frame need no host between them.
 pub trait DeviceEvaluator: Send {
@@ -28,6 +28,18 @@ pub trait DeviceEvaluator: Send {
         false
     }
 
+    /// Whether the newest observations are handed over on the device ([`super::Evaluator::observe_held`]). What is recorded holds for
+    /// observations that come in the same way.
+    fn is_handed_observations(&self) -> bool {
+        false
+    }
+
+    /// What hands the newest observations over: to be run once, ahead of what was recorded. None where nothing is, or where they come
+    /// from the host.
+    fn handover(&mut self) -> Option<&mut Recording> {
+        None
+    }
+
     /// Makes room for so many candidates; the buffers may be others afterwards, and what was recorded before goes on working
     /// with the old ones.
     ///
@@ -35,8 +47,8 @@ pub trait DeviceEvaluator: Send {
     /// When the device has no room.
     fn reserve(&mut self, candidates: u32) -> Result<()>;
 
-    /// Records the copies that bring the body, the cameras and the newest observations to the device. Recorded once, they bring
-    /// whatever is newest at every submission.
+    /// Records the copies that bring the body, the cameras and, where they come from the host, the newest observations to the device.
+    /// Recorded once, they bring whatever is newest at every submission.
     ///
     /// # Errors
     /// When the device fails.

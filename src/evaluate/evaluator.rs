@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 
 use super::batch::check_batch;
 use super::components::Components;
@@ -12,8 +12,8 @@ use super::objective::{AreaSums, Objective};
 use super::raster::CandidateImage;
 use super::segments::{SegmentSums, no_segments};
 use super::view_counts::ViewCounts;
-use crate::features::{Observation, Segments};
-use crate::gpu::DevicePass;
+use crate::features::{HeldFrame, Observation, SeenFrame, Segments};
+use crate::gpu::{Device, DevicePass};
 
 /// Scores candidate poses against the observations of one frame.
 ///
@@ -38,6 +38,31 @@ pub trait Evaluator: Send {
     /// When there are not as many as views, or one's size is not its camera's; when some tell body parts apart or
     /// carry evidence and others do not.
     fn observe(&mut self, observations: &[Observation]) -> Result<()>;
+
+    /// The device that it takes observations from where they were made and lie ([`Self::observe_held`]); none where they must come from
+    /// the host.
+    fn holder(&self) -> Option<&Device> {
+        None
+    }
+
+    /// Takes the observations of a frame that its device made and holds. The frame is to be kept until something was scored.
+    ///
+    /// # Errors
+    /// When it takes none, there are not as many as views, one's size is not its camera's, or the device fails.
+    fn observe_held(&mut self, _frame: &HeldFrame) -> Result<()> {
+        bail!("the backend {} takes observations from the host, and was given what a device holds", self.name())
+    }
+
+    /// Takes a frame's observations, wherever they are.
+    ///
+    /// # Errors
+    /// As [`Self::observe`] or [`Self::observe_held`].
+    fn observe_seen(&mut self, seen: SeenFrame<'_>) -> Result<()> {
+        match seen {
+            SeenFrame::Whole(observations) => self.observe(observations),
+            SeenFrame::Held(frame) => self.observe_held(frame),
+        }
+    }
 
     /// The components of every candidate in every view: `components[candidate * views + view]`.
     ///

@@ -6,21 +6,26 @@ mod edges;
 mod foreground;
 mod morphology;
 mod passes;
+mod readback;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod twin_tests;
 mod view;
 
-use anyhow::Result;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::Instant;
+
+use anyhow::{Context, Result, bail};
 use image::{GrayImage, RgbImage};
 
-use self::bounds::region;
 use self::passes::{record_frame, record_priming};
-use self::view::DeviceView;
+use self::readback::{FeaturesOut, SilhouetteOut, held_views};
+use self::view::{DeviceView, Input};
+use super::held::{HeldFrame, HeldView, Lease};
 use super::shaders::layout::Rates;
-use super::{FeatureSettings, Region, ViewFeatures};
-use crate::gpu::{Buffer, Device, Memory, PassTiming, Recording, Timing};
+use super::{BitImage, FeatureSettings, ViewFeatures};
+use crate::gpu::{Buffer, Device, Memory, PassTiming, Recorder, Recording, Timing};
 
 /// Everything from the pictures to the packed bytes of all views. What mixtures have learnt stays on the device.
 #[derive(Debug)]
@@ -31,13 +36,58 @@ pub(super) struct DeviceChain {
     proximity: Buffer,
     views: Vec<DeviceView>,
     timing: Timing,
-    /// The recording of a frame, and which views it expects masks for.
-    frame: Option<(Vec<bool>, Recording)>,
+    /// Frames that go to the host whole.
+    frames: Slot<FeaturesOut>,
+    /// Frames that stay, which take turns; none before they are asked for.
+    held: Option<Held>,
     /// The recording of a frame that is only learnt from.
     priming: Option<Recording>,
     /// How many frames each view's mixture has seen.
     seen: Vec<u32>,
-    codes: Vec<u32>,
+    room: (Vec<u32>, Vec<u8>),
+}
+
+/// What a frame has of its own: where its pictures come from, where its packed observations go, what the host is given.
+#[derive(Debug)]
+struct Slot<Out> {
+    inputs: Vec<Input>,
+    packed: Vec<HeldView>,
+    out: Vec<Out>,
+    /// The recording of a frame, and which views it expects masks for.
+    recorded: Option<(Vec<bool>, Recording)>,
+}
+
+impl<Out> Slot<Out> {
+    fn new(device: &Device, views: &[DeviceView], out: impl Fn(&Device, &DeviceView) -> Result<Out>) -> Result<Self> {
+        Ok(Self {
+            inputs: views.iter().map(|view| Input::new(device, view)).collect::<Result<_>>()?,
+            packed: held_views(device, views)?,
+            out: views.iter().map(|view| out(device, view)).collect::<Result<_>>()?,
+            recorded: None,
+        })
+    }
+}
+
+/// Frames that the device holds: while one is searched the next is made in the other memory, from the other end of the uploads.
+#[derive(Debug)]
+struct Held {
+    slots: [Slot<SilhouetteOut>; 2],
+    /// Memories that no frame has.
+    free: Receiver<usize>,
+    given_back: Sender<usize>,
+    /// Memory for the next frame.
+    reserved: Option<Lease>,
+    /// The frame that the device is at work with.
+    begun: Option<Lease>,
+}
+
+impl Held {
+    fn new(device: &Device, views: &[DeviceView]) -> Result<Self> {
+        let slot = || Slot::new(device, views, SilhouetteOut::new);
+        let (given_back, free) = channel();
+        (0..2).try_for_each(|place| given_back.send(place))?;
+        Ok(Self { slots: [slot()?, slot()?], free, given_back, reserved: None, begun: None })
+    }
 }
 
 impl DeviceChain {
@@ -62,37 +112,51 @@ impl DeviceChain {
             device: device.clone(),
             settings: settings.clone(),
             proximity: table,
+            frames: Slot::new(device, &views, FeaturesOut::new)?,
+            held: None,
             views,
             timing: Timing::Off,
-            frame: None,
             priming: None,
             seen,
-            codes: Vec::new(),
+            room: Default::default(),
         };
         // Compiles every stage, for a first frame in time.
-        chain.record(vec![false; chain.views.len()])?;
+        chain.record(&vec![false; chain.views.len()])?;
         Ok(chain)
     }
 
-    /// Records a frame in which these views have masks.
-    fn record(&mut self, masked: Vec<bool>) -> Result<()> {
-        let mut recorder = self.device.recorder(self.timing)?;
-        record_frame(&mut recorder, &self.views, &masked, &self.settings, &self.proximity)?;
-        self.frame = Some((masked, recorder.finish()?));
+    /// Has room for frames that stay on the device from now on.
+    ///
+    /// # Errors
+    /// When it has no memory for them.
+    pub(super) fn hold(&mut self) -> Result<()> {
+        self.held = Some(Held::new(&self.device, &self.views)?);
         Ok(())
+    }
+
+    /// Records a frame in which these views have masks, where that is not what is recorded.
+    fn record(&mut self, masked: &[bool]) -> Result<()> {
+        let Self { device, views, timing, settings, proximity, frames, .. } = self;
+        record_slot(frames, masked, (device, *timing), |recorder, Slot { inputs, packed, out, .. }| {
+            record_frame(recorder, views, (inputs, masked), settings, proximity, packed)?;
+            let mut all = views.iter().zip(out).zip(packed).zip(masked);
+            all.try_for_each(|(((view, out), packed), masked)| out.record(recorder, view, packed, *masked))
+        })
     }
 
     /// From the next frame on every pass is timed.
     pub(super) fn measure_passes(&mut self) {
-        (self.timing, self.frame) = (Timing::Stamps, None);
+        self.timing = Timing::Stamps;
+        self.frames.recorded = None;
+        self.held.iter_mut().flat_map(|held| &mut held.slots).for_each(|slot| slot.recorded = None);
     }
 
-    /// The passes of the last frame; empty where they were not timed.
+    /// The passes of the last frame that went to the host; empty where they were not timed.
     ///
     /// # Errors
     /// When the device fails.
     pub(super) fn passes(&self) -> Result<Vec<PassTiming>> {
-        self.frame.as_ref().map_or(Ok(Vec::new()), |(_, recording)| recording.timings())
+        self.frames.recorded.as_ref().map_or(Ok(Vec::new()), |(_, recording)| recording.timings())
     }
 
     /// Learns from a frame of the empty scene; one submission and one wait.
@@ -100,21 +164,22 @@ impl DeviceChain {
     /// # Errors
     /// When the device fails.
     pub(super) fn prime(&mut self, pictures: &[RgbImage]) -> Result<()> {
-        let learning: Vec<usize> = (0..self.views.len()).filter(|&at| self.views[at].plate().is_none()).collect();
+        let Self { device, views, settings, frames, priming, seen, .. } = self;
+        let learning: Vec<usize> = (0..views.len()).filter(|&at| views[at].plate().is_none()).collect();
         if learning.is_empty() {
             return Ok(());
         }
         for &at in &learning {
-            self.views[at].colours.staging.write(0, pictures[at].as_raw().as_slice())?;
-            self.set_rates(at)?;
+            frames.inputs[at].colours.write(0, pictures[at].as_raw().as_slice())?;
+            set_rates(&frames.inputs[at], settings, &mut seen[at])?;
         }
-        if self.priming.is_none() {
-            let views: Vec<_> = learning.iter().map(|&at| &self.views[at]).collect();
-            let mut recorder = self.device.recorder(Timing::Off)?;
-            record_priming(&mut recorder, &views, &self.settings)?;
-            self.priming = Some(recorder.finish()?);
+        if priming.is_none() {
+            let views: Vec<_> = learning.iter().map(|&at| (&views[at], &frames.inputs[at])).collect();
+            let mut recorder = device.recorder(Timing::Off)?;
+            record_priming(&mut recorder, &views, settings)?;
+            *priming = Some(recorder.finish()?);
         }
-        self.priming.as_mut().map_or(Ok(()), Recording::run)
+        priming.as_mut().map_or(Ok(()), Recording::run)
     }
 
     /// The features of a frame; one submission and one wait. Which views have masks is recorded, so that frames which take turns
@@ -128,61 +193,122 @@ impl DeviceChain {
         masks: &[Option<GrayImage>],
         features: &mut [ViewFeatures],
     ) -> Result<()> {
-        for (at, (mask, features)) in masks.iter().zip(features.iter_mut()).enumerate() {
-            let view = &self.views[at];
-            view.colours.staging.write(0, pictures[at].as_raw().as_slice())?;
+        for (mask, features) in masks.iter().zip(features.iter_mut()) {
             if let Some(mask) = mask {
                 features.foreground.copy_from_gray(mask);
                 features.silhouette.copy_from(&features.foreground);
-                view.mask_in.write(0, features.silhouette.words())?;
-            } else if view.plate().is_none() {
-                self.set_rates(at)?;
             }
         }
+        fill(&self.frames.inputs, &self.views, pictures, masks, (&self.settings, &mut self.seen))?;
+        self.record(&masks.iter().map(Option::is_some).collect::<Vec<_>>())?;
+        let Self { views, settings, frames: Slot { recorded, out, .. }, room: (codes, rows), .. } = self;
+        recorded.as_mut().map_or(Ok(()), |(_, recording)| recording.run())?;
+        let mut all = views.iter().zip(out).zip(masks).zip(features);
+        all.try_for_each(|(((view, out), mask), features)| {
+            out.read(view, mask.is_some(), settings, (codes, rows), features)
+        })
+    }
+
+    /// Waits until one of the two memories is free for a frame that stays on the device.
+    ///
+    /// # Errors
+    /// When [`Self::hold`] was not asked for.
+    pub(super) fn reserve(&mut self) -> Result<()> {
+        let Some(Held { free, given_back, reserved, .. }) = &mut self.held else { return Err(not_held()) };
+        if reserved.is_none() {
+            let place = free.recv().context("nobody gives memory for frames back")?;
+            *reserved = Some(Lease { place, given_back: given_back.clone() });
+        }
+        Ok(())
+    }
+
+    /// Begins with a frame in the memory that is reserved for it, and returns while the device is at work: one submission.
+    ///
+    /// # Errors
+    /// When [`Self::hold`] was not asked for, the frame before was not taken, or the device fails.
+    pub(super) fn begin(&mut self, pictures: &[RgbImage], masks: &[Option<GrayImage>]) -> Result<()> {
+        self.reserve()?;
+        let Self { device, views, timing, settings, proximity, held, seen, .. } = self;
+        let Some(Held { slots, reserved, begun, .. }) = held else { return Err(not_held()) };
+        if begun.is_some() {
+            bail!("a frame was begun before the one before it was taken from the device");
+        }
+        let Some(lease) = reserved.take() else { return Err(not_held()) };
+        let slot = &mut slots[lease.place];
+        fill(&slot.inputs, views, pictures, masks, (settings, seen))?;
         let masked: Vec<bool> = masks.iter().map(Option::is_some).collect();
-        if self.frame.as_ref().is_none_or(|(recorded, _)| *recorded != masked) {
-            self.record(masked)?;
-        }
-        if let Some((_, recording)) = &mut self.frame {
-            recording.run()?;
-        }
-        for (at, (mask, features)) in masks.iter().zip(features).enumerate() {
-            self.read(at, mask.is_some(), features)?;
-        }
+        record_slot(slot, &masked, (device, *timing), |recorder, Slot { inputs, packed, out, .. }| {
+            record_frame(recorder, views, (inputs, &masked), settings, proximity, packed)?;
+            views.iter().zip(out).try_for_each(|(view, out)| out.record(recorder, view))
+        })?;
+        slot.recorded.as_mut().map_or(Ok(()), |(_, recording)| recording.submit())?;
+        *begun = Some(lease);
         Ok(())
     }
 
-    /// Tells a view's mixture the rates of its next step.
-    fn set_rates(&mut self, at: usize) -> Result<()> {
-        let (rates, seen) = (&self.views[at].rates, &mut self.seen[at]);
-        let alpha = self.settings.mixture.rate(*seen);
-        rates.write(0, &[Rates { alpha, first: u32::from(*seen == 0) }])?;
-        *seen = seen.saturating_add(1);
-        Ok(())
-    }
-
-    /// Takes what the device made of a view.
-    fn read(&mut self, at: usize, is_masked: bool, features: &mut ViewFeatures) -> Result<()> {
-        let view = &self.views[at];
-        let (width, height) = (view.picture.width, view.picture.height);
-        if !is_masked {
-            view.foreground_out.read(0, features.foreground.words_mut())?;
-            view.silhouette_out.read(0, features.silhouette.words_mut())?;
+    /// The frame that was begun, when the device is done with it.
+    ///
+    /// # Errors
+    /// When none was begun, or the device fails.
+    pub(super) fn finish(&mut self) -> Result<HeldFrame> {
+        let Some(Held { slots, begun, .. }) = &mut self.held else { return Err(not_held()) };
+        let Some(lease) = begun.take() else { bail!("no frame was begun on the device") };
+        let Slot { packed, out, recorded, .. } = &slots[lease.place];
+        let mut passes = Vec::new();
+        if let Some((_, recording)) = recorded {
+            recording.wait()?;
+            passes = recording.passes_run(Instant::now())?;
         }
-        let mut sides = [0; 4];
-        view.sides_out.read(0, &mut sides)?;
-        features.region = region(sides, width, height).map_or(Region::whole(width, height), |bounds| {
-            bounds.enlarged(self.settings.silhouette.motion, width, height)
-        });
-        view.edges_out.read(0, features.edges.words_mut())?;
-        let pixels = width as usize * height as usize;
-        self.codes.resize(pixels, 0);
-        view.codes_out.read(0, &mut self.codes)?;
-        let (metric, limit) = (self.settings.distance.metric, self.settings.proximity.limit());
-        features.distance.take_codes([width, height], metric, limit, &self.codes);
-        let observation = &mut features.observation;
-        (observation.width, observation.height) = (width, height);
-        observation.bytes.resize(pixels, 0);
-        view.packed_out.read(0, &mut observation.bytes)
+        self.device.validation_log().check()?;
+        let silhouettes =
+            self.views.iter().zip(out).map(|(view, out)| out.read(view)).collect::<Result<Vec<BitImage>>>()?;
+        Ok(HeldFrame { views: packed.clone(), silhouettes, passes, lease })
     }
+}
+
+fn not_held() -> anyhow::Error {
+    anyhow::anyhow!("the features of frames do not stay on a device: nobody asked for it")
+}
+
+/// Records a frame in a slot, unless that is what is recorded there.
+fn record_slot<Out>(
+    slot: &mut Slot<Out>,
+    masked: &[bool],
+    (device, timing): (&Device, Timing),
+    record: impl FnOnce(&mut Recorder, &Slot<Out>) -> Result<()>,
+) -> Result<()> {
+    if slot.recorded.as_ref().is_some_and(|(recorded, _)| recorded == masked) {
+        return Ok(());
+    }
+    let mut recorder = device.recorder(timing)?;
+    record(&mut recorder, slot)?;
+    slot.recorded = Some((masked.to_vec(), recorder.finish()?));
+    Ok(())
+}
+
+/// Fills the host's end of a frame; mixtures hear the rates of their steps.
+fn fill(
+    inputs: &[Input],
+    views: &[DeviceView],
+    pictures: &[RgbImage],
+    masks: &[Option<GrayImage>],
+    (settings, seen): (&FeatureSettings, &mut [u32]),
+) -> Result<()> {
+    for (at, (input, mask)) in inputs.iter().zip(masks).enumerate() {
+        input.colours.write(0, pictures[at].as_raw().as_slice())?;
+        if let Some(mask) = mask {
+            input.mask.write(0, BitImage::of_gray(mask).words())?;
+        } else if views[at].plate().is_none() {
+            set_rates(input, settings, &mut seen[at])?;
+        }
+    }
+    Ok(())
+}
+
+/// Tells a view's mixture the rates of its next step.
+fn set_rates(input: &Input, settings: &FeatureSettings, seen: &mut u32) -> Result<()> {
+    let alpha = settings.mixture.rate(*seen);
+    input.rates.write(0, &[Rates { alpha, first: u32::from(*seen == 0) }])?;
+    *seen = seen.saturating_add(1);
+    Ok(())
 }

@@ -12,7 +12,7 @@ use super::foreground::Foreground;
 use super::likelihood::LikelySilhouette;
 use super::morphology::Morphology;
 use super::segment::Segmenter;
-use super::{BitImage, FeatureSettings, ForegroundKind, ViewFeatures, ignoring};
+use super::{BitImage, FeatureSettings, ForegroundKind, HeldFrame, ViewFeatures, ignoring};
 use crate::geometry::LARGEST_SIDE;
 use crate::gpu::{Device, PassTiming};
 
@@ -110,6 +110,52 @@ impl Extractor {
             self.chain = Chain::Device(Box::new(chain));
         }
         Ok(())
+    }
+
+    /// As [`Self::move_to`]; from now on frames are made by [`Self::begin`] and [`Self::finish`], and stay there. Their passes go in beside
+    /// those of others ([`Device::beside`]).
+    ///
+    /// # Errors
+    /// As there; also when the settings ask for what the processor finds ([`FeatureSettings::kept_from_device`]).
+    pub fn hold_on(&mut self, device: &Device) -> Result<()> {
+        if let Some(why) = self.settings.kept_from_device() {
+            bail!("observations cannot stay on a device, since {why}");
+        }
+        self.move_to(&device.beside())?;
+        self.held()?.hold()
+    }
+
+    /// Waits for the memory of a frame that stays on the device: one of two, which the frames before have until they are dropped.
+    ///
+    /// # Errors
+    /// Without [`Self::hold_on`].
+    pub fn reserve(&mut self) -> Result<()> {
+        self.held()?.reserve()
+    }
+
+    /// Begins the features of a frame that stays on the device, in the memory of [`Self::reserve`], and returns while the device is at
+    /// work.
+    ///
+    /// # Errors
+    /// As [`Self::extract`]; also without [`Self::hold_on`], or when the frame before was not finished.
+    pub fn begin(&mut self, pictures: &[RgbImage], masks: &[Option<GrayImage>]) -> Result<()> {
+        self.check_frame(pictures, Some(masks))?;
+        self.held()?.begin(pictures, masks)
+    }
+
+    /// The frame that was begun, when the device is done with it.
+    ///
+    /// # Errors
+    /// When none was begun, or the device fails.
+    pub fn finish(&mut self) -> Result<HeldFrame> {
+        self.held()?.finish()
+    }
+
+    fn held(&mut self) -> Result<&mut DeviceChain> {
+        match &mut self.chain {
+            Chain::Device(device) => Ok(device),
+            Chain::Processor(_) => bail!("the processor makes the features, and no frame stays on a device"),
+        }
     }
 
     /// From the next frame on the device's passes are timed, where there is a device with timestamps.

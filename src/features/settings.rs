@@ -126,6 +126,15 @@ impl FeatureSettings {
         self.likelihoods || self.foreground == ForegroundKind::Likelihood
     }
 
+    /// Why observations cannot stay on a device that makes them; none where they can.
+    pub fn kept_from_device(&self) -> Option<&'static str> {
+        if !self.segment.is_empty() {
+            return Some("body parts are told apart");
+        }
+        self.needs_likelihoods()
+            .then_some("poses are compared, or silhouettes found, by how likely each pixel is as background")
+    }
+
     /// Turns the parts that segments name into their labels; `parts` are the body's, each with its label.
     ///
     /// # Errors

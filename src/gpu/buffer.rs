@@ -1,7 +1,7 @@
 //! Named buffers.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use anyhow::{Result, anyhow, ensure};
 use ash::vk;
@@ -10,6 +10,7 @@ use bytemuck::Pod;
 use gpu_allocator::vulkan::Allocation;
 
 use super::device_shared::DeviceShared;
+use super::lanes::LastUse;
 use super::memory::Memory;
 
 /// A buffer of the device; clones are the same buffer. Its memory is freed when the last clone and the last recording that
@@ -26,8 +27,8 @@ pub(super) struct BufferShared {
     size: u64,
     memory: Memory,
     allocation: Option<Allocation>,
-    /// Timeline value of the last submission that uses it.
-    pub(super) last_use: AtomicU64,
+    /// The last submissions that use it.
+    pub(super) last_use: LastUse,
 }
 
 impl std::fmt::Debug for Buffer {
@@ -58,7 +59,12 @@ impl Buffer {
             usage |= vk::BufferUsageFlags::TRANSFORM_FEEDBACK_BUFFER_EXT;
         }
         // A multiple of 4, as fills and copies of whole buffers want it.
-        let info = vk::BufferCreateInfo::default().size(size.next_multiple_of(4)).usage(usage);
+        let mut info = vk::BufferCreateInfo::default().size(size.next_multiple_of(4)).usage(usage);
+        let families = device.lanes.families();
+        if families.len() > 1 {
+            // Both families use it, and no device is known to gain by giving it from one to the other.
+            info = info.sharing_mode(vk::SharingMode::CONCURRENT).queue_family_indices(&families);
+        }
         let raw = &device.raw;
         // SAFETY: the device is open; so for the calls below.
         let handle = unsafe { raw.create_buffer(&info, None) }
@@ -92,7 +98,7 @@ impl Buffer {
                 size,
                 memory,
                 allocation: Some(allocation),
-                last_use: AtomicU64::new(0),
+                last_use: LastUse::default(),
             }),
         })
     }
@@ -116,6 +122,11 @@ impl Buffer {
     /// Where it lies.
     pub fn memory(&self) -> Memory {
         self.shared.memory
+    }
+
+    /// Whether it is the same buffer.
+    pub fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.shared, &other.shared)
     }
 
     /// Writes `values` from element `first` on.
@@ -162,11 +173,7 @@ impl Buffer {
             shared.size,
             offset.saturating_add(length)
         );
-        ensure!(
-            shared.device.has_done(shared.last_use.load(Ordering::Relaxed)),
-            "the device is still using the buffer {}",
-            shared.name
-        );
+        ensure!(shared.device.has_done_all(&shared.last_use), "the device is still using the buffer {}", shared.name);
         // SAFETY: the offset lies inside of the mapped range, as checked above.
         Ok(unsafe { self.mapped()?.add(offset) })
     }

@@ -54,6 +54,8 @@ pub struct Capabilities {
     pub subgroup_shuffle: bool,
     /// A queue for the graphics pipeline.
     pub graphics: bool,
+    /// A second queue for compute, whose work the device may do beside the first one's.
+    pub second_queue: bool,
     /// Blending of four bytes a texel, by the largest value.
     pub max_blend: bool,
     /// Geometry stages.
@@ -125,6 +127,8 @@ pub struct DeviceFacts {
     pub(super) handle: vk::PhysicalDevice,
     /// A family of queues for graphics and compute, and one for compute, alone where there is such a one.
     pub(super) queues: [Option<Queue>; 2],
+    /// All families for compute.
+    families: Vec<Queue>,
     /// An implementation on another interface, whose extension must be asked for.
     pub(super) is_portability_subset: bool,
     pub(super) has_memory_budget: bool,
@@ -135,6 +139,38 @@ pub struct DeviceFacts {
 pub(super) struct Queue {
     pub(super) family: u32,
     pub(super) timestamp_bits: u32,
+    /// How many queues it has.
+    count: u32,
+    has_graphics: bool,
+}
+
+/// A queue to open: its family, its place there, and the bits of its timestamps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct QueuePlace {
+    pub(super) family: u32,
+    pub(super) index: u32,
+    pub(super) timestamp_bits: u32,
+}
+
+impl Queue {
+    /// Its first queue, or its second.
+    pub(super) fn place(self, index: u32) -> QueuePlace {
+        QueuePlace { family: self.family, index, timestamp_bits: self.timestamp_bits }
+    }
+}
+
+impl DeviceFacts {
+    /// A queue for compute beside the first one of a family: another one of it, else of another family, rather one without graphics.
+    pub(super) fn queue_beside(&self, first: Queue) -> Option<QueuePlace> {
+        if !self.capabilities.second_queue {
+            return None;
+        }
+        if first.count > 1 {
+            return Some(first.place(1));
+        }
+        let others = self.families.iter().filter(|other| other.family != first.family);
+        others.min_by_key(|other| other.has_graphics).map(|other| other.place(0))
+    }
 }
 
 /// What Vulkan implementations on top of another interface have in place of a full one; ash names it with its beta functions.
@@ -171,6 +207,11 @@ const TABLE: &[Row] = &[
         required: false,
         present: |c| c.graphics,
         without: "no queue for graphics: what draws with the graphics pipeline cannot run",
+    },
+    Row {
+        required: false,
+        present: |c| c.second_queue,
+        without: "one queue: features that are made there take turns with the search of the frame before",
     },
     Row {
         required: false,
@@ -251,18 +292,25 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
 
     // SAFETY: as above.
     let families = unsafe { raw.get_physical_device_queue_family_properties(handle) };
+    let family_at = |at: usize| Queue {
+        family: at as u32,
+        timestamp_bits: families[at].timestamp_valid_bits,
+        count: families[at].queue_count,
+        has_graphics: families[at].queue_flags.contains(vk::QueueFlags::GRAPHICS),
+    };
     let queue = |wanted: vk::QueueFlags, unwanted: vk::QueueFlags| {
         let fits = |family: &vk::QueueFamilyProperties| {
             family.queue_flags.contains(wanted) && !family.queue_flags.intersects(unwanted)
         };
-        let family = families.iter().position(fits)?;
-        Some(Queue { family: family as u32, timestamp_bits: families[family].timestamp_valid_bits })
+        families.iter().position(fits).map(family_at)
     };
     let (graphics, compute) = (vk::QueueFlags::GRAPHICS, vk::QueueFlags::COMPUTE);
     let queues = [
         queue(graphics | compute, vk::QueueFlags::empty()),
         queue(compute, graphics).or_else(|| queue(compute, vk::QueueFlags::empty())),
     ];
+    let computes = |at: &usize| families[*at].queue_flags.contains(compute);
+    let for_compute: Vec<Queue> = (0..families.len()).filter(computes).map(family_at).collect();
     let timestamp_bits = queues.iter().flatten().next().map_or(0, |queue| queue.timestamp_bits);
     // SAFETY: as above.
     let texel = unsafe { raw.get_physical_device_format_properties(handle, vk::Format::R8G8B8A8_UNORM) };
@@ -289,6 +337,7 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
         subgroup_ballot: subgroup(vk::SubgroupFeatureFlags::BALLOT),
         subgroup_shuffle: subgroup(vk::SubgroupFeatureFlags::SHUFFLE),
         graphics: queues[0].is_some(),
+        second_queue: for_compute.iter().map(|family| family.count).sum::<u32>() > 1,
         max_blend: texel.optimal_tiling_features.contains(vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND),
         geometry_shader: core.geometry_shader != 0,
         transform_feedback: feedback.transform_feedback != 0,
@@ -369,6 +418,7 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
         reasons: failures.into_iter().chain(lacks).collect(),
         handle,
         queues,
+        families: for_compute,
         is_portability_subset: has(PORTABILITY_SUBSET),
         has_memory_budget: has(ext::memory_budget::NAME),
     }

@@ -4,8 +4,8 @@ use std::sync::Mutex;
 
 use anyhow::Result;
 
-use super::device_shared::lock;
 use super::executables::Executable;
+use super::lock::lock;
 use super::pipeline::{Drawing, Pipeline};
 use super::shader::ShaderStage;
 

@@ -41,6 +41,39 @@ impl Recorder {
         Ok(())
     }
 
+    /// A pass that copies whole buffers into one, side by side: each to its place there, bytes, none over another.
+    ///
+    /// # Errors
+    /// When one leaves the buffer or begins inside of the one before it.
+    pub fn gather(&mut self, name: &str, from: &[(&Buffer, u64)], to: &Buffer) -> Result<()> {
+        let mut end = 0;
+        for (buffer, place) in from {
+            ensure!(
+                *place >= end && place.saturating_add(buffer.size()) <= to.size(),
+                "the pass {name} copies {} of {} bytes to byte {place} of {}, which has {} and is filled up to {end}",
+                buffer.name(),
+                buffer.size(),
+                to.name(),
+                to.size()
+            );
+            end = place + buffer.size();
+        }
+        self.begin(name)?;
+        let mut uses = vec![Use { resource: to.id(), writes: true }];
+        uses.extend(from.iter().map(|(buffer, _)| Use { resource: buffer.id(), writes: false }));
+        self.wait_for(&uses, &[], Stages::TRANSFER);
+        self.keep_buffer(to);
+        for (buffer, place) in from {
+            self.keep_buffer(buffer);
+            let region = [vk::BufferCopy { src_offset: 0, dst_offset: *place, size: buffer.size() }];
+            let (raw, commands) = (&self.device.shared.raw, self.parts.commands);
+            // SAFETY: recording; the range lies inside of the buffer, as checked above.
+            unsafe { raw.cmd_copy_buffer(commands, buffer.shared.handle, to.shared.handle, &region) };
+        }
+        self.end();
+        Ok(())
+    }
+
     /// A pass that sets every word of a buffer.
     ///
     /// # Errors

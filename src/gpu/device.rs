@@ -13,12 +13,13 @@ use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use rayon::prelude::*;
 
 use super::buffer::Buffer;
-use super::capability::{Capabilities, DeviceFacts, PORTABILITY_SUBSET, devices};
+use super::capability::{Capabilities, DeviceFacts, PORTABILITY_SUBSET, QueuePlace, devices};
 use super::compiled::{Compiled, Source};
 use super::device_shared::{DeviceSettings, DeviceShared, Inspect, PIPELINES, kept_file};
 use super::executables::Executable;
 use super::image::{Format, Image, ImageUse};
 use super::instance::Instance;
+use super::lanes::{BESIDE, LANES, Lanes, MAIN};
 use super::memory::Memory;
 use super::pipeline::{Drawing, Pipeline};
 use super::shader::ShaderStage;
@@ -31,6 +32,8 @@ use super::validation::ValidationLog;
 pub struct Device {
     pub(super) shared: Arc<DeviceShared>,
     owner: Arc<Owner>,
+    /// Where its recordings go in.
+    pub(super) lane: usize,
 }
 
 /// What goes with the last handle, since it holds the device itself: the retirement queue is emptied then.
@@ -85,10 +88,16 @@ impl Device {
         own.graphics &= settings.graphics;
         own.timestamp_bits = own.timestamp_bits.min(queue.timestamp_bits);
         own.timestamps &= own.timestamp_bits > 0;
-        Self::open_with(instance, facts, settings, queue.family)
+        let places: Vec<QueuePlace> = [queue.place(0)].into_iter().chain(facts.queue_beside(queue)).collect();
+        Self::open_with(instance, facts, settings, &places)
     }
 
-    fn open_with(instance: &Instance, facts: DeviceFacts, settings: DeviceSettings, family: u32) -> Result<Self> {
+    fn open_with(
+        instance: &Instance,
+        facts: DeviceFacts,
+        settings: DeviceSettings,
+        places: &[QueuePlace],
+    ) -> Result<Self> {
         let capabilities = facts.capabilities;
         let mut extensions = Vec::new();
         if capabilities.transform_feedback {
@@ -121,8 +130,12 @@ impl Device {
         let mut feedback = vk::PhysicalDeviceTransformFeedbackFeaturesEXT::default().transform_feedback(true);
         let mut executables =
             vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default().pipeline_executable_info(true);
-        let priorities = [1.0];
-        let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(family).queue_priorities(&priorities)];
+        let priorities = [1.0; LANES];
+        let of_family = |&QueuePlace { family, .. }: &QueuePlace| {
+            let count = places.iter().filter(|place| place.family == family).count();
+            vk::DeviceQueueCreateInfo::default().queue_family_index(family).queue_priorities(&priorities[..count])
+        };
+        let queues: Vec<_> = places.iter().filter(|place| place.index == 0).map(of_family).collect();
         let mut info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
             .enabled_extension_names(&extensions)
@@ -153,18 +166,24 @@ impl Device {
             allocation_sizes: gpu_allocator::AllocationSizes::default(),
         })
         .map_err(|error| fail("memory", &error))?;
-        let mut kind = vk::SemaphoreTypeCreateInfo::default().semaphore_type(vk::SemaphoreType::TIMELINE);
-        // SAFETY: the device is open; so for the calls below.
-        let timeline = unsafe { raw.create_semaphore(&vk::SemaphoreCreateInfo::default().push_next(&mut kind), None) };
-        let timeline = match timeline {
-            Ok(timeline) => timeline,
-            Err(error) => {
-                drop(allocator);
-                return Err(fail("semaphore", &error));
+        let mut timelines = [vk::Semaphore::null(); LANES];
+        for at in 0..LANES {
+            let mut kind = vk::SemaphoreTypeCreateInfo::default().semaphore_type(vk::SemaphoreType::TIMELINE);
+            let info = vk::SemaphoreCreateInfo::default().push_next(&mut kind);
+            // SAFETY: the device is open; so for the calls below.
+            match unsafe { raw.create_semaphore(&info, None) } {
+                Ok(timeline) => timelines[at] = timeline,
+                Err(error) => {
+                    // SAFETY: nothing uses them yet.
+                    timelines[..at].iter().for_each(|made| unsafe { raw.destroy_semaphore(*made, None) });
+                    drop(allocator);
+                    return Err(fail("semaphore", &error));
+                }
             }
-        };
-        // SAFETY: the family was found on this device, and one queue of it was asked for.
-        let queue = unsafe { raw.get_device_queue(family, 0) };
+        }
+        // SAFETY: the places were found on this device, and these queues were asked for.
+        let queue = |place: &QueuePlace| (*place, unsafe { raw.get_device_queue(place.family, place.index) });
+        let lanes = Lanes::new(&places.iter().map(queue).collect::<Vec<_>>(), timelines);
         let saved =
             settings.pipeline_cache.as_ref().and_then(|folder| fs::read(kept_file(folder, &facts, PIPELINES)).ok());
         let info = vk::PipelineCacheCreateInfo::default().initial_data(saved.as_deref().unwrap_or_default());
@@ -186,23 +205,28 @@ impl Device {
             allocator: Mutex::new(Some(allocator)),
             memory_used: AtomicU64::new(0),
             pipelines,
-            timeline,
-            queue_family: family,
-            queue: Mutex::new(queue),
+            lanes,
             pass_time: AtomicU64::new(0),
-            submitted: AtomicU64::new(0),
             passes_run: AtomicU64::new(0),
             is_lost: AtomicBool::new(false),
             is_given_up: AtomicBool::new(false),
             retired: Mutex::new(Vec::new()),
         });
         let owner = Owner { shared: shared.clone(), compiled: Compiled::default() };
-        Ok(Self { owner: Arc::new(owner), shared })
+        Ok(Self { owner: Arc::new(owner), shared, lane: MAIN })
     }
 
     /// What it is and why it can be used.
     pub fn facts(&self) -> &DeviceFacts {
         &self.shared.facts
+    }
+
+    /// The same device, whose recordings go in beside those of others: by a queue of its own where the device has a second one, else
+    /// by the same queue in turn with them. Recordings that use the same buffers wait for each other on the device, whichever way they
+    /// went in; images stay with one queue.
+    #[must_use]
+    pub fn beside(&self) -> Self {
+        Self { lane: BESIDE, ..self.clone() }
     }
 
     /// What it can do, as lowered by the settings.
@@ -320,7 +344,7 @@ impl Drop for Owner {
     fn drop(&mut self) {
         // What a device that was given up still uses stays for good: the recordings left in its queue hold it.
         if !self.shared.is_given_up.load(Ordering::Relaxed) {
-            // SAFETY: no other thread holds the device's queue: this was its last handle. Failing means lost, so idle too.
+            // SAFETY: no other thread holds one of the device's queues: this was its last handle. Failing means lost, so idle too.
             if unsafe { self.shared.raw.device_wait_idle() }.is_err() {
                 self.shared.is_lost.store(true, Ordering::Relaxed);
             }

@@ -1,10 +1,10 @@
-//! An open device as everything made on it holds it: its queue, its memory's account, and what it is known to have lost.
+//! An open device as everything made on it holds it: its queues, its memory's account, and what it is known to have lost.
 
 use std::any::Any;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, anyhow};
@@ -15,6 +15,8 @@ use crate::files::{Overwrite, write_atomically};
 
 use super::capability::{Capabilities, DeviceFacts};
 use super::instance::Instance;
+use super::lanes::{Lanes, LastUse};
+use super::lock::lock;
 use super::loss::DeviceLost;
 #[cfg(test)]
 use super::rough::Change;
@@ -85,6 +87,13 @@ impl Default for DeviceSettings {
     }
 }
 
+/// What a recording held, and the value of its lane's timeline from which on the device is done with it.
+pub(super) struct Retired {
+    lane: usize,
+    value: u64,
+    _parts: Box<dyn Any + Send>,
+}
+
 /// What all handles of an open device share.
 pub(super) struct DeviceShared {
     pub(super) raw: ash::Device,
@@ -98,56 +107,65 @@ pub(super) struct DeviceShared {
     /// Bytes taken of `facts.capabilities.memory`.
     pub(super) memory_used: AtomicU64,
     pub(super) pipelines: vk::PipelineCache,
-    pub(super) timeline: vk::Semaphore,
-    pub(super) queue_family: u32,
-    pub(super) queue: Mutex<vk::Queue>,
+    pub(super) lanes: Lanes,
     /// Nanoseconds that a pass took on average in the slowest recording so far.
     pub(super) pass_time: AtomicU64,
-    /// Value the timeline takes when the last submission is done.
-    pub(super) submitted: AtomicU64,
     pub(super) passes_run: AtomicU64,
     /// Whether nothing more may be run on it.
     pub(super) is_lost: AtomicBool,
     /// Whether it is lost because it was given up: it may still be at work, and nothing that it uses is ever freed.
     pub(super) is_given_up: AtomicBool,
-    /// Recordings that were dropped while the device ran them, and the timeline value that ends that.
-    pub(super) retired: Mutex<Vec<(u64, Box<dyn Any + Send>)>>,
+    /// Recordings that were dropped while the device ran them.
+    pub(super) retired: Mutex<Vec<Retired>>,
     pub(super) calibrated: Option<ext::calibrated_timestamps::Device>,
     /// Where the driver is asked what it made of stages.
     pub(super) executables: Option<khr::pipeline_executable_properties::Device>,
 }
 
 impl DeviceShared {
-    /// Submits command buffers that run `passes`, one after the other. Gives the timeline value that marks their end.
-    pub(super) fn submit(&self, commands: &[vk::CommandBuffer], passes: &[String]) -> Result<u64> {
+    /// Submits command buffers that run `passes` on a lane, one submission after the other, the first one when the other lane has
+    /// come to `after`. Gives the value of the lane's timeline that marks their end.
+    pub(super) fn submit(
+        &self,
+        lane: usize,
+        submissions: &[Vec<vk::CommandBuffer>],
+        after: u64,
+        passes: &[&String],
+    ) -> Result<u64> {
         self.check_alive()?;
         let before = self.passes_run.fetch_add(passes.len() as u64, Ordering::Relaxed);
         if let Some(limit) = self.settings.lose_after_passes
             && before + passes.len() as u64 > limit
         {
-            let pass = passes.get(limit.saturating_sub(before) as usize).cloned();
+            let pass = passes.get(limit.saturating_sub(before) as usize).map(|pass| (*pass).clone());
             // A crash leaves nothing running: let go of what was submitted before.
-            let queue = lock(&self.queue);
-            // SAFETY: the device is open, and its one queue is locked while this waits.
+            let queues = self.lanes.every_queue();
+            // SAFETY: the device is open, and its queues are locked while this waits.
             let _ = unsafe { self.raw.device_wait_idle() };
-            drop(queue);
+            drop(queues);
             return Err(self.lose(pass).into());
         }
         self.collect();
-        let queue = lock(&self.queue);
-        let mut value = self.submitted.load(Ordering::Relaxed);
-        for commands in commands {
+        let queue = self.lanes.queue(lane);
+        let [own, other] = [lane, 1 - lane].map(|lane| self.lanes.of(lane));
+        let mut value = own.submitted.load(Ordering::Relaxed);
+        let mut waits = vec![reached(other.timeline, after)];
+        waits.retain(|_| after > 0);
+        for commands in submissions {
             value += 1;
-            let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(*commands)];
-            let signal = [vk::SemaphoreSubmitInfo::default()
-                .semaphore(self.timeline)
-                .value(value)
-                .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
-            let submit = [vk::SubmitInfo2::default().command_buffer_infos(&commands).signal_semaphore_infos(&signal)];
-            // SAFETY: the queue is locked; the recording keeps its command buffers and all they use until the value is reached.
+            let commands: Vec<_> =
+                commands.iter().map(|one| vk::CommandBufferSubmitInfo::default().command_buffer(*one)).collect();
+            let signal = [reached(own.timeline, value)];
+            let submit = [vk::SubmitInfo2::default()
+                .wait_semaphore_infos(&waits)
+                .command_buffer_infos(&commands)
+                .signal_semaphore_infos(&signal)];
+            // SAFETY: the queue is locked; the recording keeps its command buffers and all they use until the value is reached. What
+            // it waits for was submitted before.
             unsafe { self.raw.queue_submit2(*queue, &submit, vk::Fence::null()) }
-                .map_err(|result| self.failure(result, "submit work", || passes.first().cloned()))?;
-            self.submitted.store(value, Ordering::Relaxed);
+                .map_err(|result| self.failure(result, "submit work", || passes.first().map(|pass| (*pass).clone())))?;
+            own.submitted.store(value, Ordering::Relaxed);
+            waits.clear();
         }
         Ok(value)
     }
@@ -167,14 +185,20 @@ impl DeviceShared {
         self.pass_time.fetch_max(each, Ordering::Relaxed);
     }
 
-    /// Waits until the timeline has reached `value`, as long as the device gets on. `begun` tells the last one of `passes` that
+    /// Waits until a lane's timeline has reached `value`, as long as the device gets on. `begun` tells the last one of `passes` that
     /// has begun.
-    pub(super) fn wait(&self, value: u64, passes: &[String], begun: impl Fn() -> Option<usize>) -> Result<()> {
+    pub(super) fn wait(
+        &self,
+        lane: usize,
+        value: u64,
+        passes: &[String],
+        begun: impl Fn() -> Option<usize>,
+    ) -> Result<()> {
         const LOOK_EVERY: Duration = Duration::from_secs(1);
         self.check_alive()?;
         let patience = self.settings.patience;
         let between_looks = patience.min(LOOK_EVERY).as_nanos() as u64;
-        let (semaphores, values) = ([self.timeline], [value]);
+        let (semaphores, values) = ([self.lanes.of(lane).timeline], [value]);
         let info = vk::SemaphoreWaitInfo::default().semaphores(&semaphores).values(&values);
         let last_pass = || begun().and_then(|pass| passes.get(pass).cloned());
         // The breadcrumbs are first read when the first look is due: most work is done by then.
@@ -200,16 +224,23 @@ impl DeviceShared {
         }
     }
 
-    /// Whether the device has done everything up to `value`, or never will.
-    pub(super) fn has_done(&self, value: u64) -> bool {
+    /// Whether the device has done everything on a lane up to `value`, or never will.
+    pub(super) fn has_done(&self, lane: usize, value: u64) -> bool {
         // SAFETY: the semaphore is a timeline of this device.
-        unsafe { self.raw.get_semaphore_counter_value(self.timeline) }.is_ok_and(|done| done >= value)
+        value == 0
+            || unsafe { self.raw.get_semaphore_counter_value(self.lanes.of(lane).timeline) }
+                .is_ok_and(|done| done >= value)
             || self.is_lost.load(Ordering::Relaxed) && !self.is_given_up.load(Ordering::Relaxed)
     }
 
+    /// Whether it has done everything that used something.
+    pub(super) fn has_done_all(&self, last_use: &LastUse) -> bool {
+        last_use.iter().enumerate().all(|(lane, value)| self.has_done(lane, value.load(Ordering::Relaxed)))
+    }
+
     /// Keeps what a recording held until the device is done with it.
-    pub(super) fn retire(&self, value: u64, parts: impl Any + Send) {
-        lock(&self.retired).push((value, Box::new(parts)));
+    pub(super) fn retire(&self, lane: usize, value: u64, parts: impl Any + Send) {
+        lock(&self.retired).push(Retired { lane, value, _parts: Box::new(parts) });
     }
 
     /// Drops the recordings that the device is done with.
@@ -219,7 +250,7 @@ impl DeviceShared {
             if retired.is_empty() {
                 return;
             }
-            let (done, waiting) = retired.drain(..).partition(|(value, _)| self.has_done(*value));
+            let (done, waiting) = retired.drain(..).partition(|one| self.has_done(one.lane, one.value));
             *retired = waiting;
             done
         };
@@ -305,14 +336,15 @@ impl Drop for DeviceShared {
             let _ = self.raw.device_wait_idle();
             self.save_pipelines();
             self.raw.destroy_pipeline_cache(self.pipelines, None);
-            self.raw.destroy_semaphore(self.timeline, None);
+            self.lanes.all().iter().for_each(|lane| self.raw.destroy_semaphore(lane.timeline, None));
             drop(lock(&self.allocator).take());
             self.raw.destroy_device(None);
         }
     }
 }
 
-/// A panic elsewhere leaves these values whole: each is replaced or read in one step.
-pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+/// The moment when everything before has brought a timeline to `value`.
+fn reached(timeline: vk::Semaphore, value: u64) -> vk::SemaphoreSubmitInfo<'static> {
+    let all = vk::PipelineStageFlags2::ALL_COMMANDS;
+    vk::SemaphoreSubmitInfo::default().semaphore(timeline).value(value).stage_mask(all)
 }

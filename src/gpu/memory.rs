@@ -7,7 +7,8 @@ use ash::vk;
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
-use super::device_shared::{DeviceShared, lock};
+use super::device_shared::DeviceShared;
+use super::lock::lock;
 use super::loss::OutOfMemory;
 
 /// Where a buffer lies.

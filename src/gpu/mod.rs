@@ -19,6 +19,8 @@ mod hazards;
 mod image;
 mod instance;
 mod interface;
+mod lanes;
+mod lock;
 mod loss;
 mod memory;
 mod pass;
@@ -64,6 +66,8 @@ mod generated {
     include!(concat!(env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/gpu.rs"));
 }
 
+#[cfg(test)]
+mod lanes_tests;
 #[cfg(test)]
 pub(crate) mod test_device;
 #[cfg(test)]

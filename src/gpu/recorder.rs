@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::ffi::CString;
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use ash::vk;
 
 use super::buffer::Buffer;
@@ -11,6 +11,7 @@ use super::descriptors::Descriptors;
 use super::device::Device;
 use super::hazards::{Barrier, Hazards, Stages, Use};
 use super::image::{Image, whole};
+use super::lanes::MAIN;
 use super::memory::Memory;
 use super::pass::{Dispatch, Groups};
 use super::pipeline::{Pipeline, Resource, uses, with_counters};
@@ -59,8 +60,15 @@ impl Device {
             Timing::Statistics if !capabilities.pipeline_statistics => Timing::Stamps,
             timing => timing,
         };
-        let timing = if capabilities.timestamps { timing } else { Timing::Off };
-        let info = vk::CommandPoolCreateInfo::default().queue_family_index(device.queue_family);
+        let own = device.lanes.of(self.lane);
+        let timing = match timing {
+            // Queues of other families may be of other kinds.
+            Timing::Statistics if self.lane != MAIN => Timing::Stamps,
+            timing => timing,
+        };
+        let has_stamps = capabilities.timestamps && own.timestamp_bits >= capabilities.timestamp_bits;
+        let timing = if has_stamps { timing } else { Timing::Off };
+        let info = vk::CommandPoolCreateInfo::default().queue_family_index(own.family);
         // SAFETY: the device is open; so for all calls below.
         let pool = unsafe { raw.create_command_pool(&info, None) }
             .map_err(|result| device.failure(result, "make a command pool", || None))?;
@@ -222,8 +230,14 @@ impl Recorder {
     /// Ends the recording.
     ///
     /// # Errors
-    /// When the driver fails to finish it.
+    /// When the driver fails to finish it, or it uses an image and is for a second queue.
     pub fn finish(self) -> Result<Recording> {
+        if let Some(image) = self.parts.images.first().filter(|_| self.device.lane != MAIN) {
+            bail!(
+                "the image {} stays with the device's first queue, and a pass is recorded for the second",
+                image.name()
+            );
+        }
         // Images go back to where the next recording, or the next run of this one, expects them.
         let back: Vec<_> = self
             .layouts

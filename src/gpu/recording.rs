@@ -4,13 +4,14 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use ash::vk;
 
 use super::buffer::Buffer;
 use super::device::Device;
 use super::device_shared::DeviceShared;
 use super::image::Image;
+use super::lanes::note_use;
 use super::pipeline::Pipeline;
 use super::timing::{DevicePass, PassStatistics, PassTiming, on_host_clock, unwrapped};
 use super::work::Work;
@@ -71,19 +72,40 @@ impl Recording {
     /// # Errors
     /// [`super::DeviceLost`] when the device is gone; otherwise when this recording is still running, or the driver refuses.
     pub fn submit(&mut self) -> Result<()> {
-        let Some(parts) = &self.parts else { return Ok(()) };
-        // A command buffer runs once at a time.
-        self.wait()?;
-        if let Some(breadcrumbs) = &parts.breadcrumbs {
-            breadcrumbs.write(0, &vec![0_u32; parts.passes.len()])?;
+        self.submit_behind(None)
+    }
+
+    /// The same behind the passes of another recording, both as one submission.
+    ///
+    /// # Errors
+    /// As [`Self::submit`]; and when the two are for different queues.
+    pub fn submit_behind(&mut self, ahead: Option<&mut Self>) -> Result<()> {
+        let (device, lane) = (self.device.shared.clone(), self.device.lane);
+        let mut all: Vec<&mut Self> = ahead.into_iter().chain([self]).collect();
+        ensure!(
+            all.iter().all(|one| one.device.lane == lane),
+            "recordings for different queues cannot be one submission"
+        );
+        let mut submissions: Vec<Vec<vk::CommandBuffer>> = vec![Vec::new()];
+        let (mut passes, mut after) = (Vec::new(), 0);
+        for recording in &all {
+            let Some(parts) = &recording.parts else { continue };
+            // A command buffer runs once at a time.
+            recording.wait()?;
+            parts.set_back()?;
+            // The first goes with what is ahead.
+            let [first, more @ ..] = &*parts.commands_in_order() else { continue };
+            submissions.iter_mut().last().into_iter().for_each(|last| last.push(*first));
+            submissions.extend(more.iter().map(|one| vec![*one]));
+            passes.extend(&parts.passes);
+            let elsewhere = |buffer: &Buffer| buffer.shared.last_use[1 - lane].load(Ordering::Relaxed);
+            after = parts.buffers.iter().map(elsewhere).fold(after, u64::max);
         }
-        for Counters { pipeline, buffer, .. } in &parts.counters {
-            buffer.write(0, &vec![0_u64; pipeline.shared.blocks.len()])?;
-        }
-        let commands: Vec<_> = parts.ended.iter().copied().chain([parts.commands]).collect();
-        self.submitted = self.device.shared.submit(&commands, &parts.passes)?;
-        for buffer in &parts.buffers {
-            buffer.shared.last_use.store(self.submitted, Ordering::Relaxed);
+        let submitted = device.submit(lane, &submissions, after, &passes)?;
+        for recording in &mut all {
+            recording.submitted = submitted;
+            let buffers = recording.parts.iter().flat_map(|parts| &parts.buffers);
+            buffers.for_each(|buffer| note_use(&buffer.shared.last_use, lane, submitted));
         }
         Ok(())
     }
@@ -97,7 +119,7 @@ impl Recording {
             return Ok(());
         }
         let begun = || self.last_pass_begun();
-        self.device.shared.wait(self.submitted, self.passes(), begun)
+        self.device.shared.wait(self.device.lane, self.submitted, self.passes(), begun)
     }
 
     /// Runs all passes and waits for them.
@@ -105,7 +127,15 @@ impl Recording {
     /// # Errors
     /// As [`Self::submit`] and [`Self::wait`].
     pub fn run(&mut self) -> Result<()> {
-        self.submit()?;
+        self.run_behind(None)
+    }
+
+    /// The same behind the passes of another recording, both as one submission.
+    ///
+    /// # Errors
+    /// As [`Self::submit_behind`] and [`Self::wait`].
+    pub fn run_behind(&mut self, ahead: Option<&mut Self>) -> Result<()> {
+        self.submit_behind(ahead)?;
         self.wait()
     }
 
@@ -197,14 +227,30 @@ impl Recording {
 impl Drop for Recording {
     fn drop(&mut self) {
         if let Some(parts) = self.parts.take()
-            && !self.device.shared.has_done(self.submitted)
+            && !self.device.shared.has_done(self.device.lane, self.submitted)
         {
-            self.device.shared.retire(self.submitted, parts);
+            self.device.shared.retire(self.device.lane, self.submitted, parts);
         }
     }
 }
 
 impl RecordingParts {
+    /// Its command buffers, first to last.
+    fn commands_in_order(&self) -> Vec<vk::CommandBuffer> {
+        self.ended.iter().copied().chain([self.commands]).collect()
+    }
+
+    /// Sets what its passes leave beside their results to nothing.
+    fn set_back(&self) -> Result<()> {
+        if let Some(breadcrumbs) = &self.breadcrumbs {
+            breadcrumbs.write(0, &vec![0_u32; self.passes.len()])?;
+        }
+        for Counters { pipeline, buffer, .. } in &self.counters {
+            buffer.write(0, &vec![0_u64; pipeline.shared.blocks.len()])?;
+        }
+        Ok(())
+    }
+
     /// Goes on in a new command buffer.
     pub(super) fn begin_commands(&mut self) -> Result<()> {
         let info = vk::CommandBufferAllocateInfo::default().command_pool(self.pool).command_buffer_count(1);

@@ -333,7 +333,8 @@ fn a_device_that_is_given_up_keeps_what_it_uses() {
     let kept = recording.parts.as_ref().unwrap().buffers[0].clone();
     let shared = device.shared.clone();
     // SAFETY: the semaphore is a timeline of this device.
-    let reached = unsafe { shared.raw.get_semaphore_counter_value(shared.timeline) }.unwrap();
+    let reached =
+        unsafe { shared.raw.get_semaphore_counter_value(shared.lanes.of(recording.device.lane).timeline) }.unwrap();
     let is_at_work = reached < recording.submitted;
     let used = shared.memory_used.load(Ordering::Relaxed);
     drop((kept, recording, device));

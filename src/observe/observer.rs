@@ -6,7 +6,9 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, ensure};
 
-use crate::features::{BitImage, Extractor, FeatureSettings, Likelihood, Observation, ViewFeatures, ViewSource};
+use crate::features::{
+    BitImage, Extractor, FeatureSettings, HeldFrame, Likelihood, Observation, ViewFeatures, ViewSource,
+};
 use crate::gpu::Device;
 use crate::sequence::{FrameReader, FrameSet, Sequence, View};
 
@@ -50,6 +52,19 @@ impl Observer {
         self.extractor.move_to(device)
     }
 
+    /// Has a Vulkan device make the features and hold the observations; to be asked before the first frame. Frames then go through
+    /// [`Self::begin`] and [`Self::finish`]. `is_timed` asks for the times of the device's passes.
+    ///
+    /// # Errors
+    /// As [`Extractor::hold_on`].
+    pub fn hold_on(&mut self, device: &Device, is_timed: bool) -> Result<()> {
+        self.extractor.hold_on(device)?;
+        if is_timed {
+            self.extractor.measure_passes();
+        }
+        Ok(())
+    }
+
     /// The next frame; `None` after the last.
     ///
     /// # Errors
@@ -64,8 +79,7 @@ impl Observer {
     /// # Errors
     /// As [`Extractor::extract_into`].
     pub fn features(&mut self, frame: &FrameSet, is_wanted: bool) -> Result<Option<&mut [ViewFeatures]>> {
-        if frame.index < self.first {
-            self.extractor.prime(&frame.pictures)?;
+        if self.is_background(frame)? {
             return Ok(None);
         }
         if is_wanted || self.learns {
@@ -73,6 +87,55 @@ impl Observer {
             self.extractor.ignore(&mut self.features, &ignored_pixels(frame))?;
         }
         Ok(is_wanted.then_some(self.features.as_mut_slice()))
+    }
+}
+
+impl Observer {
+    /// Takes a frame that was read for one that shows the background alone, if it is; whether it was. Every frame read has to go through
+    /// here or through [`Self::features`].
+    ///
+    /// # Errors
+    /// As [`Extractor::prime`].
+    pub fn is_background(&mut self, frame: &FrameSet) -> Result<bool> {
+        let is_background = frame.index < self.first;
+        if is_background {
+            self.extractor.prime(&frame.pictures)?;
+        }
+        Ok(is_background)
+    }
+
+    /// Waits for the memory of the next frame that stays on the device.
+    ///
+    /// # Errors
+    /// As [`Extractor::reserve`].
+    pub fn reserve(&mut self) -> Result<()> {
+        self.extractor.reserve()
+    }
+
+    /// Begins the features of a frame that stays on the device.
+    ///
+    /// # Errors
+    /// As [`Extractor::begin`]; also when it ignores pixels.
+    pub fn begin(&mut self, frame: &FrameSet) -> Result<()> {
+        ensure!(
+            frame.ignored.iter().all(Option::is_none),
+            "frame {} ignores pixels, and stays on a device",
+            frame.index
+        );
+        self.extractor.begin(&frame.pictures, &frame.masks)
+    }
+
+    /// The frame that was begun, when the device is done with it.
+    ///
+    /// # Errors
+    /// As [`Extractor::finish`].
+    pub fn finish(&mut self) -> Result<HeldFrame> {
+        self.extractor.finish()
+    }
+
+    /// Whether backgrounds are learnt from every frame, wanted or not.
+    pub fn learns(&self) -> bool {
+        self.learns
     }
 }
 

@@ -6,34 +6,26 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
-use image::RgbImage;
 
+use super::held_feed::HeldWorker;
+pub(super) use super::prepared::Prepared;
 use super::timings::Span;
-use crate::features::{FeatureSettings, Likelihood, Observation, ViewFeatures};
+use crate::features::FeatureSettings;
+use crate::gpu::{Device, Timing};
 use crate::observe::{Observer, take_likelihoods, take_observations};
 use crate::sequence::Sequence;
 
 /// Frames that wait for the search. Together with the one being prepared this bounds the memory.
 const AHEAD: usize = 1;
 
-/// A frame ready to be searched.
-pub(super) struct Prepared {
-    /// Its index in the sequence.
-    pub(super) index: usize,
-    /// The pictures at working size, one a view.
-    pub(super) pictures: Vec<RgbImage>,
-    /// What was seen, one a view.
-    pub(super) observations: Vec<Observation>,
-    /// How likely each pixel is as background, one a view; none where poses are not compared by evidence.
-    pub(super) likelihoods: Vec<Likelihood>,
-    /// All features of every view but the likelihoods, where several people are told apart by them; else none.
-    pub(super) features_kept: Vec<ViewFeatures>,
-    /// Waiting for the pictures.
-    pub(super) read: Span,
-    /// Making the features.
-    pub(super) features: Span,
-    /// When it was captured, where it was just now.
-    pub(super) captured: Option<Instant>,
+/// What becomes of a frame's features.
+pub(super) enum Keeps<'a> {
+    /// Observations, and likelihoods where they are asked for.
+    Observations,
+    /// All features with them.
+    Features,
+    /// A device makes and holds the observations. Its passes are timed where that is asked for.
+    OnDevice(&'a Device, Timing),
 }
 
 /// Where prepared frames come from.
@@ -52,25 +44,34 @@ pub(super) struct Feed {
 }
 
 impl Feed {
-    /// Prepares the frames of `range`, handing over those from `from` on, with all their features where `keeps_features` says so.
+    /// Prepares the frames of `range`, handing over those from `from` on, with what is kept of them.
     ///
     /// # Errors
-    /// As [`Observer::new`], or when the thread cannot be started.
+    /// As [`Observer::new`] and [`Observer::hold_on`], or when the thread cannot be started.
     pub(super) fn start(
         sequence: &Sequence,
         settings: FeatureSettings,
         range: Range<usize>,
         from: usize,
         stall_timeout: Duration,
-        keeps_features: bool,
+        keeps: &Keeps<'_>,
     ) -> Result<Self> {
-        let observer = Observer::new(sequence, settings, range, from)?.with_stall_timeout(stall_timeout);
+        let mut observer = Observer::new(sequence, settings, range, from)?.with_stall_timeout(stall_timeout);
         let (sender, frames) = sync_channel(AHEAD);
-        let mut worker = Worker { observer, from, keeps_features };
-        let thread = thread::Builder::new()
-            .name("features".to_string())
-            .spawn(move || worker.run(&sender))
-            .context("cannot start the thread for the features")?;
+        let thread = thread::Builder::new().name("features".to_string());
+        let thread = match keeps {
+            Keeps::Observations | Keeps::Features => {
+                let mut worker = Worker { observer, from, keeps_features: matches!(keeps, Keeps::Features) };
+                thread.spawn(move || worker.run(&sender))
+            }
+            Keeps::OnDevice(device, timing) => {
+                let hold = observer.hold_on(device, *timing != Timing::Off);
+                hold.context("a device cannot make the features: --features cpu does without")?;
+                let mut worker = HeldWorker { observer, from };
+                thread.spawn(move || worker.run(&sender))
+            }
+        };
+        let thread = thread.context("cannot start the thread for the features")?;
         Ok(Self { frames: Some(frames), thread: Some(thread) })
     }
 }
@@ -133,6 +134,7 @@ impl Worker {
             return Ok(Some(Prepared {
                 index: frame.index,
                 observations: take_observations(features),
+                held: None,
                 likelihoods,
                 features_kept,
                 pictures: frame.pictures,

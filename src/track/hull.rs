@@ -4,7 +4,7 @@ use anyhow::{Result, ensure};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use crate::features::Observation;
+use crate::features::SeenView;
 use crate::geometry::Camera;
 
 /// Side of a voxel, mm.
@@ -28,21 +28,21 @@ impl Hull {
     ///
     /// # Errors
     /// When fewer than two cameras see a silhouette, or the silhouettes have no common volume.
-    pub(super) fn carve(cameras: &[Camera], observations: &[Observation]) -> Result<Self> {
-        Self::carve_by(VOXEL, HALF, cameras, observations)
+    pub(super) fn carve(cameras: &[Camera], views: &[SeenView<'_>]) -> Result<Self> {
+        Self::carve_by(VOXEL, HALF, cameras, views)
     }
 
     /// As [`Self::carve`], with voxels of twice the size: an eighth of the work, where only the place matters.
     ///
     /// # Errors
     /// As [`Self::carve`].
-    pub(super) fn carve_coarsely(cameras: &[Camera], observations: &[Observation]) -> Result<Self> {
-        Self::carve_by(2.0 * VOXEL, HALF / 2, cameras, observations)
+    pub(super) fn carve_coarsely(cameras: &[Camera], views: &[SeenView<'_>]) -> Result<Self> {
+        Self::carve_by(2.0 * VOXEL, HALF / 2, cameras, views)
     }
 
     /// Of voxels of side `side`, `half` from the middle to each side.
-    fn carve_by(side: f64, half: i32, cameras: &[Camera], observations: &[Observation]) -> Result<Self> {
-        let around = crossing(cameras, observations)?;
+    fn carve_by(side: f64, half: i32, cameras: &[Camera], views: &[SeenView<'_>]) -> Result<Self> {
+        let around = crossing(cameras, views)?;
         let offsets = -half..=half;
         let mut voxels: Vec<DVec3> = offsets
             .clone()
@@ -51,7 +51,7 @@ impl Hull {
                 let columns = offsets.clone().flat_map(|y| offsets.clone().map(move |x| (x, y)));
                 columns.filter_map(move |(x, y)| {
                     let at = around + DVec3::new(f64::from(x), f64::from(y), f64::from(z)) * side;
-                    is_person(cameras, observations, at).then_some(at)
+                    is_person(cameras, views, at).then_some(at)
                 })
             })
             .collect();
@@ -69,19 +69,20 @@ impl Hull {
 }
 
 /// Whether a point is in the silhouette of every camera whose picture it is in and does not ignore it there, and those are two or more.
-fn is_person(cameras: &[Camera], observations: &[Observation], at: DVec3) -> bool {
+fn is_person(cameras: &[Camera], views: &[SeenView<'_>], at: DVec3) -> bool {
     let mut seen = 0;
-    for (camera, observation) in cameras.iter().zip(observations) {
+    for (camera, view) in cameras.iter().zip(views) {
         let Some(pixel) = camera.project(at) else { continue };
+        let [width, height] = view.size();
         let (x, y) = (pixel.x.round(), pixel.y.round());
-        if x < 0.0 || y < 0.0 || x >= f64::from(observation.width) || y >= f64::from(observation.height) {
+        if x < 0.0 || y < 0.0 || x >= f64::from(width) || y >= f64::from(height) {
             continue;
         }
-        let place = y as usize * observation.width as usize + x as usize;
-        if observation.ignores(place) {
+        let place = y as usize * width as usize + x as usize;
+        if view.ignores(place) {
             continue;
         }
-        if observation.bytes[place] & Observation::SILHOUETTE == 0 {
+        if !view.is_person(place) {
             return false;
         }
         seen += 1;
@@ -90,11 +91,10 @@ fn is_person(cameras: &[Camera], observations: &[Observation], at: DVec3) -> boo
 }
 
 /// The point nearest to the rays through the middles of the silhouettes.
-fn crossing(cameras: &[Camera], observations: &[Observation]) -> Result<DVec3> {
+fn crossing(cameras: &[Camera], views: &[SeenView<'_>]) -> Result<DVec3> {
     let (mut matrix, mut vector, mut rays) = (DMat3::ZERO, DVec3::ZERO, 0);
-    for (camera, observation) in cameras.iter().zip(observations) {
-        let silhouette = observation.silhouette();
-        let Some(bounds) = silhouette.bounds() else { continue };
+    for (camera, view) in cameras.iter().zip(views) {
+        let Some(bounds) = view.bounds() else { continue };
         let middle = |low: u32, high: u32| 0.5 * f64::from(low + high - 1);
         let pixel = glam::DVec2::new(middle(bounds.x0, bounds.x1), middle(bounds.y0, bounds.y1));
         if let Some((origin, direction)) = camera.ray(pixel) {
@@ -120,6 +120,7 @@ mod tests {
     use super::super::fit_tests::{cameras_around, seen};
     use super::*;
     use crate::body::Body;
+    use crate::features::Observation;
 
     #[test]
     fn a_drawn_person_is_found_at_his_place_and_height() {
@@ -127,7 +128,7 @@ mod tests {
         let body = Body::adult(1700.0).unwrap();
         let mut pose = body.standing_pose();
         (pose[0], pose[1]) = (420.0, -310.0);
-        let hull = Hull::carve(&cameras, &seen(&body, &cameras, &pose)).unwrap();
+        let hull = Hull::carve(&cameras, &SeenView::all(&seen(&body, &cameras, &pose))).unwrap();
         assert!(hull.centre.truncate().distance(glam::DVec2::new(430.0, -310.0)) < 60.0, "{hull:?}");
         let [low, high] = hull.span;
         assert!(low.abs() < 80.0 && (high - 1700.0).abs() < 80.0, "{hull:?}");
@@ -137,7 +138,7 @@ mod tests {
     fn too_little_is_said() {
         let cameras = cameras_around();
         let nothing: Vec<Observation> = cameras.iter().map(|c| Observation::empty(c.size[0], c.size[1])).collect();
-        let error = Hull::carve(&cameras, &nothing).unwrap_err().to_string();
+        let error = Hull::carve(&cameras, &SeenView::all(&nothing)).unwrap_err().to_string();
         assert!(error.contains("0 of 3 cameras see a silhouette"), "{error}");
         let body = Body::adult(1700.0).unwrap();
         let mut seen = seen(&body, &cameras, &body.standing_pose());
@@ -146,7 +147,7 @@ mod tests {
         for at in 0..400 {
             seen[0].bytes[at] = Observation::SILHOUETTE;
         }
-        let error = Hull::carve(&cameras, &seen).unwrap_err().to_string();
+        let error = Hull::carve(&cameras, &SeenView::all(&seen)).unwrap_err().to_string();
         assert!(error.contains("no volume in common"), "{error}");
     }
 }

@@ -8,7 +8,7 @@ use anyhow::Result;
 
 use super::TrackSettings;
 use super::confidence::FrameConfidence;
-use super::feed::{Feed, Frames, Prepared};
+use super::feed::{Feed, Frames, Keeps, Prepared};
 use super::held::Held;
 use super::journal::{Extent, FrameResult};
 use super::page::write_report;
@@ -50,11 +50,11 @@ pub(super) struct Finished<'a> {
 
 /// What differs between a run offline and one in real time.
 pub(super) trait Pace {
-    /// Where the frames from `next` on come from.
+    /// Where the frames from `next` on come from, with what is kept of them.
     ///
     /// # Errors
     /// When the features cannot be made ready, or threads or decoders not be started.
-    fn feed(&self, sequence: &Sequence, plan: &Plan, next: usize) -> Result<Box<dyn Frames>>;
+    fn feed(&self, sequence: &Sequence, plan: &Plan, next: usize, keeps: &Keeps<'_>) -> Result<Box<dyn Frames>>;
 
     /// How to search a frame after the frame `before`.
     fn turn(&self, prepared: &Prepared, before: Option<usize>, fps: f64) -> Turn;
@@ -126,9 +126,9 @@ impl Offline {
 }
 
 impl Pace for Offline {
-    fn feed(&self, sequence: &Sequence, plan: &Plan, next: usize) -> Result<Box<dyn Frames>> {
+    fn feed(&self, sequence: &Sequence, plan: &Plan, next: usize, keeps: &Keeps<'_>) -> Result<Box<dyn Frames>> {
         let Plan { features, range, .. } = plan;
-        Ok(Box::new(Feed::start(sequence, features.clone(), range.clone(), next, self.stall_timeout, false)?))
+        Ok(Box::new(Feed::start(sequence, features.clone(), range.clone(), next, self.stall_timeout, keeps)?))
     }
 
     fn turn(&self, _: &Prepared, before: Option<usize>, _: f64) -> Turn {

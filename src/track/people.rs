@@ -9,14 +9,14 @@ use anyhow::{Context, Result, bail, ensure};
 use super::begin::{Begun, Planned};
 use super::crowd::Crowd;
 use super::driver::plated;
-use super::feed::{Feed, Frames, Prepared};
+use super::feed::{Feed, Frames, Keeps, Prepared};
 use super::journal::FrameResult;
 use super::progress::{FrameDone, Progress};
 use super::run::Run;
 use super::run_record::RunRecord;
 use super::summary::{TrackSummary, mean};
 use super::timings::Span;
-use super::{Backend, Drawing, TrackSettings};
+use super::{Backend, Drawing, FeaturesOn, TrackSettings};
 use crate::body::Body;
 use crate::files::OutputFolder;
 use crate::sequence::Sequence;
@@ -69,6 +69,11 @@ pub fn track_people(
         "{name} has [[person]], and several people are not tracked in real time: leave out --realtime"
     );
     ensure!(settings.start.is_none(), "{name} has [[person]], each with a start of her own: leave out --start");
+    ensure!(
+        settings.features_on != FeaturesOn::Device,
+        "{name} has [[person]], and what each is compared with is made of all features: expected --features auto or cpu"
+    );
+    let settings = &TrackSettings { features_on: FeaturesOn::Cpu, ..settings.clone() };
     let plated = plated(sequence, settings, progress)?;
     let sequence = plated.sequence.as_ref();
     let alone: Vec<Sequence> = sequence.people.iter().map(|person| sequence.of_person(person)).collect();
@@ -130,7 +135,7 @@ fn search_all(
     }
     // Their colours are learnt again from the frames that an earlier run did.
     let from = if features.likelihoods { range.start } else { next };
-    let mut feed = Feed::start(sequence, features, range.clone(), from, settings.stall_timeout, true)?;
+    let mut feed = Feed::start(sequence, features, range.clone(), from, settings.stall_timeout, &Keeps::Features)?;
     loop {
         let start = Instant::now();
         let Some(mut prepared) = feed.next()? else { return Ok(()) };
@@ -173,7 +178,8 @@ fn look_back(
     let found: Vec<_> = found.collect();
     for (at, person) in people.iter_mut().enumerate() {
         let (range, features) = (person.run.plan.range.clone(), person.run.plan.features.clone());
-        let feed = Feed::start(sequence, features, range.clone(), range.start, settings.stall_timeout, true)?;
+        let feed =
+            Feed::start(sequence, features, range.clone(), range.start, settings.stall_timeout, &Keeps::Features)?;
         let mut shares = Shares { feed, crowd, found: &found, first: range.start, person: at };
         person.run.look_back_over(&mut shares, progress)?;
     }

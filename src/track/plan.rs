@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 
+use super::features_made::FeaturesMade;
+use super::feed::Keeps;
 use super::searcher::Searcher;
 use super::smoothed::smoothing;
 use super::{BuiltBackend, Drawing, TrackSettings};
@@ -30,6 +32,8 @@ pub(super) struct Plan {
     pub(super) start_path: PathBuf,
     pub(super) objective: Objective,
     pub(super) features: FeatureSettings,
+    /// Who makes the features.
+    pub(super) made: FeaturesMade,
     pub(super) backend: BuiltBackend,
     pub(super) search: Searcher,
     pub(super) space: SearchSpace,
@@ -68,6 +72,10 @@ impl Plan {
         settings.search.check()?;
         let mesh = settings.model.mesh(&body)?;
         let mut backend = drawing.build(&settings.devices, mesh.as_ref(), &body, &sequence.cameras, &start)?;
+        let made = FeaturesMade::choose(sequence, settings, &features, backend.evaluator.as_ref())?;
+        if let Some(note) = &made.note {
+            backend.reason = format!("{}; {note}", backend.reason);
+        }
         let timing = if settings.trace { Timing::Statistics } else { Timing::Off };
         let search = Searcher::new(backend.evaluator.as_mut(), &objective, &settings.search, &space, timing)?;
         Ok(Self {
@@ -76,6 +84,7 @@ impl Plan {
             start_path,
             objective,
             features,
+            made,
             backend,
             search,
             space,
@@ -86,6 +95,11 @@ impl Plan {
             spread: settings.spread,
             body,
         })
+    }
+
+    /// What is kept of the frames that are searched.
+    pub(super) fn keeps(&self) -> Keeps<'_> {
+        self.made.device.as_ref().map_or(Keeps::Observations, |device| Keeps::OnDevice(device, self.timing))
     }
 
     /// What the search is made from.

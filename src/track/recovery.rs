@@ -8,7 +8,7 @@ use super::hull::Hull;
 use super::searcher::Searched;
 use crate::body::{Body, DofAxis};
 use crate::evaluate::{Evaluator, Objective, ViewCounts};
-use crate::features::Observation;
+use crate::features::SeenView;
 use crate::geometry::Camera;
 use crate::search::{Estimate, SearchKind, SearchSettings, SearchSpace};
 
@@ -47,7 +47,8 @@ pub(super) struct Recovery {
 pub(super) struct LostFrame<'a> {
     pub(super) evaluator: &'a mut dyn Evaluator,
     pub(super) objective: &'a Objective,
-    pub(super) observations: &'a [Observation],
+    /// What was seen of her, one a view.
+    pub(super) views: &'a [SeenView<'a>],
     /// The frame, as the random numbers count it.
     pub(super) number: u32,
     /// Standard deviation of an ordinary frame's search.
@@ -107,7 +108,7 @@ impl Recovery {
             || self.lost_frames.is_multiple_of(LONGEST_WAIT)
             || is_sure(&found.views);
         // Without a hull there is nobody to be found.
-        let Some(hull) = is_turn.then(|| Hull::carve_coarsely(&self.cameras, frame.observations).ok()).flatten() else {
+        let Some(hull) = is_turn.then(|| Hull::carve_coarsely(&self.cameras, frame.views).ok()).flatten() else {
             return Ok(());
         };
         let steps = self.space.spread(1.0 / 25.0)?;

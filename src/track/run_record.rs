@@ -11,7 +11,7 @@ use toml::{Table, Value};
 
 use super::journal::checksum;
 use super::plan::Plan;
-use super::{Backend, Passes, RealtimeSettings, TrackSettings, Width};
+use super::{Backend, FeaturesOn, Passes, RealtimeSettings, TrackSettings, Width};
 use crate::body::{MeshSource, Model};
 use crate::evaluate::Objective;
 use crate::evaluate::device::GraphicsSettings;
@@ -181,6 +181,9 @@ fn is_drawn_otherwise(settings: &TrackSettings) -> bool {
 /// The devices and the way to draw as the command line takes them.
 fn drawing_flags(settings: &TrackSettings) -> String {
     let mut flags = String::new();
+    if settings.features_on == FeaturesOn::Device {
+        flags += " --features device";
+    }
     if !settings.devices.is_empty() {
         let devices: Vec<String> = settings.devices.iter().map(usize::to_string).collect();
         flags += &format!(" --devices {}", devices.join(","));
@@ -366,6 +369,8 @@ struct Machine<'a> {
     processors: usize,
     variant: &'static str,
     backend_reason: &'a str,
+    /// Who made the features: the same bits either way.
+    features_made_by: &'static str,
 }
 
 impl<'a> Machine<'a> {
@@ -376,6 +381,7 @@ impl<'a> Machine<'a> {
             processors: std::thread::available_parallelism().map_or(1, usize::from),
             variant: plan.backend.evaluator.variant(),
             backend_reason: &plan.backend.reason,
+            features_made_by: if plan.made.device.is_some() { "device" } else { "cpu" },
         }
     }
 }

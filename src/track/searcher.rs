@@ -2,11 +2,11 @@
 
 use std::time::Instant;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, ensure};
 
 use super::timings::Span;
 use crate::evaluate::{Components, Evaluator, Objective, ViewCounts};
-use crate::features::Observation;
+use crate::features::{SeenFrame, SeenView};
 use crate::gpu::{DevicePass, Timing};
 use crate::search::{DeviceSearch, Estimate, Refinement, Search, SearchSettings, SearchSpace};
 
@@ -35,9 +35,18 @@ impl OnDevice {
     /// The search, recorded for the newest observations.
     fn search(&mut self, evaluator: &mut dyn Evaluator) -> Result<&mut DeviceSearch> {
         let name = evaluator.name();
-        let Some(evaluator) = evaluator.on_device() else { bail!("the backend {name} has left its device") };
+        let Some(evaluator) = evaluator.on_device() else { return Err(left_its_device(name)) };
+        let is_handed = evaluator.is_handed_observations();
+        let comes_otherwise =
+            self.recorded.as_ref().is_some_and(|recorded| recorded.is_handed_observations() != is_handed);
+        let carries_on = self.settings.kind.carries_on();
+        ensure!(
+            !(carries_on && comes_otherwise),
+            "the search {} is recorded for observations that come in another way than the newest ones",
+            self.settings.kind.name()
+        );
         // A filter's samples live in its recording: it stays with the old one, which is slower and no less right.
-        let is_outgrown = !self.settings.kind.carries_on() && evaluator.has_outgrown_its_recording();
+        let is_outgrown = comes_otherwise || !carries_on && evaluator.has_outgrown_its_recording();
         if let Some(recorded) = self.recorded.take_if(|_| !is_outgrown) {
             return Ok(self.recorded.insert(recorded));
         }
@@ -103,7 +112,7 @@ impl Searcher {
         })))
     }
 
-    /// Searches a frame whose observations are these.
+    /// Searches a frame in which this was seen.
     ///
     /// # Errors
     /// When the observations do not fit the cameras, no pose has a finite fitness, or the device fails.
@@ -111,11 +120,11 @@ impl Searcher {
         &mut self,
         evaluator: &mut dyn Evaluator,
         objective: &Objective,
-        observations: &[Observation],
+        seen: SeenFrame<'_>,
         start: Start<'_>,
     ) -> Result<Searched> {
         let Start { frame, centre, spread, until } = start;
-        evaluator.observe(observations)?;
+        evaluator.observe_seen(seen)?;
         match self {
             Self::Host(search) => {
                 let mut evaluations = Vec::with_capacity(search.iterations() + 1);
@@ -142,7 +151,7 @@ impl Searcher {
                 passes.extend(evaluator.device_passes());
                 Ok(Searched { estimate, views, evaluations, passes })
             }
-            Self::Device(search) => search.search_frame(evaluator, objective, observations, start),
+            Self::Device(search) => search.search_frame(evaluator, objective, seen, start),
         }
     }
 
@@ -163,14 +172,16 @@ impl OnDevice {
         &mut self,
         evaluator: &mut dyn Evaluator,
         objective: &Objective,
-        observations: &[Observation],
+        seen: SeenFrame<'_>,
         Start { frame, centre, spread, .. }: Start<'_>,
     ) -> Result<Searched> {
         let begin = Instant::now();
         let [before, after] = &self.estimated;
         let own_centre = if after == centre { before.clone() } else { centre.to_vec() };
         let search = self.search(evaluator)?;
-        let found = search.search_frame(frame, &own_centre, spread)?;
+        let name = evaluator.name();
+        let Some(on_device) = evaluator.on_device() else { return Err(left_its_device(name)) };
+        let found = search.search_frame_behind(on_device.handover(), frame, &own_centre, spread)?;
         let mut evaluations = vec![Span::since(begin)];
         let mut passes = search.passes_run(Instant::now())?;
         let mut estimate = found.estimate;
@@ -181,12 +192,12 @@ impl OnDevice {
                 passes.extend(evaluator.device_passes());
                 return Ok(Searched { estimate, views, evaluations, passes });
             }
-            let counts = |(observation, sums): (&Observation, [u32; 4])| {
-                let ([area_model, overlap, edges, proximity], area_obs) = (sums, observation.area());
+            let counts = |(view, sums): (SeenView<'_>, [u32; 4])| {
+                let ([area_model, overlap, edges, proximity], area_obs) = (sums, view.area());
                 let components = Components { area_obs, area_model, overlap, edges, proximity };
                 ViewCounts { components, evidence: None }
             };
-            let views = observations.iter().zip(found.sums).map(counts).collect();
+            let views = seen.views().into_iter().zip(found.sums).map(counts).collect();
             return Ok(Searched { estimate, views, evaluations, passes });
         }
         let before = estimate.pose.clone();
@@ -202,4 +213,8 @@ impl OnDevice {
         passes.extend(evaluator.device_passes());
         Ok(Searched { estimate, views, evaluations, passes })
     }
+}
+
+fn left_its_device(backend: &str) -> anyhow::Error {
+    anyhow!("the backend {backend} has left its device")
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 use anyhow::{Result, ensure};
 
 use super::journal::Numbering;
-use super::{Drawing, FrameRange, ObjectiveChoice, Passes, Prediction, RealtimeSettings, Width};
+use super::{Drawing, FeaturesOn, FrameRange, ObjectiveChoice, Passes, Prediction, RealtimeSettings, Width};
 use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
 use crate::report::check_recordings_are_built;
@@ -20,6 +20,8 @@ pub struct TrackSettings {
     pub drawing: Drawing,
     /// The Vulkan devices that share the poses, by their numbers; without any the one of the environment, or the best.
     pub devices: Vec<usize>,
+    /// Who makes the features; the bits are the same.
+    pub features_on: FeaturesOn,
     /// What the body is drawn as.
     pub model: Model,
     /// What counts as a good pose; over the sequence's `[objective]` table. Where neither names a kind, `evidence` with the search `maes`
@@ -63,6 +65,7 @@ impl Default for TrackSettings {
         Self {
             drawing: Drawing::default(),
             devices: Vec::new(),
+            features_on: FeaturesOn::default(),
             model: Model::default(),
             objective: ObjectiveChoice::default(),
             search: SearchSettings::default(),

@@ -85,7 +85,8 @@ pub(super) struct Timings {
     trace: BufWriter<File>,
     trace_path: PathBuf,
     events: usize,
-    has_device: bool,
+    /// Whether a device told of passes of the search, and of the features.
+    has_device: [bool; 2],
 }
 
 /// Processes in the trace: trace viewers give each a group of rows.
@@ -111,7 +112,7 @@ impl Timings {
         trace
             .write_all(b"{\"displayTimeUnit\":\"ms\",\"traceEvents\":[")
             .with_context(|| format!("cannot write {}", temporary.display()))?;
-        Ok(Self { phases: Vec::new(), zero: Instant::now(), trace, trace_path, events: 0, has_device: false })
+        Ok(Self { phases: Vec::new(), zero: Instant::now(), trace, trace_path, events: 0, has_device: [false; 2] })
     }
 
     /// Whether nothing was counted yet.
@@ -137,8 +138,8 @@ impl Timings {
         self.event(name, HOST, thread as u32, span, &json!({ "frame": frame }))
     }
 
-    /// Counts the passes that a device ran for a frame, and puts them on its own row of the time-line.
-    pub(super) fn record_passes(&mut self, frame: usize, passes: &[DevicePass]) -> Result<()> {
+    /// Counts the passes that a device ran for a frame, and puts them on a row of the device's on the time-line.
+    pub(super) fn record_passes(&mut self, thread: Thread, frame: usize, passes: &[DevicePass]) -> Result<()> {
         let mut sums: Vec<(&str, Duration)> = Vec::new();
         for pass in passes {
             match sums.iter_mut().find(|(name, _)| *name == pass.name) {
@@ -156,12 +157,16 @@ impl Timings {
                     arguments.insert(name.to_string(), count.into());
                 }
             }
-            self.event(&pass.name, DEVICE, 1, Span { start: pass.start, time: pass.duration }, &arguments)?;
+            self.event(&pass.name, DEVICE, thread as u32, Span { start: pass.start, time: pass.duration }, &arguments)?;
         }
+        let (of, row) = match thread {
+            Thread::Search => ("device", 0),
+            Thread::Features => ("device features", 1),
+        };
         for (name, time) in sums {
-            self.count(format!("device {name}"), time);
+            self.count(format!("{of} {name}"), time);
         }
-        self.has_device |= !passes.is_empty();
+        self.has_device[row] |= !passes.is_empty();
         Ok(())
     }
 
@@ -195,9 +200,9 @@ impl Timings {
         self.trace(name, thread, frame, span)
     }
 
-    /// Whether a device told of passes.
+    /// Whether a device told of the search's passes.
     pub(super) fn has_device_passes(&self) -> bool {
-        self.has_device
+        self.has_device[0]
     }
 
     /// What was counted so far, in the order phases first ran.
@@ -217,8 +222,13 @@ impl Timings {
             ("thread_name", HOST, Thread::Search as u32, "search"),
             ("thread_name", HOST, Thread::Features as u32, "reading and features"),
         ];
-        if self.has_device {
-            names.extend([("process_name", DEVICE, 0, "GPU"), ("thread_name", DEVICE, 1, "queue")]);
+        if self.has_device.contains(&true) {
+            names.push(("process_name", DEVICE, 0, "GPU"));
+        }
+        for (row, thread, name) in [(0, Thread::Search, "queue"), (1, Thread::Features, "features")] {
+            if self.has_device[row] {
+                names.push(("thread_name", DEVICE, thread as u32, name));
+            }
         }
         for (kind, process, thread, name) in names {
             self.comma()?;
@@ -282,7 +292,7 @@ mod tests {
             work: None,
         };
         let passes = [pass("a \"pose\"", 1, None), pass("draw", 2, Some(statistics)), pass("draw", 3, None)];
-        timings.record_passes(3, &passes).unwrap();
+        timings.record_passes(Thread::Search, 3, &passes).unwrap();
         let summaries = timings.finish().unwrap();
         let found: Vec<(&str, u64, f64)> = summaries.iter().map(|s| (s.name.as_str(), s.count, s.total)).collect();
         assert_eq!(found, [("device a \"pose\"", 1, 1.0), ("device draw", 1, 2.0)]);

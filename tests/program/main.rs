@@ -29,6 +29,7 @@ mod losses;
 mod matrix;
 mod observe;
 mod obstacles;
+mod on_device;
 mod pages;
 mod people;
 mod plate;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use anyhow::{Result, ensure};
 
 use super::evidence::DeviceEvidence;
+use super::handover::Handovers;
 use super::host_buffers::{HostBuffers, HostCounts};
 use super::passes;
 use super::rasteriser::Rasteriser;
@@ -25,7 +26,7 @@ use crate::evaluate::evidence::{evidence_of, no_evidence};
 use crate::evaluate::objective::{AreaSums, Objective};
 use crate::evaluate::raster::CandidateImage;
 use crate::evaluate::segments::{SegmentSums, segments_of};
-use crate::features::{Observation, PartClasses, Segments};
+use crate::features::{HeldFrame, Observation, PartClasses, SeenFrame, Segments};
 use crate::gpu::{Buffer, Device, DeviceFacts, DevicePass, OutOfMemory, PassTiming, Recorder, Recording, Timing};
 
 /// An evaluator on a Vulkan device that draws by `R`.
@@ -34,6 +35,8 @@ pub struct DeviceBackend<R> {
     pub(super) resources: Resources,
     pub(super) rasteriser: R,
     runs: Runs,
+    /// Brings observations that the device itself made.
+    handovers: Handovers,
     /// Whether a search has recorded itself with these segments and this memory, and whether the newest observations have others
     /// or have outgrown it since.
     is_recorded: bool,
@@ -68,7 +71,8 @@ impl<R: Rasteriser> DeviceBackend<R> {
         let resources = Resources::new(scene)?;
         rasteriser.set_workspace(&resources.scene, &resources.workspace)?;
         let upload = record_upload(&resources, &rasteriser)?;
-        Ok(Self { resources, rasteriser, runs: Runs::new(upload), is_recorded: false, is_outgrown: false })
+        let handovers = Handovers::default();
+        Ok(Self { resources, rasteriser, runs: Runs::new(upload), handovers, is_recorded: false, is_outgrown: false })
     }
 
     /// Exchanges the body for another one of as many bones, parts and degrees of freedom; what was observed stays.
@@ -191,6 +195,18 @@ impl<R: Rasteriser> DeviceBackend<R> {
         Ok(())
     }
 
+    /// Takes observations from the host from now on, or has them handed over on the device.
+    fn set_handed(&mut self, is_handed: bool) -> Result<()> {
+        self.handovers.leave();
+        if self.resources.scene.set_handed(is_handed) {
+            // Recordings upload the others.
+            self.runs.clear();
+            self.runs.set_upload(record_upload(&self.resources, &self.rasteriser)?);
+            self.is_outgrown |= self.is_recorded;
+        }
+        Ok(())
+    }
+
     /// Runs poses through the device. The results then lie in the host's buffers; what the host itself compared comes back.
     fn run(&mut self, poses: &[f32], asked: Asked) -> Result<HostCounts> {
         let candidates = u32::try_from(poses.len() / self.dof_count())?;
@@ -205,11 +221,11 @@ impl<R: Rasteriser> DeviceBackend<R> {
             }
             self.runs.add(key, recorded?);
         }
-        let Self { resources, rasteriser, runs, .. } = self;
+        let Self { resources, rasteriser, runs, handovers, .. } = self;
         let shares = resources.shares(candidates, rasteriser.batch(&resources.workspace))?;
         let mut counts = HostCounts::default();
         let summed = resources.summed(asked.besides())?;
-        runs.run(&resources.scene, |batch| rasteriser.count(resources, summed, shares[batch], &mut counts))?;
+        runs.run(&resources.scene, handovers, |batch| rasteriser.count(resources, summed, shares[batch], &mut counts))?;
         let again = rasteriser.learn(&resources.scene, candidates)?;
         self.refit()?;
         if again { self.run(poses, asked) } else { Ok(counts) }
@@ -253,6 +269,7 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {
         let (segments, classes) = (segments_of(observations)?, evidence_of(observations)?);
+        self.set_handed(false)?;
         if observations.iter().any(|view| view.ignored.is_some()) {
             self.set_ignoring()?;
         }
@@ -263,6 +280,26 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
         segments.as_mut().map_or(Ok(()), |segments| segments.observe(scene, observations))?;
         evidence.as_mut().map_or(Ok(()), |evidence| evidence.observe(scene, observations))?;
         self.rasteriser.observe(scene, observations, self.is_recorded)?;
+        self.runs.outdate_upload();
+        let is_refitted = self.refit()?;
+        self.is_outgrown |= is_refitted && self.is_recorded;
+        Ok(())
+    }
+
+    fn holder(&self) -> Option<&Device> {
+        (!self.rasteriser.compares_on_host()).then_some(&self.resources.scene.device)
+    }
+
+    fn observe_held(&mut self, frame: &HeldFrame) -> Result<()> {
+        let name = self.name();
+        ensure!(self.holder().is_some(), "the backend {name} compares on the host, and was given what a device holds");
+        let views = SeenFrame::Held(frame).views();
+        self.resources.scene.observe_handed(&views)?;
+        self.set_handed(true)?;
+        self.set_segments(None)?;
+        self.set_evidence(None)?;
+        self.handovers.take(&self.resources.scene, frame)?;
+        self.rasteriser.observe_handed(&views, self.is_recorded);
         self.runs.outdate_upload();
         let is_refitted = self.refit()?;
         self.is_outgrown |= is_refitted && self.is_recorded;
@@ -381,6 +418,14 @@ impl<R: Rasteriser> DeviceEvaluator for DeviceBackend<R> {
 
     fn has_outgrown_its_recording(&self) -> bool {
         self.is_outgrown
+    }
+
+    fn is_handed_observations(&self) -> bool {
+        self.resources.scene.is_handed()
+    }
+
+    fn handover(&mut self) -> Option<&mut Recording> {
+        self.handovers.due()
     }
 
     fn reserve(&mut self, candidates: u32) -> Result<()> {

@@ -8,6 +8,9 @@ mod compute;
 mod drawn_mesh;
 mod evidence;
 mod graphics;
+mod handover;
+#[cfg(test)]
+mod handover_tests;
 mod host_buffers;
 mod mesh;
 #[cfg(test)]

@@ -11,7 +11,7 @@ use super::summed::Summed;
 use super::workspace::Workspace;
 use crate::evaluate::evaluator::Footprint;
 use crate::evaluate::raster::CandidateImage;
-use crate::features::Observation;
+use crate::features::{Observation, SeenView};
 use crate::gpu::Recorder;
 
 /// A way to draw candidates on a device and to compare them with the observations.
@@ -60,6 +60,9 @@ pub(crate) trait Rasteriser: Send {
     fn observe(&mut self, _scene: &DeviceScene, _observations: &[Observation], _is_recorded: bool) -> Result<()> {
         Ok(())
     }
+
+    /// Takes what is known of observations that are handed over on the device.
+    fn observe_handed(&mut self, _views: &[SeenView<'_>], _is_recorded: bool) {}
 
     /// Records the copies that bring its own buffers to the device.
     fn record_upload(&self, _recorder: &mut Recorder) -> Result<()> {

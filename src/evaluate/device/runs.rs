@@ -8,6 +8,7 @@ use crate::evaluate::Objective;
 use crate::evaluate::besides::Besides;
 use crate::gpu::{DevicePass, PassTiming, Recording, Timing};
 
+use super::handover::Handovers;
 use super::scene::DeviceScene;
 
 /// What a run ends in.
@@ -121,15 +122,21 @@ impl Runs {
         self.recorded.push((key, recordings));
     }
 
-    /// Runs the latest, with the newest upload ahead of it; `after` is called when its recording of that number is done.
-    pub(super) fn run(&mut self, scene: &DeviceScene, mut after: impl FnMut(usize) -> Result<()>) -> Result<()> {
+    /// Runs the latest, with the newest upload ahead of it, and what is handed over; `after` is called when its recording of that number
+    /// is done.
+    pub(super) fn run(
+        &mut self,
+        scene: &DeviceScene,
+        handovers: &mut Handovers,
+        mut after: impl FnMut(usize) -> Result<()>,
+    ) -> Result<()> {
         if !self.is_uploaded {
             // The run that follows waits for it on the device.
             self.upload.submit()?;
             self.is_uploaded = true;
         }
         for (number, recording) in self.recorded.last_mut().into_iter().flat_map(|(_, run)| run).enumerate() {
-            recording.run()?;
+            recording.run_behind(handovers.due())?;
             if let Some(passes) = &mut self.passes {
                 passes.extend(recording.passes_run(Instant::now())?);
             }

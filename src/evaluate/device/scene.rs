@@ -7,7 +7,7 @@ use crate::evaluate::batch::{check_observations, check_scene};
 use crate::evaluate::bit_planes::{WORD_PIXELS, bit_planes};
 use crate::evaluate::rig::{Rig, RigCamera, RigLens};
 use crate::evaluate::shaders::{PROJECT_GROUP, layout};
-use crate::features::Observation;
+use crate::features::{Observation, SeenView};
 use crate::geometry::Camera;
 use crate::gpu::{Buffer, Device, Recorder, StagedBuffer};
 
@@ -62,6 +62,8 @@ pub(crate) struct DeviceScene {
     pub(crate) pixels: StagedBuffer,
     /// Which pixels count, once some did not.
     pub(super) counted: Option<Counted>,
+    /// Whether the observations are handed over on the device, and not uploaded.
+    is_handed: bool,
     camera_rows: Vec<layout::Camera>,
 }
 
@@ -106,6 +108,7 @@ impl DeviceScene {
             pixels: StagedBuffer::of(device, "observed pixels", &vec![0_u32; pixels as usize])?,
             labels,
             counted: None,
+            is_handed: false,
             camera_rows,
         })
     }
@@ -146,6 +149,34 @@ impl DeviceScene {
         );
         self.bones.staging.write(0, &bone_rows(rig))?;
         self.parts.staging.write(0, &part_rows(rig, &self.labels))
+    }
+
+    /// Takes observations from the host from now on, or has them handed over; whether that is new, and what was recorded is not.
+    pub(super) fn set_handed(&mut self, is_handed: bool) -> bool {
+        std::mem::replace(&mut self.is_handed, is_handed) != is_handed
+    }
+
+    /// Whether the observations are handed over on the device.
+    pub(super) fn is_handed(&self) -> bool {
+        self.is_handed
+    }
+
+    /// Takes what is to be known of observations that are handed over, one a view.
+    pub(super) fn observe_handed(&mut self, views: &[SeenView<'_>]) -> Result<()> {
+        let (found, cameras) = (views.len(), self.sizes.len());
+        ensure!(found == cameras, "a device made observations of {found} views, and there are {cameras} cameras");
+        for ((view, size), camera) in views.iter().zip(&self.sizes).zip(&mut self.camera_rows) {
+            let found = view.size();
+            ensure!(found == *size, "a device made an observation of {found:?} pixels, and its camera has {size:?}");
+            camera.area_obs = view.area();
+        }
+        if let Some(counted) = &self.counted {
+            // Every pixel counts.
+            for staged in [&counted.planes, &counted.pixels] {
+                staged.staging.write(0, &vec![u32::MAX; staged.buffer.size() as usize / size_of::<u32>()])?;
+            }
+        }
+        self.cameras.staging.write(0, &self.camera_rows)
     }
 
     /// Takes the observations of a frame, one a view.
@@ -191,11 +222,12 @@ impl DeviceScene {
         self.camera_rows.iter().map(|camera| camera.first_pixel_word)
     }
 
-    /// Records the copies of everything to the device's own memory.
+    /// Records the copies of everything to the device's own memory, but for observations that are handed over.
     pub(crate) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
-        let Self { bones, parts, cameras, planes, pixels, .. } = self;
+        let Self { bones, parts, cameras, planes, pixels, is_handed, .. } = self;
         let counted = self.counted.iter().flat_map(|counted| [&counted.planes, &counted.pixels]);
-        let all = [bones, parts, cameras, planes, pixels].into_iter().chain(counted);
+        let observed = [planes, pixels].into_iter().filter(|_| !is_handed);
+        let all = [bones, parts, cameras].into_iter().chain(observed).chain(counted);
         all.into_iter().try_for_each(|staged| staged.record_upload(recorder))
     }
 

@@ -15,7 +15,7 @@ use crate::gpu::Recorder;
 pub(super) fn smooth(recorder: &mut Recorder, views: &[&DeviceView], is_smooth: bool) -> Result<()> {
     let constants = smooth_comp::Constants { smooth: u32::from(is_smooth) };
     recorder.run_all(views.iter().map(|view| {
-        smooth_comp::Bindings { colours: &view.colours.buffer, smoothed: &view.smoothed }.dispatch(
+        smooth_comp::Bindings { colours: &view.colours, smoothed: &view.smoothed }.dispatch(
             constants,
             view.picture,
             view.every_pixel(),

@@ -9,7 +9,7 @@ use crate::features::shaders::{
     probable_comp, ratios_comp,
 };
 use crate::features::{Adaptation, MixtureSettings, PlateSettings, ShadowSettings};
-use crate::gpu::{Groups, Recorder};
+use crate::gpu::{Buffer, Groups, Recorder};
 
 /// Pixels of the grid that an invocation of `ratios.comp` counts.
 const PIXELS_EACH: u32 = 16;
@@ -23,12 +23,8 @@ pub(super) fn ratios(recorder: &mut Recorder, views: &[&DeviceView]) -> Result<(
     recorder.run_all(views.iter().map(|view| {
         let (width, height) = (view.picture.width, view.picture.height);
         let pixels = width.div_ceil(RATIO_GRID) * height.div_ceil(RATIO_GRID);
-        ratios_comp::Bindings {
-            colours: &view.colours.buffer,
-            background: &view.light.grid,
-            counts: &view.light.counts,
-        }
-        .dispatch(layout::Ratios { width, height }, Groups::Flat(pixels.div_ceil(PIXELS_EACH)))
+        ratios_comp::Bindings { colours: &view.colours, background: &view.light.grid, counts: &view.light.counts }
+            .dispatch(layout::Ratios { width, height }, Groups::Flat(pixels.div_ceil(PIXELS_EACH)))
     }))?;
     recorder.run_all(views.iter().map(|view| {
         gain_comp::Bindings { counts: &view.light.counts, gains: &view.light.gains }.dispatch(Groups::Count([1; 3]))
@@ -55,9 +51,9 @@ pub(super) fn difference(
             chroma_squared: shadow.chroma * shadow.chroma,
         };
         difference_comp::Bindings {
-            colours: &view.colours.buffer,
+            colours: &view.colours,
             // A view without a plate is not asked for its differences; its own colours would be none.
-            plate: view.plate().unwrap_or(&view.colours.buffer),
+            plate: view.plate().unwrap_or(&view.colours),
             gains: &view.light.gains,
             weak: view.plane(Plane::Foreground),
             strong: view.plane(Plane::Strong),
@@ -85,7 +81,7 @@ pub(super) fn bridge(recorder: &mut Recorder, views: &[&DeviceView], [from, clos
 pub(super) fn probable(recorder: &mut Recorder, views: &[&DeviceView], settings: &MixtureSettings) -> Result<()> {
     let constants = probable_comp::Constants { components: settings.components as u32 };
     for_each_band(views, |of_band| {
-        recorder.run_all(of_band.iter().map(|(view, band)| {
+        recorder.run_all(of_band.iter().map(|(_, view, band)| {
             let push = layout::Probable { width: view.picture.width, rows: band.rows, first_row: band.first_row };
             let columns = view.picture.width.div_ceil(RATIO_GRID);
             probable_comp::Bindings { state: &band.state, background: &view.light.grid }.dispatch(
@@ -97,10 +93,12 @@ pub(super) fn probable(recorder: &mut Recorder, views: &[&DeviceView], settings:
     })
 }
 
-/// Records a mixture's step: `colours` at the view's `rates` into its bands, what they do not explain to the foreground.
+/// Records a mixture's step: `colours` at a view's `rates`, one beside each view, into its bands, what they do not explain to the
+/// foreground.
 pub(super) fn mixture(
     recorder: &mut Recorder,
     views: &[&DeviceView],
+    rates: &[&Buffer],
     settings: &MixtureSettings,
     shadow: &ShadowSettings,
 ) -> Result<()> {
@@ -113,7 +111,7 @@ pub(super) fn mixture(
         gain: u32::from(settings.gain),
     };
     for_each_band(views, |of_band| {
-        recorder.run_all(of_band.iter().map(|(view, band)| {
+        recorder.run_all(of_band.iter().map(|(at, view, band)| {
             let push = layout::Mixture {
                 width: view.picture.width,
                 rows: band.rows,
@@ -130,9 +128,9 @@ pub(super) fn mixture(
                 chroma_squared: shadow.chroma * shadow.chroma,
             };
             mixture_comp::Bindings {
-                colours: &view.colours.buffer,
+                colours: &view.colours,
                 gains: &view.light.gains,
-                rates: &view.rates,
+                rates: rates[*at],
                 state: &band.state,
                 foreground: view.plane(Plane::Foreground),
             }
@@ -141,14 +139,15 @@ pub(super) fn mixture(
     })
 }
 
-/// Takes the first bands of all views, then the second ones of those that have more, and so on.
+/// Takes the first bands of all views, each with the place of its view, then the second ones of those that have more, and so on.
 fn for_each_band<'a>(
     views: &[&'a DeviceView],
-    mut record: impl FnMut(&[(&'a DeviceView, &'a Band)]) -> Result<()>,
+    mut record: impl FnMut(&[(usize, &'a DeviceView, &'a Band)]) -> Result<()>,
 ) -> Result<()> {
     let most = views.iter().map(|view| view.bands().len()).max().unwrap_or(0);
     (0..most).try_for_each(|nth| {
-        let of_band: Vec<_> = views.iter().filter_map(|view| Some((*view, view.bands().get(nth)?))).collect();
+        let band = |(at, view): (usize, &&'a DeviceView)| Some((at, *view, view.bands().get(nth)?));
+        let of_band: Vec<_> = views.iter().enumerate().filter_map(band).collect();
         record(&of_band)
     })
 }

@@ -9,7 +9,8 @@ use super::components::{Keep, components};
 use super::edges::{edges, smooth};
 use super::foreground::{bridge, difference, mixture, probable, ratios};
 use super::morphology::{Operation, closing, morphology, opening};
-use super::view::{DeviceView, Plane, copy_whole};
+use super::view::{DeviceView, Input, Plane, copy_whole};
+use crate::features::held::HeldView;
 use crate::features::shaders::{
     METRIC_CHESSBOARD, METRIC_CITY_BLOCK, METRIC_EUCLIDEAN, METRIC_QUASI_EUCLIDEAN, RATIO_STEPS, distance_comp,
     pack_comp, reach_comp,
@@ -17,28 +18,28 @@ use crate::features::shaders::{
 use crate::features::{FeatureSettings, Metric};
 use crate::gpu::{Buffer, Groups, Recorder};
 
-/// Records a frame: `masked` says which views bring their silhouette with them, `proximity` holds the 7-bit value of every code of
-/// a map.
+/// Records a frame, from what the host fills to what is `packed`, one a view: `masked` says which views bring their silhouette with
+/// them, `proximity` holds the 7-bit value of every code of a map.
 pub(super) fn record_frame(
     recorder: &mut Recorder,
     views: &[DeviceView],
-    masked: &[bool],
+    (inputs, masked): (&[Input], &[bool]),
     settings: &FeatureSettings,
     proximity: &Buffer,
+    packed: &[HeldView],
 ) -> Result<()> {
     let all: Vec<&DeviceView> = views.iter().collect();
     let of = |wanted: &dyn Fn(&DeviceView, bool) -> bool| -> Vec<&DeviceView> {
         views.iter().zip(masked).filter(|&(view, &masked)| wanted(view, masked)).map(|(view, _)| view).collect()
     };
-    let with_mask = of(&|_, masked| masked);
     let segmented = of(&|_, masked| !masked);
     let with_plate = of(&|view, masked| !masked && view.plate().is_some());
     let with_mixture = of(&|view, masked| !masked && view.plate().is_none());
-    for view in views {
-        view.colours.record_upload(recorder)?;
-    }
-    for view in &with_mask {
-        copy_whole(recorder, "upload", &view.mask_in, view.plane(Plane::Silhouette))?;
+    for ((view, input), masked) in views.iter().zip(inputs).zip(masked) {
+        copy_whole(recorder, "upload", &input.colours, &view.colours)?;
+        if *masked {
+            copy_whole(recorder, "upload", &input.mask, view.plane(Plane::Silhouette))?;
+        }
     }
     if settings.plate.gain {
         ratios(recorder, &with_plate)?;
@@ -46,7 +47,10 @@ pub(super) fn record_frame(
         with_plate.iter().try_for_each(|view| recorder.fill("gain", &view.light.gains, RATIO_STEPS))?;
     }
     difference(recorder, &with_plate, &settings.plate, &settings.shadow)?;
-    record_mixture(recorder, &with_mixture, settings)?;
+    let of_mixture = |&((view, _), masked): &((&DeviceView, &Input), &bool)| !masked && view.plate().is_none();
+    let learning = views.iter().zip(inputs).zip(masked).filter(of_mixture);
+    let rates: Vec<&Buffer> = learning.map(|((_, input), _)| &input.rates).collect();
+    record_mixture(recorder, &with_mixture, &rates, settings)?;
     record_cleaning(recorder, &segmented, &with_plate, settings)?;
     bounds(recorder, &all, Plane::Silhouette)?;
     smooth(recorder, &all, settings.edges.smooth)?;
@@ -54,42 +58,42 @@ pub(super) fn record_frame(
     morphology(recorder, &all, Operation::Dilate, settings.dilation(), near)?;
     edges(recorder, &all, &settings.edges)?;
     record_distance(recorder, &all, settings.distance.metric)?;
-    recorder.run_all(all.iter().map(|view| {
+    recorder.run_all(all.iter().zip(packed).map(|(view, packed)| {
         pack_comp::Bindings {
             silhouette: view.plane(Plane::Silhouette),
             codes: &view.codes,
             proximity,
-            packed: &view.packed,
+            pixels: &packed.pixels,
+            planes: &packed.planes,
         }
-        .dispatch(view.picture, Groups::Flat((view.picture.width * view.picture.height).div_ceil(4)))
-    }))?;
-    for view in &segmented {
-        copy_whole(recorder, "readback", view.plane(Plane::Foreground), &view.foreground_out)?;
-        copy_whole(recorder, "readback", view.plane(Plane::Silhouette), &view.silhouette_out)?;
-    }
-    for view in views {
-        copy_whole(recorder, "readback", &view.sides, &view.sides_out)?;
-        copy_whole(recorder, "readback", view.plane(Plane::Edges), &view.edges_out)?;
-        copy_whole(recorder, "readback", &view.codes, &view.codes_out)?;
-        copy_whole(recorder, "readback", &view.packed, &view.packed_out)?;
-    }
-    Ok(())
+        .dispatch(view.picture, Groups::Flat(view.picture.width.div_ceil(32) * view.picture.height))
+    }))
 }
 
-/// Records what views without a plate learn from a frame of the empty scene.
-pub(super) fn record_priming(recorder: &mut Recorder, views: &[&DeviceView], settings: &FeatureSettings) -> Result<()> {
-    for view in views {
-        view.colours.record_upload(recorder)?;
+/// Records what views without a plate, each with what the host fills, learn from a frame of the empty scene.
+pub(super) fn record_priming(
+    recorder: &mut Recorder,
+    views: &[(&DeviceView, &Input)],
+    settings: &FeatureSettings,
+) -> Result<()> {
+    for (view, input) in views {
+        copy_whole(recorder, "upload", &input.colours, &view.colours)?;
     }
-    record_mixture(recorder, views, settings)
+    let (views, rates): (Vec<_>, Vec<_>) = views.iter().map(|(view, input)| (*view, &input.rates)).unzip();
+    record_mixture(recorder, &views, &rates, settings)
 }
 
-fn record_mixture(recorder: &mut Recorder, views: &[&DeviceView], settings: &FeatureSettings) -> Result<()> {
+fn record_mixture(
+    recorder: &mut Recorder,
+    views: &[&DeviceView],
+    rates: &[&Buffer],
+    settings: &FeatureSettings,
+) -> Result<()> {
     if settings.mixture.gain {
         probable(recorder, views, &settings.mixture)?;
         ratios(recorder, views)?;
     }
-    mixture(recorder, views, &settings.mixture, &settings.shadow)
+    mixture(recorder, views, rates, &settings.mixture, &settings.shadow)
 }
 
 /// From foreground to silhouette; those with a plate have their hysteresis and bridges.

@@ -5,8 +5,8 @@
 use image::{GrayImage, Luma, Rgb};
 
 use super::super::{
-    DistanceSettings, EdgeSettings, Extractor, Magnitude, Metric, MixtureSettings, Normalisation, Operator,
-    PlateSettings, ProximitySettings, Shape, SilhouetteSettings, ViewSource,
+    DistanceSettings, EdgeSettings, Extractor, Magnitude, Metric, MixtureSettings, Normalisation, Observation,
+    Operator, PlateSettings, ProximitySettings, Shape, SilhouetteSettings, ViewSource,
 };
 use super::*;
 use crate::gpu::rough::rough;
@@ -137,6 +137,100 @@ fn features_are_the_processor_s(opened: DeviceSettings, cases: std::ops::Range<u
     }
     drop(device);
     assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+/// What a view's held buffers hold.
+fn fetched(device: &Device, buffer: &Buffer) -> Vec<u32> {
+    let words = (buffer.size() / 4) as usize;
+    let seen = device.buffer::<u32>("seen", words, Memory::Readback).unwrap();
+    let mut recorder = device.recorder(Timing::Off).unwrap();
+    recorder.copy("fetch", (buffer, 0), (&seen, 0), buffer.size()).unwrap();
+    recorder.finish().unwrap().run().unwrap();
+    let mut found = vec![0; words];
+    seen.read(0, &mut found).unwrap();
+    found
+}
+
+/// Bytes of rows that are padded to whole words, and bit planes of 32 pixels each.
+fn packed(observation: &Observation) -> [Vec<u32>; 2] {
+    let (mut pixels, mut planes) = (Vec::new(), Vec::new());
+    for row in observation.bytes.chunks_exact(observation.width as usize) {
+        let word = |four: &[u8]| four.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte));
+        pixels.extend(row.chunks(4).map(word));
+        for group in row.chunks(32) {
+            let plane =
+                |plane: u32| (0..).zip(group).fold(0, |word, (at, byte)| word | (u32::from(*byte) >> plane & 1) << at);
+            planes.extend((0..8).map(plane));
+        }
+    }
+    [pixels, planes]
+}
+
+/// Frames that stay on the device are those that come to the host; the third waits for the memory of the first.
+#[test]
+fn frames_that_stay_on_the_device_are_the_processor_s() {
+    let one: fn(&mut Capabilities) = |capabilities| capabilities.second_queue = false;
+    for lower in [None, Some(one)] {
+        let opened = DeviceSettings { lower, ..DeviceSettings::default() };
+        let Some((device, log)) = device("frames_that_stay_on_the_device", opened) else { return };
+        let mut host = Extractor::new(settings(3), sources()).unwrap();
+        let mut chain = Extractor::new(settings(3), sources()).unwrap();
+        let (pictures, masks) = (SIZES.map(|size| picture(size, 1)), [const { None }; 4]);
+        let error = chain.begin(&pictures, &masks).unwrap_err().to_string();
+        assert!(error.contains("the processor makes the features"), "{error}");
+        chain.hold_on(&device).unwrap();
+        chain.measure_passes();
+        for seed in 0..3 {
+            let empty = SIZES.map(|size| room(size, 10 + seed));
+            host.prime(&empty).unwrap();
+            chain.prime(&empty).unwrap();
+        }
+        let error = chain.finish().unwrap_err().to_string();
+        assert_eq!(error, "no frame was begun on the device");
+        let mut kept = Vec::new();
+        for seed in [1, 2, 3, 4, 5] {
+            let pictures = SIZES.map(|size| picture(size, seed));
+            let masks = [0, 1, 2, 3]
+                .map(|at: usize| (seed == 1 || seed == 3 && at.is_multiple_of(3)).then(|| mask(SIZES[at], seed)));
+            let expected = host.extract(&pictures, &masks).unwrap();
+            if kept.len() == 2 {
+                drop(kept.remove(0));
+            }
+            chain.begin(&pictures, &masks).unwrap();
+            if seed == 1 {
+                let error = chain.begin(&pictures, &masks).unwrap_err().to_string();
+                assert!(error.contains("before the one before it was taken"), "{error}");
+            }
+            let found = chain.finish().unwrap();
+            kept.push((found, expected));
+            // What the frame before left is still there while this one is made.
+            for (found, expected) in &kept {
+                for (view, expected) in expected.iter().enumerate() {
+                    let of_view = &found.views()[view];
+                    let held = [&of_view.pixels, &of_view.planes].map(|buffer| fetched(&device, buffer));
+                    assert!(held == packed(&expected.observation), "view {view}, seed {seed}");
+                    assert_eq!(found.silhouettes()[view], expected.silhouette, "view {view}, seed {seed}");
+                }
+            }
+            let mut other = packed(&kept[0].1[0].observation);
+            other[1][9] ^= 1;
+            assert!(other != packed(&kept[0].1[0].observation), "a bit more would show");
+            if device.capabilities().timestamps {
+                assert!(kept[0].0.passes().iter().any(|pass| pass.name == "pack"));
+            }
+        }
+        assert_ne!(kept[0].0.place(), kept[1].0.place());
+        drop((kept, chain, device));
+        assert_eq!(log.messages(), Vec::<String>::new());
+    }
+}
+
+#[test]
+fn what_the_processor_finds_keeps_frames_from_the_device() {
+    let Some((device, _)) = device("what_the_processor_finds_keeps_frames", DeviceSettings::default()) else { return };
+    let likely = FeatureSettings { likelihoods: true, ..settings(0) };
+    let error = Extractor::new(likely, sources()).unwrap().hold_on(&device).unwrap_err().to_string();
+    assert!(error.contains("cannot stay on a device, since poses are compared"), "{error}");
 }
 
 #[test]

@@ -12,7 +12,7 @@ use super::components::{Keep, components};
 use super::edges::{edges, smooth};
 use super::foreground::{bridge, difference, mixture, probable, ratios};
 use super::morphology::{Operation, closing, morphology, opening};
-use super::view::{DeviceView, Plane};
+use super::view::{DeviceView, Input, Plane};
 use crate::features::bit_image::any_bit_image;
 use crate::features::blobs::Components;
 use crate::features::edges::EdgeDetector;
@@ -78,7 +78,7 @@ impl Bench {
     fn show(&self, picture: &RgbImage) {
         let mut bytes = picture.as_raw().clone();
         bytes.resize(bytes.len().next_multiple_of(4), 0);
-        self.write(&self.view.colours.buffer, &bytes);
+        self.write(&self.view.colours, &bytes);
     }
 }
 
@@ -310,6 +310,7 @@ fn check_mixtures(device: &Device, size: [u32; 2], settings: MixtureSettings) {
     let [width, height] = size;
     let shadow = ShadowSettings::default();
     let bench = Bench::with(device, size, None, &settings);
+    let input = Input::new(device, &bench.view).unwrap();
     let mut twin = Mixture::new(settings, width, height);
     let (mut flags, mut expected) = (vec![0; (width * height) as usize], BitImage::new(width, height));
     let mut found = 0;
@@ -319,13 +320,13 @@ fn check_mixtures(device: &Device, size: [u32; 2], settings: MixtureSettings) {
         flags.chunks_exact(width as usize).enumerate().for_each(|(y, flags)| expected.pack_row(y, flags));
         bench.show(&picture);
         let rates = Rates { alpha: settings.rate(frame), first: u32::from(frame == 0) };
-        bench.view.rates.write(0, &[rates]).unwrap();
+        input.rates.write(0, &[rates]).unwrap();
         bench.run(|recorder| {
             if settings.gain {
                 probable(recorder, &[&bench.view], &settings)?;
                 ratios(recorder, &[&bench.view])?;
             }
-            mixture(recorder, &[&bench.view], &settings, &shadow)
+            mixture(recorder, &[&bench.view], &[&input.rates], &settings, &shadow)
         });
         found += expected.count();
         assert_eq!(bench.get(Plane::Foreground), expected, "frame {frame}, {settings:?}");

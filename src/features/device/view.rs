@@ -6,7 +6,7 @@ use image::RgbImage;
 use crate::features::MixtureSettings;
 use crate::features::shaders::layout::{Picture, Rates};
 use crate::features::shaders::{MIXTURE_FIELDS, RATIO_COUNTS, RATIO_GRID};
-use crate::gpu::{Buffer, Device, Groups, Memory, Recorder, StagedBuffer};
+use crate::gpu::{Buffer, Device, Groups, Memory, Recorder};
 
 /// A bit picture of a view; rows are whole 64-bit words, as those of [`crate::features::BitImage`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,12 +81,9 @@ pub(super) struct DeviceView {
     /// What passes on it are told.
     pub(super) picture: Picture,
     /// Red, green, blue bytes, row-major.
-    pub(super) colours: StagedBuffer,
-    pub(super) mask_in: Buffer,
+    pub(super) colours: Buffer,
     planes: Vec<Buffer>,
     background: Background,
-    /// The rates of a mixture's next step.
-    pub(super) rates: Buffer,
     /// How the picture's light differs from the background's.
     pub(super) light: Light,
     /// Room for finding components.
@@ -99,14 +96,27 @@ pub(super) struct DeviceView {
     pub(super) reach: Buffer,
     /// Distances as [`crate::features::Metric::code`] writes them, a word each.
     pub(super) codes: Buffer,
-    /// Packed bytes, row-major.
-    pub(super) packed: Buffer,
-    pub(super) foreground_out: Buffer,
-    pub(super) silhouette_out: Buffer,
-    pub(super) sides_out: Buffer,
-    pub(super) edges_out: Buffer,
-    pub(super) codes_out: Buffer,
-    pub(super) packed_out: Buffer,
+}
+
+/// What the host fills of a view for a frame.
+#[derive(Debug)]
+pub(super) struct Input {
+    /// Red, green, blue bytes, row-major.
+    pub(super) colours: Buffer,
+    pub(super) mask: Buffer,
+    /// The rates of a mixture's step.
+    pub(super) rates: Buffer,
+}
+
+impl Input {
+    pub(super) fn new(device: &Device, view: &DeviceView) -> Result<Self> {
+        let words = |name: &str, bytes: u64| device.buffer::<u32>(name, bytes as usize / 4, Memory::Upload);
+        Ok(Self {
+            colours: words("colours staging", view.colours.size())?,
+            mask: words("mask staging", view.plane(Plane::Silhouette).size())?,
+            rates: device.buffer::<Rates>("rates", 1, Memory::Upload)?,
+        })
+    }
 }
 
 impl DeviceView {
@@ -145,11 +155,9 @@ impl DeviceView {
         };
         Ok(Self {
             picture: Picture { width, height, stride, limit: u32::from(limit), amount: 0, low: 0 },
-            colours: StagedBuffer::new::<u32>(device, "colours", colours)?,
-            mask_in: words("mask staging", bits, Memory::Upload)?,
+            colours: words("colours", colours, Memory::Device)?,
             planes: (0..Plane::COUNT).map(|_| words("bit picture", bits, Memory::Device)).collect::<Result<_>>()?,
             background,
-            rates: device.buffer::<Rates>("rates", 1, Memory::Upload)?,
             light: Light {
                 grid: light_grid,
                 counts: words("ratios", 3 * RATIO_COUNTS as usize, Memory::Device)?,
@@ -165,13 +173,6 @@ impl DeviceView {
             smoothed: words("smoothed", pixels, Memory::Device)?,
             reach: words("reach", pixels, Memory::Device)?,
             codes: words("codes", pixels, Memory::Device)?,
-            packed: words("packed", pixels.div_ceil(4), Memory::Device)?,
-            foreground_out: words("foreground readback", bits, Memory::Readback)?,
-            silhouette_out: words("silhouette readback", bits, Memory::Readback)?,
-            sides_out: words("bounds readback", 4, Memory::Readback)?,
-            edges_out: words("edges readback", bits, Memory::Readback)?,
-            codes_out: words("codes readback", pixels, Memory::Readback)?,
-            packed_out: words("packed readback", pixels.div_ceil(4), Memory::Readback)?,
         })
     }
 
@@ -188,6 +189,12 @@ impl DeviceView {
     /// An invocation for every word of a bit picture.
     pub(super) fn every_word(&self) -> Groups<'static> {
         Groups::Flat(self.words())
+    }
+
+    /// Words of its packed bytes, whose rows are padded to whole words, and of their bit planes.
+    pub(super) fn packed_words(&self) -> [usize; 2] {
+        let rows = self.picture.height as usize;
+        [self.picture.width.div_ceil(4) as usize * rows, 8 * self.picture.width.div_ceil(32) as usize * rows]
     }
 
     /// An invocation for every pixel, in rows.

@@ -47,6 +47,8 @@ pub struct DeviceSearch {
     /// The pose last estimated, which a next frame's centre is compared with; empty before.
     estimated: Vec<f32>,
     views: usize,
+    /// Whether observations are handed over on the device, and not uploaded by what is recorded.
+    is_handed: bool,
     /// The words of [`FrameMemory::readback`].
     words: Vec<u32>,
 }
@@ -72,7 +74,7 @@ impl DeviceSearch {
         let found = evaluator.poses().size();
         ensure!(found >= room, "the evaluator has {found} bytes for poses, and the search needs {room}: other bodies?");
         let device = evaluator.device().clone();
-        let views = evaluator.views();
+        let (views, is_handed) = (evaluator.views(), evaluator.is_handed_observations());
         let memory = FrameMemory::new(&device, space.dof_count(), settings.iterations, views)?;
         let mut recorder = device.recorder(timing)?;
         memory.frame.record_upload(&mut recorder)?;
@@ -89,9 +91,15 @@ impl DeviceSearch {
             recording: recorder.finish()?,
             estimated: Vec::with_capacity(space.dof_count()),
             views,
+            is_handed,
             words: vec![0; (memory.readback.size() / 4) as usize],
             memory,
         })
+    }
+
+    /// Whether it is recorded for observations that are handed over on the device ([`DeviceEvaluator::is_handed_observations`]).
+    pub fn is_handed_observations(&self) -> bool {
+        self.is_handed
     }
 
     /// A whole frame, as [`super::Search::search_frame`] does it.
@@ -100,6 +108,20 @@ impl DeviceSearch {
     /// When a length is not the number of degrees of freedom, a value is not finite, a spread is negative, no fitness was a
     /// finite number, or the device fails ([`crate::gpu::DeviceLost`]).
     pub fn search_frame(&mut self, frame: u32, centre: &[f32], spread: &[f32]) -> Result<DeviceFound> {
+        self.search_frame_behind(None, frame, centre, spread)
+    }
+
+    /// The same behind what hands the frame's observations over ([`DeviceEvaluator::handover`]), both as one submission.
+    ///
+    /// # Errors
+    /// As [`Self::search_frame`].
+    pub fn search_frame_behind(
+        &mut self,
+        handover: Option<&mut Recording>,
+        frame: u32,
+        centre: &[f32],
+        spread: &[f32],
+    ) -> Result<DeviceFound> {
         let dofs = self.space.dof_count();
         check_start(dofs, centre, spread)?;
         let goes_on = self.settings.kind.carries_on() && self.estimated == centre;
@@ -116,7 +138,7 @@ impl DeviceSearch {
         for (row, values) in [centre, spread, self.space.lower(), self.space.upper()].into_iter().enumerate() {
             staging.write(first + row * dofs, values)?;
         }
-        self.recording.run()?;
+        self.recording.run_behind(handover)?;
         self.memory.device.validation_log().check()?;
         self.take(frame)
     }

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::levers::Levers;
 use crate::body::Body;
 use crate::evaluate::{Evaluator, Objective};
-use crate::features::{Evidence, Observation, evidence};
+use crate::features::{Evidence, SeenView, evidence};
 use crate::geometry::Camera;
 
 /// What a frame by itself says of a joint.
@@ -62,7 +62,7 @@ impl JointProbe {
         }
     }
 
-    /// One a joint, in the order of [`Body::joint_names`]. The evaluator holds these observations.
+    /// One a joint, in the order of [`Body::joint_names`]. The evaluator holds what was seen in these views.
     ///
     /// # Errors
     /// When the evaluator fails.
@@ -70,21 +70,17 @@ impl JointProbe {
         &self,
         evaluator: &mut dyn Evaluator,
         objective: &Objective,
-        observations: &[Observation],
+        views: &[SeenView<'_>],
         pose: &[f32],
     ) -> Result<Vec<JointHints>> {
         let Some(levers) = Levers::of(&self.body, pose) else {
             return Ok(vec![JointHints::default(); self.bones.len()]);
         };
         let looseness = self.looseness(evaluator, objective, pose, &levers)?;
-        let support = self.support(observations, &levers.bones);
+        let support = self.support(views, &levers.bones);
         let hints = levers.joints.iter().zip(looseness).zip(support);
         Ok(hints
-            .map(|((&joint, looseness), support)| JointHints {
-                seen: self.seen(observations, joint),
-                looseness,
-                support,
-            })
+            .map(|((&joint, looseness), support)| JointHints { seen: self.seen(views, joint), looseness, support })
             .collect())
     }
 
@@ -133,16 +129,16 @@ impl JointProbe {
     }
 
     /// What the pictures say of the limbs that meet in each joint.
-    fn support(&self, observations: &[Observation], bones: &[glam::DAffine3]) -> Vec<f32> {
+    fn support(&self, views: &[SeenView<'_>], bones: &[glam::DAffine3]) -> Vec<f32> {
         let mut sums = vec![[0.0, 0.0]; self.body.bones.len()];
         for part in &self.body.parts {
             let [a, b] = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
             for place in 0..PLACES {
                 let at = a.lerp(b, (place as f64 + 0.5) / PLACES as f64);
-                for (camera, observation) in self.cameras.iter().zip(observations) {
-                    if let Some(pixel) = pixel(camera, observation, at) {
+                for (camera, view) in self.cameras.iter().zip(views) {
+                    if let Some(pixel) = pixel(camera, *view, at) {
                         let sum = &mut sums[part.bone];
-                        *sum = [sum[0] + said(observation, pixel, part.label), sum[1] + 1.0];
+                        *sum = [sum[0] + said(*view, pixel, part.label), sum[1] + 1.0];
                     }
                 }
             }
@@ -152,12 +148,12 @@ impl JointProbe {
         self.bones.iter().map(worse).collect()
     }
 
-    fn seen(&self, observations: &[Observation], joint: DVec3) -> f32 {
+    fn seen(&self, views: &[SeenView<'_>], joint: DVec3) -> f32 {
         let (mut inside, mut seen) = (0, 0);
-        for (camera, observation) in self.cameras.iter().zip(observations) {
-            if let Some(at) = pixel(camera, observation, joint) {
+        for (camera, view) in self.cameras.iter().zip(views) {
+            if let Some(at) = pixel(camera, *view, joint) {
                 inside += 1;
-                seen += u32::from(observation.bytes[at] & Observation::SILHOUETTE != 0);
+                seen += u32::from(view.is_person(at));
             }
         }
         if inside > 0 { seen as f32 / inside as f32 } else { 0.0 }
@@ -165,22 +161,22 @@ impl JointProbe {
 }
 
 /// The pixel that a point is seen in; none outside the picture and where nothing counts.
-fn pixel(camera: &Camera, observation: &Observation, point: DVec3) -> Option<usize> {
+fn pixel(camera: &Camera, view: SeenView<'_>, point: DVec3) -> Option<usize> {
     let at = camera.project(point)?.round();
-    let inside =
-        at.x >= 0.0 && at.y >= 0.0 && at.x < f64::from(observation.width) && at.y < f64::from(observation.height);
-    let at = inside.then(|| at.y as usize * observation.width as usize + at.x as usize)?;
-    (!observation.ignores(at)).then_some(at)
+    let [width, height] = view.size();
+    let inside = at.x >= 0.0 && at.y >= 0.0 && at.x < f64::from(width) && at.y < f64::from(height);
+    let at = inside.then(|| at.y as usize * width as usize + at.x as usize)?;
+    (!view.ignores(at)).then_some(at)
 }
 
 /// What a pixel says of a part being there, from -1 to 1.
-fn said(observation: &Observation, pixel: usize, label: u8) -> f32 {
-    match &observation.evidence {
+fn said(view: SeenView<'_>, pixel: usize, label: u8) -> f32 {
+    match view.evidence() {
         Some(seen) => {
             let code = evidence::code(seen.words()[pixel], usize::from(seen.classes().of_label(label)));
             (code as f32 - Evidence::NEUTRAL as f32) / Evidence::NEUTRAL as f32
         }
-        None if observation.bytes[pixel] & Observation::SILHOUETTE != 0 => 1.0,
+        None if view.is_person(pixel) => 1.0,
         None => -1.0,
     }
 }
@@ -190,6 +186,7 @@ mod tests {
     use super::super::super::fit_tests::{cameras_around, seen};
     use super::*;
     use crate::evaluate::{ObjectiveKind, Reference};
+    use crate::features::Observation;
 
     #[test]
     fn what_is_seen_holds_a_joint_and_what_is_hidden_leaves_it_loose() {
@@ -202,7 +199,7 @@ mod tests {
         let objective = Objective::of(ObjectiveKind::Ws);
         let mut ask = |observations: &[Observation], pose: &[f32]| {
             evaluator.observe(observations).unwrap();
-            probe.ask(&mut evaluator, &objective, observations, pose).unwrap()
+            probe.ask(&mut evaluator, &objective, &SeenView::all(observations), pose).unwrap()
         };
         let all = ask(&observations, &single);
         assert_eq!(all.len(), body.joint_names().len());

@@ -20,6 +20,7 @@ use super::hull::Hull;
 use super::{FrameRange, ObjectiveChoice};
 use crate::body::{Body, PoseTable, Proportions};
 use crate::evaluate::ObjectiveKind;
+use crate::features::SeenView;
 use crate::observe::{Advance, with_plates};
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::Sequence;
@@ -120,7 +121,7 @@ pub fn fit_with(sequence: &Sequence, settings: &FitSettings, progress: &mut Adva
         .observations
         .iter()
         .enumerate()
-        .map(|(at, seen)| Hull::carve(&sequence.cameras, seen).with_context(|| in_frame(at)))
+        .map(|(at, seen)| Hull::carve(&sequence.cameras, &SeenView::all(seen)).with_context(|| in_frame(at)))
         .collect::<Result<_>>()?;
     let height = match (settings.keep_body, settings.height) {
         (true, _) => None,

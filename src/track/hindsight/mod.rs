@@ -27,7 +27,7 @@ use super::feed::Frames;
 use super::journal::FrameResult;
 use super::plan::Plan;
 use crate::evaluate::{Evaluator, Objective};
-use crate::features::Observation;
+use crate::features::{Observation, SeenView};
 
 /// What the second pass works on.
 pub(super) struct Hindsight<'a> {
@@ -107,7 +107,7 @@ fn result(
         frame: settled.frame,
         fitness: fitness[0],
         views: views.iter().map(|view| objective.view_terms(view)).collect(),
-        joints: probe.ask(evaluator, objective, observations, &settled.pose)?,
+        joints: probe.ask(evaluator, objective, &SeenView::all(observations), &settled.pose)?,
         pose: settled.pose.clone(),
         // Searches from neighbours on are narrow whatever the pictures say: how sure they are the first one tells.
         spread: first.spread.clone(),

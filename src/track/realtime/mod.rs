@@ -32,7 +32,7 @@ pub use tally::{Drops, LatencySummary, RealtimeSummary};
 use timeline::{Row, Timeline};
 
 use super::TrackSettings;
-use super::feed::{Frames, Prepared};
+use super::feed::{Frames, Keeps, Prepared};
 use super::journal::{Extent, FrameResult, Journal, Numbering};
 use super::pace::{Finished, Pace, Turn};
 use super::plan::Plan;
@@ -139,7 +139,7 @@ impl Realtime {
 }
 
 impl Pace for Realtime {
-    fn feed(&self, sequence: &Sequence, plan: &Plan, from: usize) -> Result<Box<dyn Frames>> {
+    fn feed(&self, sequence: &Sequence, plan: &Plan, from: usize, _: &Keeps<'_>) -> Result<Box<dyn Frames>> {
         let rate = if sequence.is_live() { 1.0 } else { self.settings.rate };
         let input = Input {
             range: self.rounds.range(),

@@ -85,7 +85,17 @@ impl Processing {
         }
         let features = Span::since(begin);
         let features_kept = Vec::new();
-        Ok(Prepared { index, pictures, observations, likelihoods, features_kept, read, features, captured: Some(at) })
+        Ok(Prepared {
+            index,
+            pictures,
+            observations,
+            held: None,
+            likelihoods,
+            features_kept,
+            read,
+            features,
+            captured: Some(at),
+        })
     }
 }
 

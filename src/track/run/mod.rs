@@ -9,7 +9,7 @@ use anyhow::{Context, Result, anyhow};
 
 use super::appearance::RunAppearance;
 use super::confidence::{Confidence, FrameConfidence, JointProbe, LossRule};
-use super::feed::{Frames, Prepared};
+use super::feed::{Frames, Keeps, Prepared};
 use super::hindsight::{Delayed, Hindsight};
 use super::journal::{FrameResult, Journal};
 use super::motion::LearntMotion;
@@ -189,8 +189,8 @@ impl<'a> Run<'a> {
         if next >= self.plan.range.end && !(looks_back && learns_again) {
             return Ok(());
         }
-        let mut feed =
-            self.pace.feed(self.sequence, &self.plan, if learns_again { self.plan.range.start } else { next })?;
+        let from = if learns_again { self.plan.range.start } else { next };
+        let mut feed = self.pace.feed(self.sequence, &self.plan, from, &self.plan.keeps())?;
         let searched = self.search_each(feed.as_mut(), next, progress);
         // What waits for frames that do not come goes out with what there is.
         let given = self.give_out_all();
@@ -200,7 +200,8 @@ impl<'a> Run<'a> {
     fn search_each(&mut self, feed: &mut dyn Frames, next: usize, progress: &mut dyn Progress) -> Result<()> {
         loop {
             let start = Instant::now();
-            let Some(mut prepared) = feed.next()? else { return Ok(()) };
+            let prepared = feed.next().map_err(|error| self.how_to_go_on(self.next_frame(), error))?;
+            let Some(mut prepared) = prepared else { return Ok(()) };
             let waited = Span::since(start);
             let frame = prepared.index;
             self.observe(&mut prepared)?;
@@ -228,7 +229,8 @@ impl<'a> Run<'a> {
         if !self.looks_back() {
             return Ok(());
         }
-        let mut feed = self.pace.feed(self.sequence, &self.plan, self.plan.range.start)?;
+        // Frames are compared with many at once, so the host has them.
+        let mut feed = self.pace.feed(self.sequence, &self.plan, self.plan.range.start, &Keeps::Observations)?;
         self.look_back_over(feed.as_mut(), progress)
     }
 
@@ -275,6 +277,9 @@ impl<'a> Run<'a> {
         let frame = prepared.index;
         self.timings.record("read", Thread::Features, frame, prepared.read)?;
         self.timings.record("features", Thread::Features, frame, prepared.features)?;
+        if let Some(held) = &prepared.held {
+            self.timings.record_passes(Thread::Features, frame, held.passes())?;
+        }
         self.timings.record("wait", Thread::Search, frame, waited)
     }
 
@@ -409,9 +414,10 @@ impl<'a> Run<'a> {
         let counter =
             u32::try_from(frame).map_err(|_| anyhow!("frame {frame} is beyond the counters of the search"))?;
         let start = Start { frame: counter, centre: &predicted, spread: &spread, until: turn.until };
-        let observations = &prepared.observations;
+        let seen = prepared.seen();
+        let views = seen.views();
         let in_frame = || format!("frame {frame}");
-        let mut searched = search.search(evaluator, objective, observations, start).with_context(in_frame)?;
+        let mut searched = search.search(evaluator, objective, seen, start).with_context(in_frame)?;
         let probe = &self.probe;
         let result = |evaluator: &mut dyn Evaluator, searched: &Searched| -> Result<FrameResult> {
             let pose = searched.estimate.pose.clone();
@@ -420,7 +426,7 @@ impl<'a> Run<'a> {
                 fitness: searched.estimate.fitness,
                 spread: searched.estimate.spread.clone(),
                 views: searched.views.iter().map(|view| objective.view_terms(view)).collect(),
-                joints: probe.ask(evaluator, objective, observations, &pose)?,
+                joints: probe.ask(evaluator, objective, &views, &pose)?,
                 pose,
             })
         };
@@ -435,7 +441,7 @@ impl<'a> Run<'a> {
                 !self.confidence.is_loss_at(&FrameResult { views, ..found.clone() })
             };
             let lost =
-                LostFrame { evaluator: &mut *evaluator, objective, observations, number: counter, spread: &steps };
+                LostFrame { evaluator: &mut *evaluator, objective, views: &views, number: counter, spread: &steps };
             recovery.search(lost, &mut searched, &is_sure).with_context(in_frame)?;
             searched.evaluations.push(Span::since(begin));
             found = result(evaluator, &searched).with_context(in_frame)?;
@@ -451,7 +457,7 @@ impl<'a> Run<'a> {
         }
         let evaluating: Duration = evaluations.iter().map(|evaluation| evaluation.time).sum();
         self.timings.count("evaluate", evaluating);
-        self.timings.record_passes(frame, &passes)?;
+        self.timings.record_passes(Thread::Search, frame, &passes)?;
         self.timings.count("search", whole.time.saturating_sub(evaluating));
         Ok(found)
     }

@@ -27,7 +27,7 @@ use crate::evaluate::evaluator::Footprint;
 use crate::evaluate::mesh_projection::{MeshProjector, bound_to_its_body};
 use crate::evaluate::raster::CandidateImage;
 use crate::evaluate::shaders::{layout, objective_comp, order_comp, place_comp, pose_comp};
-use crate::features::Observation;
+use crate::features::{Observation, SeenView};
 use crate::geometry::Camera;
 use crate::gpu::{Buffer, Device, DeviceKind, Memory, Recorder, Timing};
 
@@ -291,9 +291,15 @@ impl Rasteriser for GraphicsRasteriser {
         }
         // Until candidates have told, they are taken to be about as large as what is seen.
         if !self.is_measured && !self.is_fixed {
-            self.better_tiles = first_tiles(observations, is_recorded.then_some(&self.tiles));
+            self.better_tiles = first_tiles(&SeenView::all(observations), is_recorded.then_some(&self.tiles));
         }
         Ok(())
+    }
+
+    fn observe_handed(&mut self, views: &[SeenView<'_>], is_recorded: bool) {
+        if !self.is_measured && !self.is_fixed {
+            self.better_tiles = first_tiles(views, is_recorded.then_some(&self.tiles));
+        }
     }
 
     fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {

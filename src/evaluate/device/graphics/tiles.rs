@@ -4,7 +4,7 @@
 use anyhow::{Result, bail};
 
 use crate::evaluate::shaders::layout;
-use crate::features::Observation;
+use crate::features::SeenView;
 
 /// Candidates of a tile, one a channel.
 pub(crate) const CANDIDATES_A_TILE: u32 = 4;
@@ -119,23 +119,23 @@ impl TileLayout {
 
 /// The tiles of views of which only the observation is known: its silhouette, a quarter larger; the picture when there is none.
 /// Where a search has recorded itself with tiles, those, as long as they are large enough.
-pub(crate) fn first_tiles(observations: &[Observation], recorded: Option<&Vec<[u32; 2]>>) -> Vec<[u32; 2]> {
-    let first = |observation: &Observation| {
-        let picture = [observation.width, observation.height];
-        observation.silhouette().bounds().map_or(picture, |seen| {
+pub(crate) fn first_tiles(views: &[SeenView<'_>], recorded: Option<&Vec<[u32; 2]>>) -> Vec<[u32; 2]> {
+    let first = |view: &SeenView<'_>| {
+        let picture = view.size();
+        view.bounds().map_or(picture, |seen| {
             let sides = [seen.x1 - seen.x0, seen.y1 - seen.y0];
             [0, 1].map(|axis| (sides[axis] + sides[axis] / 4 + 16).min(picture[axis]))
         })
     };
-    let seen: Vec<[u32; 2]> = observations.iter().map(first).collect();
+    let seen: Vec<[u32; 2]> = views.iter().map(first).collect();
     let Some(recorded) = recorded else { return seen };
     let is_outgrown = seen.iter().zip(recorded).any(|(seen, tile)| seen[0] > tile[0] || seen[1] > tile[1]);
     if !is_outgrown {
         return recorded.clone();
     }
     // With room to grow into, so that this does not happen in every frame of an approach.
-    let grown = seen.iter().zip(observations).map(|(seen, observation)| {
-        let picture = [observation.width, observation.height];
+    let grown = seen.iter().zip(views).map(|(seen, view)| {
+        let picture = view.size();
         [0, 1].map(|axis| (seen[axis] + seen[axis] / 4).min(picture[axis]))
     });
     grown.collect()
