@@ -102,7 +102,7 @@ pub fn track_people(
     look_back(sequence, settings, &crowd, &mut people, progress)?;
     let named = people.into_iter().zip(&sequence.people);
     let finish = |(Tracked { run, record, warnings }, person): (Tracked<'_>, &crate::sequence::Person)| {
-        let summary = run.finish(&record, warnings).with_context(|| format!("person {:?}", person.name))?;
+        let summary = run.finish(&record, warnings, progress).with_context(|| format!("person {:?}", person.name))?;
         Ok(PersonSummary { name: person.name.clone(), summary })
     };
     named.map(finish).collect()
