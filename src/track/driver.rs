@@ -39,7 +39,7 @@ pub fn track(
     );
     let plated = plated(sequence, settings, progress)?;
     let (sequence, found) = with_start(&plated.sequence, settings, output, progress)?;
-    let warnings = sequence.remarks().into_iter().chain(plated.remarks()).chain(found).collect();
+    let warnings = sequence.remarks().into_iter().chain(plated.remarks()).chain(plated.doubt()).chain(found).collect();
     let planned = Planned::new(sequence.as_ref(), settings, output, warnings)?;
     let Begun { mut run, record, done, warnings } = planned.begin()?;
     progress.start(&run.start(done.len(), &warnings));
