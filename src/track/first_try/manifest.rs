@@ -15,6 +15,8 @@ pub(super) struct ManifestView<'a> {
     pub(super) plate: Option<PathBuf>,
     /// How much of it is doubtful, % of the picture.
     pub(super) doubtful: f64,
+    /// Frames by which its pictures come too late, as was found.
+    pub(super) delay: Option<isize>,
     /// Keys that its user wrote.
     pub(super) kept: Option<&'a Table>,
 }
@@ -60,6 +62,10 @@ impl ManifestText<'_> {
                         view.doubtful
                     );
                 }
+            }
+            if let Some(delay) = view.delay {
+                let _ =
+                    writeln!(text, "delay = {delay} # frames that its pictures come too late, as the silhouettes say");
             }
             text.push_str(&written(&view.kept.into_iter().flatten().collect::<Vec<_>>())?);
         }
@@ -119,6 +125,7 @@ mod tests {
             source: &source,
             plate: Some(at("walk/c.png")),
             doubtful: 2.25,
+            delay: None,
             kept: Some(&kept_view),
         }];
         let (name, fps, height, scale) = ("a \"b\"", 25.0, 1720.0, 0.25);
