@@ -14,7 +14,7 @@ use super::finding::Finding;
 use super::partners::worst;
 use super::silhouettes::{SHIFTS, Silhouettes};
 use super::timing::{Delay, FAR_COUNTS, delay, far};
-use super::turns::{Turn, all_turned, best_turns, rays_that_show};
+use super::turns::{Turn, all_turned, best_turn_and_zoom, best_turns, rays_that_show};
 use crate::geometry::Camera;
 
 /// Cameras that look farther beside than this, degrees, spoil a track: a person 4 m away is then off by 14 mm.
@@ -27,6 +27,14 @@ const LATE: f64 = 0.6;
 /// Where the other views explain less of a silhouette's border, %, something is amiss even if no turn and no small delay betters it.
 const AMISS: f64 = 60.0;
 
+/// Focal lengths that are off by less than this part spoil little, by more than that are no zoom that somebody forgot.
+const ZOOMED: f64 = 0.03;
+const MOST_ZOOMED: f64 = 0.35;
+/// Another focal length is looked for where less than this of a silhouette's border is explained, %, and believed where as much of its own is
+/// then and it takes away this part of the disagreement that the best turn leaves.
+const UNLIKE: f64 = 85.0;
+const ZOOM_COUNTS: f64 = 0.5;
+
 /// All cameras are believed to be turned where that takes away this part of the disagreement that single ones leave.
 const TOGETHER: f64 = 0.3;
 
@@ -36,10 +44,12 @@ struct Belief<'a> {
     silhouettes: &'a Silhouettes,
     /// Delays that the manifest states, frames.
     stated: &'a [f64],
+    begun: Option<(&'a [isize], [f64; 2])>,
     fps: f64,
     turns: Vec<Turn>,
     delays: Vec<isize>,
     is_turned: Vec<bool>,
+    is_zoomed: Vec<bool>,
     is_late: Vec<bool>,
 }
 
@@ -53,6 +63,7 @@ struct Measured {
 /// A change of a camera that counts.
 enum Change {
     Turned(Turn),
+    Zoomed(Turn),
     Late(isize),
 }
 
@@ -68,6 +79,8 @@ pub(super) struct Faults {
 /// read again with more neighbours of some views.
 pub(super) struct Times<'a> {
     pub(super) stated: &'a [f64],
+    /// Delays by which the cameras were already put together, and the part of the borders that is explained without and with, %.
+    pub(super) begun: Option<(&'a [isize], [f64; 2])>,
     pub(super) fps: f64,
     pub(super) widen: &'a mut dyn FnMut(&[usize]) -> Result<Silhouettes>,
 }
@@ -78,7 +91,7 @@ pub(super) struct Times<'a> {
 /// When the silhouettes cannot be read again.
 pub(super) fn faults(
     cameras: &[Camera],
-    Times { stated, fps, widen }: Times<'_>,
+    Times { stated, begun, fps, widen }: Times<'_>,
     silhouettes: &Silhouettes,
     count: usize,
 ) -> Result<Faults> {
@@ -89,14 +102,16 @@ pub(super) fn faults(
         cameras,
         silhouettes,
         stated,
+        begun,
         fps,
         turns: vec![Turn::default(); views],
         delays: vec![0; views],
         is_turned: vec![false; views],
+        is_zoomed: vec![false; views],
         is_late: vec![false; views],
     };
     let mut is_tried_together = false;
-    // Ends: a camera is turned once and late once, and all are turned together once.
+    // Ends: a camera is zoomed once, between two of which it is turned once, and late once, and all are turned together once.
     loop {
         let measured: Vec<Measured> = (0..views).into_par_iter().map(|view| belief.measure(view)).collect();
         let mut changes: Vec<(usize, Change, f64)> =
@@ -110,6 +125,9 @@ pub(super) fn faults(
             }
             let suspects = wide.get().map_or(&[][..], |(suspects, _)| suspects);
             changes.extend(belief.far_changes(suspects));
+        }
+        if explained.iter().any(|percent| *percent < UNLIKE) {
+            changes.extend(belief.zoom_changes());
         }
         let Some((view, change, _)) = changes.into_iter().max_by(|a, b| a.2.total_cmp(&b.2)) else {
             let is_suspected = measured.iter().any(|measured| Direction::of(&measured.turn).is_beside());
@@ -127,6 +145,13 @@ pub(super) fn faults(
             Change::Turned(turn) => {
                 belief.turns[view] = turn;
                 belief.is_turned[view] = true;
+            }
+            Change::Zoomed(turn) => {
+                // What was believed of directions may have made up for it.
+                belief.is_zoomed[view] = true;
+                belief.turns[view] = turn;
+                belief.is_turned = vec![false; views];
+                belief.turns = (0..views).map(|view| belief.straight(view)).collect();
             }
             Change::Late(shift) => {
                 belief.delays[view] = shift;
@@ -155,7 +180,7 @@ impl<'a> Belief<'a> {
         };
         let rays = |turns: &[Turn]| rays_that_show(&all_turned(self.cameras, turns), &moments, &[view]);
         let mut unturned = turns.clone();
-        unturned[view] = Turn::default();
+        unturned[view] = self.straight(view);
         let turning = Betterment::of(&rays(&unturned), &rays(&turns), moments.len());
         let about = if SHIFTS.contains(&self.delays[view]) { 0 } else { self.delays[view] };
         Measured { turn: turns[view], turning, delay: self.delay(view, about) }
@@ -201,6 +226,34 @@ impl<'a> Belief<'a> {
         changes
     }
 
+    /// A camera that is not turned, with the focal length that is believed.
+    fn straight(&self, view: usize) -> Turn {
+        let Turn { zoom, zoom_scatter, .. } = self.turns[view];
+        Turn { zoom, zoom_scatter, ..Turn::default() }
+    }
+
+    /// Cameras whose focal length is believed to be another one: that must take away most of what turns leave, in every view about as much as a
+    /// right lens does, since silhouettes that lose legs or a head look taken from farther off too.
+    fn zoom_changes(&self) -> Vec<(usize, Change, f64)> {
+        let moments = self.moments();
+        let change = |view: usize| {
+            let rays = |turns: &[Turn]| rays_that_show(&all_turned(self.cameras, turns), &moments, &[view]);
+            let as_is = rays(&self.turns);
+            let turned = rays(&best_turns(self.cameras, &moments, &self.turns, &[view]));
+            let turns = best_turn_and_zoom(self.cameras, &moments, &self.turns, view);
+            let zoomed = rays(&turns);
+            let turn = turns[view];
+            let is_another =
+                (ZOOMED..MOST_ZOOMED).contains(&turn.zoom.abs()) && turn.zoom.abs() > SURE * turn.zoom_scatter;
+            let beside = Betterment::of(&turned, &zoomed, moments.len());
+            let own = percent_explained(zoomed.iter().filter(|ray| ray.view == view));
+            let is_told = is_another && beside.part() >= ZOOM_COUNTS && own >= UNLIKE;
+            is_told.then(|| (view, Change::Zoomed(turn), Betterment::of(&as_is, &zoomed, moments.len()).gain()))
+        };
+        let views: Vec<usize> = (0..self.cameras.len()).filter(|view| !self.is_zoomed[*view]).collect();
+        views.into_par_iter().filter_map(change).collect()
+    }
+
     /// All cameras that are believed to be turned, once more together.
     fn turn_together(&mut self) {
         let free: Vec<usize> = (0..self.cameras.len()).filter(|&view| self.is_turned[view]).collect();
@@ -214,7 +267,8 @@ impl<'a> Belief<'a> {
     fn turn_all(&mut self) -> bool {
         let views = self.cameras.len();
         let (moments, all): (_, Vec<usize>) = (self.moments(), (0..views).collect());
-        let together = best_turns(self.cameras, &moments, &vec![Turn::default(); views], &all);
+        let straight: Vec<Turn> = all.iter().map(|&view| self.straight(view)).collect();
+        let together = best_turns(self.cameras, &moments, &straight, &all);
         let rays = |turns: &[Turn]| rays_that_show(&all_turned(self.cameras, turns), &moments, &all);
         if Betterment::of(&rays(&self.turns), &rays(&together), moments.len()).part() < TOGETHER {
             return false;
@@ -222,13 +276,13 @@ impl<'a> Belief<'a> {
         for (view, turn) in together.into_iter().enumerate() {
             let direction = Direction::of(&turn);
             self.is_turned[view] = direction.is_beside() || direction.is_rolled();
-            self.turns[view] = if self.is_turned[view] { turn } else { Turn::default() };
+            self.turns[view] = if self.is_turned[view] { turn } else { self.straight(view) };
         }
         self.turn_together();
         true
     }
 
-    fn findings(&self, view: usize, measured: &Measured) -> [Finding; 3] {
+    fn findings(&self, view: usize, measured: &Measured) -> Vec<Finding> {
         let turned = Direction::of(&measured.turn);
         let direction = Finding::number("direction", "degrees", turned.beside, [0.0, BESIDE])
             .give_or_take(turned.beside_scatter)
@@ -246,16 +300,40 @@ impl<'a> Belief<'a> {
         let believed = |is_sure| self.is_turned[view] && is_sure;
         let [direction, roll] = [(direction, believed(turned.is_beside())), (roll, believed(turned.is_rolled()))]
             .map(|(finding, is_believed)| believed_or_not(finding, is_believed, advice).of(&self.cameras[view].name));
-        [direction, roll, self.timing(view, &measured.delay)]
+        let mut findings = vec![direction, roll, self.timing(view, &measured.delay)];
+        findings.extend(self.is_zoomed[view].then(|| self.focal_length(view)));
+        findings
+    }
+
+    fn focal_length(&self, view: usize) -> Finding {
+        let Turn { zoom, zoom_scatter, .. } = self.turns[view];
+        let percent = 100.0 * (zoom.exp() - 1.0);
+        let than = if percent > 0.0 { "larger" } else { "smaller" };
+        Finding::number("focal length", "% too short", percent, [-100.0 * ZOOMED, 100.0 * ZOOMED])
+            .give_or_take(100.0 * zoom_scatter)
+            .found(format!("what it shows is {:.1} % {than} than its calibration makes it", percent.abs()))
+            .or("the lens was zoomed since it was calibrated, its pictures were cut or scaled, or the camera stands nearer or farther than \
+                 calibrated: calibrate it anew, with the zoom fixed and at the size of the videos")
+            .of(&self.cameras[view].name)
     }
 
     fn timing(&self, view: usize, delay: &Delay) -> Finding {
-        let finding = match delay {
+        let begun = self.begun.map_or(0, |(delays, _)| delays[view]);
+        let put = self.begun.filter(|_| begun != 0).map(|(_, [before, after])| {
+            format!(
+                "put together as the lengths and clocks of the files make likely, the views explain {after:.0} % of each other's borders \
+                 instead of {before:.0}"
+            )
+        });
+        let (shift, finding) = match delay {
+            Delay::NoNeighbours | Delay::NobodyMoves if begun != 0 => {
+                (0, Finding::number("timing", "frames late", begun as f64, [-LATE, LATE]))
+            }
             Delay::NoNeighbours => {
-                Finding::not_measured("timing", "the frames looked at have no three neighbours to either side")
+                (0, Finding::not_measured("timing", "the frames looked at have no three neighbours to either side"))
             }
             Delay::NobodyMoves => {
-                Finding::not_measured("timing", "nobody moves enough in the frames looked at to tell")
+                (0, Finding::not_measured("timing", "nobody moves enough in the frames looked at to tell"))
             }
             Delay::Late { shift, late, scatter, betterment } => {
                 let found = if *shift == 0 {
@@ -263,24 +341,28 @@ impl<'a> Belief<'a> {
                 } else {
                     format!("with this camera moved by {shift} frames, {}", betterment.words())
                 };
-                let finding =
-                    Finding::number("timing", "frames late", *late, [-LATE, LATE]).give_or_take(*scatter).found(found);
-                let stated = self.stated[view];
-                let now = if stated == 0.0 { String::new() } else { format!(" (now {stated})") };
-                let most = if shift.unsigned_abs() < self.silhouettes.reach {
-                    ""
-                } else {
-                    ". Nothing beyond is looked for: then check again, and look for a clap where it stays"
-                };
-                let advice = format!(
-                    "write `delay = {}`{now} into the [[view]] of this camera: frames by which its pictures come too late, negative where they \
-                     come too early. Then measure the person again (`pantin fit`){most}",
-                    stated + *shift as f64
-                );
-                believed_or_not(finding, self.is_late[view], &advice)
+                let late = begun as f64 + late;
+                let finding = Finding::number("timing", "frames late", late, [-LATE, LATE]);
+                (*shift, finding.give_or_take(*scatter).found(found))
             }
         };
-        finding.of(&self.cameras[view].name)
+        let finding = match put {
+            Some(put) => finding.found(put),
+            None => finding,
+        };
+        let stated = self.stated[view];
+        let now = if stated == 0.0 { String::new() } else { format!(" (now {stated})") };
+        let most = if shift.unsigned_abs() < self.silhouettes.reach {
+            ""
+        } else {
+            ". Nothing beyond is looked for: then check again, and look for a clap where it stays"
+        };
+        let advice = format!(
+            "write `delay = {}`{now} into the [[view]] of this camera: frames by which its pictures come too late, negative where they come \
+             too early. Then measure the person again (`pantin fit`){most}",
+            stated + (begun + shift) as f64
+        );
+        believed_or_not(finding, self.is_late[view] || begun != 0, &advice).of(&self.cameras[view].name)
     }
 }
 

@@ -1,10 +1,11 @@
 //! Is a sequence sane? Every check is a number, its limit, what was found and what to do (docs/CALIBRATION.md).
 //!
 //! `view` looks at the calibration alone; `silhouettes` reads what the cameras saw; `agreement` measures how well they
-//! agree, without any model of the person; `exchanges` asks whether two cameras or left and right are exchanged, `orientations` whether a
+//! agree, without any model of the person; `beginnings` puts cameras together that were started at different moments; `exchanges` asks whether two cameras or left and right are exchanged, `orientations` whether a
 //! camera's picture is turned or mirrored, `faults` which cameras' `turns` and delays (`timing`) make them agree better, and by how much (`betterment`); `person` looks at the surface that they agree on.
 
 mod agreement;
+mod beginnings;
 mod betterment;
 mod exchanges;
 mod faults;
@@ -18,6 +19,7 @@ mod timing;
 mod turns;
 mod view;
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use anyhow::{Result, ensure};
@@ -27,6 +29,7 @@ use serde::Serialize;
 pub use finding::{Finding, Status};
 
 use agreement::{EXPLAINED, HARDLY_EXPLAINED, Ray, WELL_EXPLAINED, percent_explained, rays};
+use beginnings::{Beginnings, beginnings};
 use faults::{Faults, Times};
 use orientations::Misplaced;
 use silhouettes::Silhouettes;
@@ -116,15 +119,27 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
         sequence.frame_count
     );
     let plated = with_plates(&sequence, progress)?;
-    let sequence = plated.sequence.as_ref();
+    let opened_sequence = plated.sequence.as_ref();
+    let sequence = opened_sequence;
     let silhouettes = Silhouettes::read(sequence, first..end, settings.samples, progress)?;
+    let reach = far_reach(sequence.fps);
+    let begun = beginnings(sequence, &silhouettes, &(first..end), settings.samples, reach, progress)?;
+    let (sequence, silhouettes, begun) = match begun {
+        Some(Beginnings { sequence, silhouettes, delays, explained }) => {
+            (Cow::Owned(sequence), silhouettes, Some((delays, explained)))
+        }
+        None => (Cow::Borrowed(sequence), silhouettes, None),
+    };
+    let sequence = sequence.as_ref();
     let opened = format!("{} views, {} frames", sequence.views.len(), sequence.frame_count);
     let mut checks = vec![
         Finding::number("files", "views", sequence.views.len() as f64, [2.0, f64::INFINITY])
             .found(opened)
             .or("give the sequence a second camera: one alone cannot be checked"),
     ];
-    checks.extend(sequence.remarks_on_recordings().iter().map(|remark| Finding::not_measured("recordings", remark)));
+    checks.extend(
+        opened_sequence.remarks_on_recordings().iter().map(|remark| Finding::not_measured("recordings", remark)),
+    );
     checks.extend(view::lenses(&sequence.cameras));
     checks.push(view::up_axis(&sequence.cameras));
     checks.extend(plates(sequence, &plated));
@@ -149,37 +164,76 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
         let faults = if is_exchanged {
             Faults { findings: unmeasured("put right what is exchanged first"), rays: found }
         } else if let Some(misplaced) = &misplaced {
-            let findings = unmeasured("put the picture that is turned or mirrored right first");
+            let findings = unmeasured("put what is turned or mirrored right first");
             Faults { findings, rays: misplaced.rays.clone() }
         } else {
-            let stated: Vec<f64> = sequence.views.iter().map(|view| view.delay).collect();
+            let stated: Vec<f64> = opened_sequence.views.iter().map(|view| view.delay).collect();
             let reach = far_reach(sequence.fps);
             let mut widen = |wide: &[usize]| silhouettes.widened(sequence, wide, reach, progress);
-            let times = Times { stated: &stated, fps: sequence.fps, widen: &mut widen };
+            let begun = begun.as_ref().map(|(delays, explained)| (delays.as_slice(), *explained));
+            let times = Times { stated: &stated, begun, fps: sequence.fps, widen: &mut widen };
             faults::faults(&sequence.cameras, times, &silhouettes, RAYS)?
         };
         checks.extend(explained(&sequence.cameras, &faults.rays));
         checks.extend(exchanges);
-        checks.extend(misplaced.map(|misplaced| misplaced.finding(sequence)));
+        checks.extend(misplaced.map(|misplaced| misplaced.findings(sequence)).unwrap_or_default());
         checks.extend(faults.findings);
         checks.extend(person::person(&faults.rays, sequence.body.is_file().then_some(sequence.body.as_path()))?);
     }
     Ok(CheckReport::new(sequence.name.clone(), silhouettes.samples.clone(), checks))
 }
 
-/// A sentence where a camera's picture is turned or mirrored, so that it agrees with the others only once that is put right; none where all
-/// agree, or nothing tells.
+/// A sentence for each camera, one or two, whose picture is turned or mirrored, so that it agrees with the others only once that is put
+/// right; none where all agree, or nothing tells.
 ///
 /// # Errors
 /// When a picture cannot be read.
-pub fn misplaced_picture(sequence: &Sequence, progress: &mut Advance<'_>) -> Result<Option<String>> {
+pub fn misplaced_pictures(sequence: &Sequence, progress: &mut Advance<'_>) -> Result<Vec<String>> {
     let plated = with_plates(sequence, progress)?;
     let sequence = plated.sequence.as_ref();
     let frames = 0..sequence.frame_count.min(FRAMES);
     let silhouettes = Silhouettes::read(sequence, frames, CheckSettings::default().samples, progress)?;
     let found = rays(&sequence.cameras, &silhouettes.moments(), RAYS);
     let misplaced = Misplaced::find(&sequence.cameras, &silhouettes.moments(), &found);
-    Ok(misplaced.filter(|_| found.len() >= FEWEST_RAYS).map(|misplaced| misplaced.sentence(sequence)))
+    let misplaced = misplaced.filter(|_| found.len() >= FEWEST_RAYS);
+    Ok(misplaced.map(|misplaced| misplaced.sentences(sequence)).unwrap_or_default())
+}
+
+/// Whether the cameras of a sequence were started together.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Start {
+    /// Nothing says otherwise, or the manifest states it.
+    Unasked,
+    /// Their files say otherwise, and their silhouettes agree as they are.
+    Together,
+    /// They were not.
+    Apart {
+        /// Frames by which each view's pictures come too late.
+        delays: Vec<isize>,
+        /// The part of the views' borders that the others explain, %, as they are and with the views put together.
+        explained: [f64; 2],
+    },
+    /// Their files say otherwise, and their silhouettes agree neither way.
+    Untold,
+}
+
+/// Whether the cameras were started at different moments, as their files make likely and their silhouettes confirm.
+///
+/// # Errors
+/// When a picture cannot be read.
+pub fn started(sequence: &Sequence, progress: &mut Advance<'_>) -> Result<Start> {
+    if sequence.likely_delays().is_empty() {
+        return Ok(Start::Unasked);
+    }
+    let plated = with_plates(sequence, progress)?;
+    let sequence = plated.sequence.as_ref();
+    let (frames, samples) = (0..sequence.frame_count.min(FRAMES), CheckSettings::default().samples);
+    let silhouettes = Silhouettes::read(sequence, frames.clone(), samples, progress)?;
+    if beginnings::agree(&sequence.cameras, &silhouettes) {
+        return Ok(Start::Together);
+    }
+    let found = beginnings(sequence, &silhouettes, &frames, samples, far_reach(sequence.fps), progress)?;
+    Ok(found.map_or(Start::Untold, |begun| Start::Apart { delays: begun.delays, explained: begun.explained }))
 }
 
 /// Frames by which a camera is looked for that is far off in time: a second's, [`FAR_FRAMES`] where that is fewer.

@@ -14,7 +14,7 @@ const TELLING: f64 = 0.05;
 
 /// Rays a silhouette of the search far off, the samples that it needs at least, and the part of the disagreement that a place must take
 /// away: over so many places chance does more than over seven.
-const FAR_RAYS: usize = 20;
+pub(super) const FAR_RAYS: usize = 20;
 const FAR_SAMPLES: usize = 3;
 pub(super) const FAR_COUNTS: f64 = 0.3;
 /// Places that take away nearly as much as the best one, by this part of that: the nearest of them is meant, as a gait repeats itself.

@@ -1,13 +1,13 @@
 //! The smallest turn of a camera about its own centre after which the silhouettes agree best: by that angle it looks beside where its
-//! calibration says.
+//! calibration says. And the same together with its focal length.
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::agreement::{CAP, Moment, Ray, again, disagreement, rays_of};
 use super::partners::{fewer, partners, shows};
-use crate::geometry::{Camera, rodrigues_matrix};
+use crate::geometry::{Camera, Lens, rodrigues_matrix};
 
 /// Residuals beyond this many pixels are taken for faults of the silhouettes and weigh ever less.
 const SCALE: f64 = 1.5;
@@ -35,6 +35,37 @@ pub(super) struct Turn {
     pub(super) by: DVec3,
     /// One standard deviation, from the scatter over the moments.
     pub(super) scatter: DVec3,
+    /// Logarithm of the focal length over the stated one, and its standard deviation; 0 where that is not asked for.
+    pub(super) zoom: f64,
+    pub(super) zoom_scatter: f64,
+}
+
+/// What of a camera is free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Free {
+    /// Where it looks.
+    Turn,
+    /// That, and its focal length.
+    TurnAndZoom,
+}
+
+impl Free {
+    fn count(self) -> usize {
+        match self {
+            Self::Turn => 3,
+            Self::TurnAndZoom => 4,
+        }
+    }
+}
+
+/// The camera with another focal length, of which the logarithm grows by `zoom`.
+fn zoomed(camera: &Camera, zoom: f64) -> Camera {
+    let mut zoomed = camera.clone();
+    match &mut zoomed.lens {
+        Lens::Tsai(lens) => lens.f *= zoom.exp(),
+        Lens::BrownConrady(lens) => lens.focal *= zoom.exp(),
+    }
+    zoomed
 }
 
 /// The camera turned about its centre by a Rodrigues vector in its own axes, radians.
@@ -48,7 +79,11 @@ pub(super) fn turned(camera: &Camera, turn: DVec3) -> Camera {
 
 /// Every camera turned.
 pub(super) fn all_turned(cameras: &[Camera], turns: &[Turn]) -> Vec<Camera> {
-    cameras.iter().zip(turns).map(|(camera, turn)| turned(camera, turn.by)).collect()
+    let put = |(camera, turn): (&Camera, &Turn)| {
+        let camera = turned(camera, turn.by);
+        if turn.zoom == 0.0 { camera } else { zoomed(&camera, turn.zoom) }
+    };
+    cameras.iter().zip(turns).map(put).collect()
 }
 
 /// The rays that a change of one of the cameras `of` shows in.
@@ -59,7 +94,16 @@ pub(super) fn rays_that_show(cameras: &[Camera], moments: &[Moment], of: &[usize
 
 /// The best turns of the cameras `free` together, the others turned as they are; those that come in are where the search begins.
 pub(super) fn best_turns(cameras: &[Camera], moments: &[Moment], turns: &[Turn], free: &[usize]) -> Vec<Turn> {
-    let search = Search { cameras, moments, free };
+    best(cameras, moments, turns, free, Free::Turn)
+}
+
+/// [`best_turns`] of one camera, with its best focal length.
+pub(super) fn best_turn_and_zoom(cameras: &[Camera], moments: &[Moment], turns: &[Turn], view: usize) -> Vec<Turn> {
+    best(cameras, moments, turns, &[view], Free::TurnAndZoom)
+}
+
+fn best(cameras: &[Camera], moments: &[Moment], turns: &[Turn], free: &[usize], what: Free) -> Vec<Turn> {
+    let search = Search { cameras, moments, free, what };
     let mut turns = turns.to_vec();
     let first = search.rays(&turns);
     if disagreement(&first, CAP) > APART {
@@ -74,6 +118,7 @@ struct Search<'a> {
     cameras: &'a [Camera],
     moments: &'a [Moment<'a>],
     free: &'a [usize],
+    what: Free,
 }
 
 /// The normal equations of one moment's rays.
@@ -96,6 +141,7 @@ impl Search<'_> {
                 // A step too far: back half the way.
                 for (turn, best) in at.iter_mut().zip(turns.iter()) {
                     turn.by = (turn.by + best.by) * 0.5;
+                    turn.zoom = (turn.zoom + best.zoom) * 0.5;
                 }
                 damping *= 4.0;
                 continue;
@@ -107,7 +153,10 @@ impl Search<'_> {
                 break;
             };
             for (&camera, scatter) in self.free.iter().zip(scatter) {
-                at[camera].scatter = scatter;
+                at[camera].scatter = scatter.truncate();
+                if self.what == Free::TurnAndZoom {
+                    at[camera].zoom_scatter = scatter.w;
+                }
             }
             turns.clone_from(&at);
             let longest = step.iter().map(|turn| turn.length()).fold(0.0, f64::max);
@@ -115,24 +164,36 @@ impl Search<'_> {
                 break;
             }
             for (&camera, step) in self.free.iter().zip(step) {
-                at[camera].by += step * (LONGEST / longest).min(1.0);
+                let step = step * (LONGEST / longest).min(1.0);
+                at[camera].by += step.truncate();
+                at[camera].zoom += step.w;
             }
         }
     }
 
+    /// A camera's zoom where it is free; else it is as it is.
+    fn own_zoom(&self, turn: &Turn) -> f64 {
+        if self.what == Free::TurnAndZoom { turn.zoom } else { 0.0 }
+    }
+
     fn cost(&self, rays: &[Ray], turns: &[Turn], scale: f64) -> f64 {
         let seen: f64 = rays.iter().map(|ray| scale * scale * (1.0 + (ray.excess() / scale).powi(2)).ln()).sum();
-        let turned: f64 = self.free.iter().map(|&camera| turns[camera].by.length_squared()).sum();
+        let squares = |&camera: &usize| turns[camera].by.extend(self.own_zoom(&turns[camera])).length_squared();
+        let turned: f64 = self.free.iter().map(squares).sum();
         (seen + prior(rays.len()) * turned) / rays.len().max(1) as f64
     }
 
     /// One damped step of each free camera, and the scatter of where it leads: the moments' own wishes to go elsewhere.
-    fn step(&self, rays: &[Ray], turns: &[Turn], scale: f64, damping: f64) -> Option<(Vec<DVec3>, Vec<DVec3>)> {
-        let unknowns = 3 * self.free.len();
+    fn step(&self, rays: &[Ray], turns: &[Turn], scale: f64, damping: f64) -> Option<(Vec<DVec4>, Vec<DVec4>)> {
+        let each = self.what.count();
+        let unknowns = each * self.free.len();
         let moments = self.normal_equations(rays, turns, scale);
         let prior = prior(rays.len());
         let mut matrix = DMatrix::from_diagonal_element(unknowns, unknowns, prior);
-        let mut vector = DVector::from_fn(unknowns, |at, _| prior * turns[self.free[at / 3]].by[at % 3]);
+        let mut vector = DVector::from_fn(unknowns, |at, _| {
+            let turn = &turns[self.free[at / each]];
+            prior * turn.by.extend(turn.zoom)[at % each]
+        });
         let mut spread = DMatrix::zeros(unknowns, unknowns);
         for (moment_matrix, moment_vector) in &moments {
             matrix += moment_matrix;
@@ -150,23 +211,26 @@ impl Search<'_> {
             matrix[(at, at)] *= 1.0 + 0.1 * damping;
         }
         let solution = matrix.cholesky()?.solve(&vector);
-        let three = |value: &dyn Fn(usize) -> f64| {
-            (0..self.free.len()).map(|at| DVec3::from_array([0, 1, 2].map(|axis| value(3 * at + axis)))).collect()
+        let of_cameras = |value: &dyn Fn(usize) -> f64| {
+            let own = |at: usize, axis: usize| if axis < each { value(each * at + axis) } else { 0.0 };
+            (0..self.free.len()).map(|at| DVec4::from_array([0, 1, 2, 3].map(|axis| own(at, axis)))).collect()
         };
-        Some((three(&|at| -solution[at]), three(&|at| covariance[(at, at)].max(0.0).sqrt())))
+        Some((of_cameras(&|at| -solution[at]), of_cameras(&|at| covariance[(at, at)].max(0.0).sqrt())))
     }
 
     fn normal_equations(&self, rays: &[Ray], turns: &[Turn], scale: f64) -> Vec<Normal> {
-        let unknowns = 3 * self.free.len();
+        let each = self.what.count();
+        let unknowns = each * self.free.len();
         let current = all_turned(self.cameras, turns);
         let moved: Vec<[Vec<Camera>; 2]> = (0..unknowns)
             .map(|unknown| {
                 [STEP, -STEP].map(|step| {
                     let mut moved = current.clone();
-                    let mut turn = DVec3::ZERO;
-                    turn[unknown % 3] = step;
-                    let camera = self.free[unknown / 3];
-                    moved[camera] = turned(&current[camera], turn);
+                    let mut turn = DVec4::ZERO;
+                    turn[unknown % each] = step;
+                    let camera = self.free[unknown / each];
+                    let own = turned(&current[camera], turn.truncate());
+                    moved[camera] = if turn.w == 0.0 { own } else { zoomed(&own, turn.w) };
                     moved
                 })
             })
@@ -184,7 +248,7 @@ impl Search<'_> {
                 }
             };
             let involved = (0..unknowns).filter(|unknown| {
-                let camera = self.free[unknown / 3];
+                let camera = self.free[unknown / each];
                 camera == ray.view || partners.contains(&camera)
             });
             involved.map(|unknown| (unknown, slope(unknown))).collect::<Vec<_>>()

@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
 
+use super::belonging::refuse_with;
 use super::calibrate_board::{BoardFlags, tell_of};
 use super::output::put;
 use crate::calibrate::{
@@ -114,11 +115,8 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<()> {
 }
 
 fn from_board(args: &CalibrateArgs, settings: CalibrationSettings) -> Result<Vec<Calibration>> {
-    ensure!(args.layout.is_none(), "--layout was given with --board, which is a plane at many places");
-    ensure!(
-        !args.keep_outliers,
-        "--keep-outliers was given with --board, from whose views wrong ones are always left out"
-    );
+    // A board is a plane at many places, and wrong views of it are always left out.
+    refuse_with("--board", &[("--layout", args.layout.is_some()), ("--keep-outliers", args.keep_outliers)])?;
     let lens = BoardSettings::default();
     let model = args.model.unwrap_or(lens.model);
     let found = args

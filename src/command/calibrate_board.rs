@@ -7,6 +7,7 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use image::{DynamicImage, GrayImage};
 use rayon::prelude::*;
 
+use super::belonging::{refuse_with, refuse_without};
 use super::output::{put, tell};
 use super::progress::ProgressBar;
 use crate::calibrate::{
@@ -80,7 +81,7 @@ impl BoardFlags {
     /// # Errors
     /// With the option.
     pub(super) fn refuse_without_board(&self) -> Result<()> {
-        for (option, given) in [
+        let options = [
             ("--corners", self.corners.is_some()),
             ("--squares", self.squares.is_some()),
             ("--square", self.square.is_some()),
@@ -89,10 +90,8 @@ impl BoardFlags {
             ("--thickness", self.thickness != 0.0),
             ("--floor", self.floor.is_some()),
             ("--samples", self.samples != SAMPLES),
-        ] {
-            ensure!(!given, "{option} is for --board, expected it beside that alone");
-        }
-        Ok(())
+        ];
+        refuse_without("--board", &options)
     }
 
     fn board(&self) -> Result<Board> {
@@ -101,7 +100,7 @@ impl BoardFlags {
             self.square.context("--square is missing, expected the side of a square in mm, measured on the print")?;
         let board = match kind {
             BoardKind::Chessboard => {
-                ensure!(self.marker.is_none(), "--marker was given with --board chessboard, which has none");
+                refuse_with("--board chessboard", &[("--marker", self.marker.is_some())])?;
                 let corners = self.corners.context(
                     "--corners is missing, expected the chessboard's inner corners, where four squares meet, like 9x6",
                 )?;

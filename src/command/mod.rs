@@ -1,6 +1,7 @@
 //! The subcommands: arguments to library calls, progress bars, messages. Nothing is computed here.
 
 mod batch;
+mod belonging;
 mod bench;
 mod calibrate;
 mod calibrate_board;

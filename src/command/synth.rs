@@ -5,8 +5,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 
+use super::belonging::refuse_without;
 use super::draws::Draws;
 use super::output::{say, tell};
 use super::progress::ProgressBar;
@@ -114,9 +115,7 @@ pub(super) fn made(args: &SynthArgs, progress: &(dyn Fn(usize, usize) -> Result<
         return drawn_by_lot(args, seed, progress);
     }
     // A requirement of the parser's own gives way to what conflicts with it.
-    for (option, given) in [("--motions", &args.motions), ("--people", &args.people)] {
-        ensure!(given.is_none(), "{option} is for --lottery, expected it beside that alone");
-    }
+    refuse_without("--lottery", &[("--motions", args.motions.is_some()), ("--people", args.people.is_some())])?;
     let mut scene = match (&args.scene, &args.preset) {
         (Some(path), _) => Scene::load(path)?,
         (None, preset) => Scene::preset(preset.unwrap_or(ScenePreset::Demo).name())?,

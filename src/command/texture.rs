@@ -8,6 +8,7 @@ use clap::builder::NonEmptyStringValueParser;
 use image::codecs::png::PngEncoder;
 use image::{DynamicImage, GrayImage, RgbImage};
 
+use super::belonging::{refuse_with, refuse_without};
 use super::draws::Draws;
 use super::output::{put, say};
 use super::progress::ProgressBar;
@@ -258,7 +259,7 @@ fn list(args: &TextureArgs, output: Option<&Path>) -> Result<()> {
 fn of_material(args: &TextureArgs, name: &str) -> Result<DynamicImage> {
     check_size(args.size).context("--size")?;
     let usual = Settings::default();
-    for (option, given) in [
+    let of_example = [
         ("--patch", args.patch != usual.patch),
         ("--overlap", args.overlap != usual.overlap),
         ("--delta-max", args.delta_max != usual.delta_max),
@@ -266,9 +267,8 @@ fn of_material(args: &TextureArgs, name: &str) -> Result<DynamicImage> {
         ("--mask", !args.mask.is_empty()),
         ("--decomposition", args.decomposition.is_some()),
         ("--resynthesised", args.resynthesised.is_some()),
-    ] {
-        ensure!(!given, "{option} is for --example and means nothing with a material");
-    }
+    ];
+    refuse_without("--example", &of_example)?;
     let object = args.preview.map(Preview::object);
     let is_on_object = matches!(object, Some(Object::Solid(_) | Object::Person));
     let scale = args.scale.unwrap_or(if is_on_object { 1.0 } else { 4.0 });
@@ -281,9 +281,8 @@ fn of_material(args: &TextureArgs, name: &str) -> Result<DynamicImage> {
     };
     let tile = args.tile.then(|| view.extent());
     let material = Material::of_noise(args.noise, name, parameters, args.seed, tile)?;
-    if args.person.is_some() && !matches!(args.preview, Some(Preview::Person)) {
-        bail!("--person is for --preview person and means nothing with another one");
-    }
+    let is_on_another = !matches!(args.preview, Some(Preview::Person));
+    refuse_without("--preview person", &[("--person", args.person.is_some() && is_on_another)])?;
     let device = args.backend.device()?;
     let painter = Painter::new(&material, device.as_ref())?;
     Ok(match object {
@@ -365,18 +364,15 @@ fn holes_of(args: &TextureArgs, path: &Path, example: &DynamicImage) -> Result<O
 }
 
 fn from_examples(args: &TextureArgs) -> Result<Drawn> {
-    for (name, given) in [
+    let of_material = [
         ("--params", args.params.is_some()),
         ("--preview", args.preview.is_some()),
         ("--height-map", args.height_map),
         ("--scale", args.scale.is_some()),
         ("--depth 16", args.depth == "16"),
         ("--noise", args.noise != NoiseWay::default()),
-    ] {
-        if given {
-            bail!("{name} is for materials and means nothing with --example");
-        }
-    }
+    ];
+    refuse_with("--example", &of_material)?;
     ensure!(
         args.mask.len() <= args.example.len(),
         "{} masks for {} examples, expected at most one for each",

@@ -101,6 +101,11 @@ pub(super) struct TrackOptions {
     /// Draw the model over the pictures every N frames; 0 for never. Without: 10, and 0 in real time, which drawing disturbs.
     #[arg(long, value_name = "N")]
     overlay_every: Option<usize>,
+    /// Write which part of the body shows at each pixel too: labels/CAMERA_%06d.png, a picture a view and frame in the videos' own size, 8-bit
+    /// grey, 0 where nothing of the body is and else the part's `label` (1 to 127; labels.csv beside them names the parts). Frames in which the
+    /// person is lost have none.
+    #[arg(long)]
+    labels: bool,
     /// Measure every pass on the Vulkan device too, for trace.json and stages.json; it costs some time of its own.
     #[arg(long)]
     trace: bool,
@@ -156,6 +161,7 @@ impl TrackOptions {
             start: self.start.clone(),
             smooth: self.smooth,
             overlay_every: self.overlay_every.unwrap_or(default_overlay),
+            labels: self.labels,
             trace: self.trace,
             recording: self.rerun,
             resume: false,

@@ -18,9 +18,36 @@ pub(crate) fn beside(folder: &Path, file: &Path) -> PathBuf {
     }
 }
 
+/// A file as `folder` names it, so that both may be moved together: up at most `up` folders and down again, in full where that does not lead
+/// there or leads over the root alone. Both are absolute and without links.
+pub(crate) fn seen_from(folder: &Path, file: &Path, up: usize) -> PathBuf {
+    let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
+    let ways_up = folder.components().count() - common;
+    if common <= 1 || ways_up > up {
+        return file.to_path_buf();
+    }
+    let down = file.components().skip(common);
+    std::iter::repeat_n(Component::ParentDir, ways_up).chain(down).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn files_are_named_so_that_they_may_be_moved_with_their_folder() {
+        let own = Path::new("/data/session/anna/walk/pantin");
+        for (file, up, expected) in [
+            ("/data/session/anna/walk/videos/cam1.mp4", 3, "../videos/cam1.mp4"),
+            ("/data/session/anna/walk/pantin/a_%04d.png", 3, "a_%04d.png"),
+            ("/data/session/calibration/c.toml", 3, "../../../calibration/c.toml"),
+            ("/data/plates/cam1.png", 3, "/data/plates/cam1.png"),
+            ("/data/plates/cam1.png", usize::MAX, "../../../../plates/cam1.png"),
+            ("/etc/c.toml", usize::MAX, "/etc/c.toml"),
+        ] {
+            assert_eq!(seen_from(own, Path::new(file), up), Path::new(expected));
+        }
+    }
 
     #[test]
     fn no_way_leads_in_and_out_again() {

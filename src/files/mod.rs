@@ -12,7 +12,7 @@ mod shortened;
 mod stem;
 mod toml_file;
 
-pub(crate) use beside::beside;
+pub(crate) use beside::{beside, seen_from};
 pub(crate) use choice::choices;
 pub use choice::{Choice, ChoiceParser, deserialize as deserialize_choice, expected, names, nearest, unknown};
 pub use exact::{exactly, exactly_if_any};

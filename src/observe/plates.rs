@@ -7,7 +7,8 @@ use anyhow::{Context, Result};
 
 use crate::features::LearntPlate;
 use crate::features::clean_plate::{FEWEST_PICTURES, PASSES};
-use crate::sequence::{Footage, Sequence, View};
+use crate::files::listed;
+use crate::sequence::{DOUBTFUL, Footage, Sequence, View};
 
 /// Hears of long work: what is being done, how many steps of it are done, and of how many.
 pub type Advance<'a> = dyn FnMut(&'static str, usize, usize) + 'a;
@@ -100,6 +101,23 @@ impl<'a> Plated<'a> {
                 .collect::<Vec<_>>()
         };
         self.learnt.iter().flat_map(of_view).collect()
+    }
+
+    /// A sentence for whoever reads how far a track is expected to be off, where a plate may hold the person: errors are expected from what the
+    /// silhouettes show, and a limb that is part of the plate is not among it.
+    pub fn doubt(&self) -> Option<String> {
+        let stated = self.sequence.views.iter().filter(|view| view.background.is_some());
+        let stated = stated.map(|view| (view.camera.as_str(), view.background_doubtful));
+        let learnt = self.learnt.iter().map(|view| (view.camera.as_str(), view.plate.percent_doubtful()));
+        let doubtful = stated.chain(learnt).filter(|(_, doubtful)| *doubtful > DOUBTFUL);
+        let cameras: Vec<&str> = doubtful.map(|(camera, _)| camera).collect();
+        (!cameras.is_empty()).then(|| {
+            format!(
+                "the plates of {} may hold the person, and the expected errors (sigma, wrong) are too small where they do: limbs that are part of a \
+                 plate are missing in what they are judged by",
+                listed(&cameras)
+            )
+        })
     }
 }
 

@@ -10,6 +10,7 @@ use super::calibration::read_cameras_sized;
 use super::coverage::check_coverage;
 use super::footage::{Footage, is_pattern};
 use super::ignored::Ignored;
+use super::likely_delays::likely_delays;
 use super::live_options;
 use super::person::{Person, PersonTable, check_names};
 use super::pictures::{shown, still};
@@ -51,6 +52,9 @@ pub struct Sequence {
     pub views: Vec<View>,
     /// Frames in every view; [`Sequence::NO_END`] where they are live.
     pub frame_count: usize,
+    /// The views as they were recorded, and what their times are taken for.
+    recorded: Arc<[Recorded]>,
+    stamps: Option<Stamps>,
     /// What a user should know of how the videos were recorded, a sentence each.
     warnings: Vec<String>,
     /// What is made of them because the files or the manifest say so, a sentence each.
@@ -331,6 +335,34 @@ impl Sequence {
         &self.notes
     }
 
+    /// Delays of its views that their files make likely, whole frames each: how long they are, their clocks and time stamps. None where all
+    /// say that the cameras began together, or the manifest states a delay.
+    pub fn likely_delays(&self) -> Vec<Vec<f64>> {
+        if self.is_live() { Vec::new() } else { likely_delays(&self.recorded, self.fps) }
+    }
+
+    /// The same sequence as if its manifest stated these delays, frames, one a view.
+    ///
+    /// # Errors
+    /// When a view has no frame that the others have, or it is live.
+    pub fn delayed(&self, delays: &[f64]) -> Result<Self> {
+        let with = |(recorded, &delay): (&Recorded, &f64)| Recorded { delay: Some(delay), ..recorded.clone() };
+        let recorded: Arc<[Recorded]> = self.recorded.iter().zip(delays).map(with).collect();
+        let together =
+            synchronise(&recorded, self.fps, self.stamps).with_context(|| self.path.display().to_string())?;
+        let views = self.views.iter().zip(together.picks).zip(delays);
+        let views = views.map(|((view, picks), &delay)| View { picks, delay, ..view.clone() }).collect();
+        let turned = recorded.iter().filter_map(|view| view.footage.turned());
+        Ok(Self {
+            notes: turned.chain(together.notes).collect(),
+            warnings: together.remarks,
+            frame_count: together.frame_count,
+            views,
+            recorded,
+            ..self.clone()
+        })
+    }
+
     fn refuse_live(&self) -> Result<()> {
         if let Some(view) = self.views.iter().find(|view| matches!(view.source, Source::Live(_))) {
             bail!(
@@ -450,6 +482,8 @@ impl Sequence {
             truth,
             views,
             frame_count: together.frame_count,
+            recorded: recorded.into(),
+            stamps: file.timestamps,
             warnings,
             notes,
             objective: file.objective,

@@ -689,8 +689,49 @@ fn a_camera_that_was_started_late_is_put_right_by_one_key() {
     assert!(of("3").contains("camera \"cam03\" has no frame"), "{}", of("3"));
     assert!(of("nan").contains("the delay of camera \"cam03\" is NaN"), "{}", of("nan"));
     assert!(of("1e9").contains("expected at most 100000 frames"), "{}", of("1e9"));
-    let error = scene.error("", &[&Scene::view("cam01"), &Scene::view("cam02")]);
-    assert!(error.contains("expected views of the same length (or `delay` in the [[view]]"), "{error}");
+}
+
+#[test]
+fn views_of_different_lengths_are_taken_as_far_as_all_go_and_said() {
+    let scene = Scene::new();
+    scene.pictures("cam02", CAMERA_SIZE, 5);
+    scene.manifest("", &[&Scene::view("cam01"), &Scene::view("cam02")]);
+    let sequence = Sequence::open(scene.folder.path()).unwrap();
+    assert_eq!(sequence.frame_count, 3);
+    let remarks = sequence.remarks();
+    assert!(remarks.len() == 2 && remarks[0].contains("cam01 3, cam02 5"), "{remarks:?}");
+    assert!(remarks[1].contains("look for the delay") && sequence.notes() == &remarks[..1], "{remarks:?}");
+    // What the lengths make likely is a guess, and too short a stretch makes none.
+    assert!(sequence.likely_delays().is_empty());
+    scene.pictures("cam01", CAMERA_SIZE, 20);
+    scene.pictures("cam02", CAMERA_SIZE, 25);
+    let sequence = Sequence::open(scene.folder.path()).unwrap();
+    assert_eq!(sequence.likely_delays(), [[-5.0, 0.0]]);
+    let delayed = sequence.delayed(&[-5.0, 0.0]).unwrap();
+    assert_eq!((delayed.frame_count, delayed.views[0].delay), (20, -5.0));
+    let set = delayed.read_frames(1..2).unwrap().next_frame().unwrap().unwrap();
+    assert_eq!([0, 1].map(|view: usize| set.pictures[view].get_pixel(0, 0)[0]), [20, 70]);
+    assert!(sequence.delayed(&[0.0, 60.0]).is_err());
+}
+
+#[test]
+fn videos_that_filmed_as_long_at_other_rates_are_taken_by_their_times() {
+    if !ffmpeg_is_here("videos_that_filmed_as_long_at_other_rates_are_taken_by_their_times") {
+        return;
+    }
+    let scene = Scene::new();
+    numbered_video(&scene.path("a.mkv"), 25, 12, "0");
+    numbered_video(&scene.path("b.mkv"), 50, 20, "0");
+    let views = ["camera = \"cam01\"\nsource = \"a.mkv\"", "camera = \"cam02\"\nsource = \"b.mkv\""];
+    scene.manifest("", &views);
+    let sequence = Sequence::open(scene.folder.path()).unwrap();
+    assert_eq!(numbers(&sequence, 0, 0..10), (0..10).collect::<Vec<u8>>());
+    assert_eq!(numbers(&sequence, 1, 0..10), (0..20).step_by(2).collect::<Vec<u8>>());
+    let remarks = sequence.remarks();
+    assert!(
+        remarks.iter().any(|remark| remark.contains("cam02 50.000") && remark.contains("nearest in time")),
+        "{remarks:?}"
+    );
 }
 
 #[test]

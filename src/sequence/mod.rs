@@ -6,6 +6,7 @@ mod footage;
 mod frames;
 mod ignored;
 mod in_step;
+mod likely_delays;
 mod live;
 mod live_options;
 mod manifest;

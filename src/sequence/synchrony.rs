@@ -7,6 +7,7 @@ use anyhow::{Result, bail};
 
 use super::footage::Footage;
 use super::source::Source;
+use super::timestamps::Timestamps;
 use crate::files::{choices, listed};
 
 /// Rates of frames that differ by less than this share are one rate.
@@ -15,6 +16,10 @@ pub(crate) const SAME_RATE: f64 = 1e-3;
 const LIKE_RATE: f64 = 0.05;
 /// Frames by which a camera may be late.
 pub(super) const MOST_DELAY: f64 = 100_000.0;
+/// What is said where lengths differ by so many frames and no delay is stated; cameras that are triggered together differ by one.
+const FRAMES_APART: usize = 2;
+const UNTOLD: &str = "whether the cameras were started together their files do not say: frame 0 of all is taken for one moment; \
+                      `pantin start` and `pantin check` look for the delay, and `delay` in a [[view]] states it (0 where they were)";
 /// First pictures that are further apart than this share of a frame were not taken at one moment, if the files' clocks are one.
 const APART: f64 = 0.5;
 
@@ -29,6 +34,7 @@ choices! {
 }
 
 /// One view as it was recorded.
+#[derive(Clone, Debug)]
 pub(super) struct Recorded {
     /// The camera's name.
     pub(super) camera: String,
@@ -41,6 +47,15 @@ pub(super) struct Recorded {
 impl Recorded {
     fn is_live(&self) -> bool {
         matches!(self.footage.source, Source::Live(_))
+    }
+
+    /// How long it filmed, s.
+    pub(super) fn seconds(&self, fps: f64) -> f64 {
+        let footage = &self.footage;
+        match &footage.times {
+            Some(times) => times.seconds(),
+            None => footage.frame_count as f64 / footage.fps.unwrap_or(fps),
+        }
     }
 }
 
@@ -60,8 +75,8 @@ pub(super) struct Synchrony {
 /// Puts the views of a sequence of `fps` frames a second together in time.
 ///
 /// # Errors
-/// When views that are one picture a frame differ in length and nothing says when they begin; a delay is out of range or longer than the
-/// view; timestamps make no sense.
+/// When views that are one picture a frame differ in length since pictures are missing or came at other rates; a delay is out of range or
+/// longer than the view; timestamps make no sense.
 pub(super) fn synchronise(views: &[Recorded], fps: f64, stamps: Option<Stamps>) -> Result<Synchrony> {
     if views.iter().any(Recorded::is_live) {
         return live(views);
@@ -86,8 +101,14 @@ pub(super) fn synchronise(views: &[Recorded], fps: f64, stamps: Option<Stamps>) 
     let length =
         |(view, picks): (&Recorded, &Option<Vec<u32>>)| picks.as_ref().map_or(view.footage.frame_count, Vec::len);
     let lengths: Vec<usize> = views.iter().zip(&picks).map(length).collect();
-    let may_differ = resampled || views.iter().any(|view| view.delay.is_some());
+    let is_stated = views.iter().any(|view| view.delay.is_some());
+    // Pictures that are missing or came at another rate shift all that follow them: then a length tells nothing of when a view ended.
+    let are_regular = views.iter().all(|view| view.footage.times.as_ref().is_none_or(Timestamps::is_regular));
+    let may_differ = resampled || is_stated || (are_regular && are_of_one_rate(views));
     let frame_count = common_length(views, &lengths, may_differ, &remarks, &mut notes)?;
+    if lengths.iter().any(|length| length - frame_count >= FRAMES_APART) && !is_stated {
+        remarks.push(UNTOLD.to_string());
+    }
     if stamps != Some(Stamps::Ignore) {
         remarks.extend(rates(views, fps, resampled));
         remarks.extend(beginnings(views, fps));
@@ -126,6 +147,9 @@ fn is_resampled(views: &[Recorded], fps: f64, stamps: Option<Stamps>, remarks: &
     if let Some(stamps) = stamps {
         return stamps == Stamps::Resample;
     }
+    if !are_of_one_rate(views) && lasted_alike(views, fps) {
+        return true;
+    }
     let irregular: Vec<&Recorded> =
         views.iter().filter(|view| view.footage.times.as_ref().is_some_and(|times| !times.is_regular())).collect();
     let rate = |view: &Recorded| view.footage.fps.map_or(f64::INFINITY, |rate| (rate / fps - 1.0).abs());
@@ -147,6 +171,24 @@ fn is_resampled(views: &[Recorded], fps: f64, stamps: Option<Stamps>, remarks: &
         ));
     }
     !irregular.is_empty() && believed
+}
+
+/// Whether no two videos tell of different rates.
+fn are_of_one_rate(views: &[Recorded]) -> bool {
+    let rates = || views.iter().filter_map(|view| view.footage.fps);
+    rates().fold(0.0, f64::max) <= rates().fold(f64::INFINITY, f64::min) * (1.0 + SAME_RATE)
+}
+
+/// Whether videos, all of which have time stamps, are more alike in how long they lasted than in how many pictures they have: then the
+/// cameras filmed at the rates that the files say. Cameras that were triggered together have as many pictures each, whatever the files say.
+fn lasted_alike(views: &[Recorded], fps: f64) -> bool {
+    let spread = |values: Vec<f64>| {
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        values.iter().copied().fold(0.0, f64::max) / least.max(f64::MIN_POSITIVE)
+    };
+    let counts = views.iter().map(|view| view.footage.frame_count as f64).collect();
+    let lasted = views.iter().map(|view| view.seconds(fps)).collect();
+    views.iter().all(|view| view.footage.times.is_some()) && spread(lasted) < spread(counts)
 }
 
 /// The number of frames that all views have.
@@ -182,9 +224,9 @@ fn common_length(
         (Some(a), Some(b)) if (a / b - 1.0).abs() > SAME_RATE => format!(
             "their files have {a:.3} and {b:.3} frames a second: `timestamps = \"resample\"` takes the pictures nearest in time"
         ),
-        _ => "or `delay` in the [[view]] of a camera that was started early or late: frames by which its pictures come too late; with \
-              `delay = 0` the frames that all have are taken, and `pantin check` looks for the delay"
-            .to_string(),
+        _ => {
+            "pictures are missing in one of them; `delay = 0` in a [[view]] takes the frames that all have".to_string()
+        }
     };
     bail!(
         "camera {:?} has {} frames and camera {:?} has {} ({}; {}), expected views of the same length ({hint})",
@@ -220,7 +262,7 @@ fn rates(views: &[Recorded], fps: f64, resampled: bool) -> Vec<String> {
     let Some((_, rate)) = off.first() else { return Vec::new() };
     let one = views.len() == off.len() && off.iter().all(|(_, other)| (other / rate - 1.0).abs() <= SAME_RATE);
     let then = if resampled {
-        "of each video the pictures nearest in time are taken"
+        "of each video the pictures nearest in time are taken (`timestamps = \"ignore\"` takes every picture as a frame)"
     } else if one {
         "times and speeds follow from `fps`: state the rate at which the cameras filmed (`timestamps = \"ignore\"` says that it is so)"
     } else {
@@ -265,7 +307,7 @@ fn beginnings(views: &[Recorded], fps: f64) -> Vec<String> {
     {
         remarks.push(format!(
             "the videos say that they were made at different times, {camera} at {time} and {other} at {later}: frame 0 of all is taken for one \
-             moment, which `pantin check` tests by up to three frames (`delay` in a [[view]])"
+             moment; `pantin start` and `pantin check` look for the delay (`delay` in a [[view]])"
         ));
     }
     remarks

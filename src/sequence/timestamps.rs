@@ -58,6 +58,11 @@ impl Timestamps {
         self.times[self.times.len() - 1] - self.times[0]
     }
 
+    /// How long the recording is, its last picture's own time with it, s.
+    pub(super) fn seconds(&self) -> f64 {
+        self.span() + self.usual_step()
+    }
+
     /// The median time from a picture to the next, seconds.
     pub fn median_step(&self) -> f64 {
         let mut steps: Vec<f64> = self.steps().collect();

@@ -39,7 +39,7 @@ pub fn track(
     );
     let plated = plated(sequence, settings, progress)?;
     let (sequence, found) = with_start(&plated.sequence, settings, output, progress)?;
-    let warnings = sequence.remarks().into_iter().chain(plated.remarks()).chain(found).collect();
+    let warnings = sequence.remarks().into_iter().chain(plated.remarks()).chain(plated.doubt()).chain(found).collect();
     let planned = Planned::new(sequence.as_ref(), settings, output, warnings)?;
     let Begun { mut run, record, done, warnings } = planned.begin()?;
     progress.start(&run.start(done.len(), &warnings));
@@ -49,7 +49,7 @@ pub fn track(
     let ends_anywhere = run.ends_anywhere();
     if !ends_anywhere || done == 0 {
         searched?;
-        let summary = run.finish(&record, warnings)?;
+        let summary = run.finish(&record, warnings, progress)?;
         if ends_anywhere {
             let ended = summary.realtime.and_then(|realtime| realtime.ended);
             bail!("no pose was made: {}", ended.as_deref().unwrap_or("no set of pictures of all views came"));
@@ -57,7 +57,7 @@ pub fn track(
         return Ok(summary);
     }
     // What a source delivered before it failed is as good as ever.
-    let finished = run.finish(&record, warnings);
+    let finished = run.finish(&record, warnings, progress);
     searched.map_err(|error| anyhow!("{error:#}; the {done} poses before it are in {}", output.path().display()))?;
     finished
 }

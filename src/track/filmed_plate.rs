@@ -9,7 +9,7 @@ use anyhow::{Context, Result, bail};
 use crate::files::{PICTURE_ENDINGS, listed};
 
 /// The picture that bears one of the names, in the first of the folders that has one, as an absolute path; where none has, the only one
-/// whose name contains one of them (`bg_cam01.png`).
+/// whose name contains one of them (`bg_cam01.png`), of several the only one whose name ends with it (not `bg_cam01_half.png`).
 ///
 /// # Errors
 /// When none of the folders has one, or several contain the name: with the folder and the first name.
@@ -22,7 +22,11 @@ pub(super) fn filmed_plate(folders: &[PathBuf], names: &[&str]) -> Result<PathBu
         }
     }
     for folder in folders {
-        let contained = containing(folder, names);
+        let mut contained = containing(folder, names);
+        let ends = |file: &PathBuf| names.iter().any(|name| stem(file).ends_with(&name.to_lowercase()));
+        if contained.iter().filter(|file| ends(file)).count() == 1 {
+            contained.retain(ends);
+        }
         match contained.as_slice() {
             [] => {}
             [file] => return fs::canonicalize(file).with_context(|| format!("cannot read {}", file.display())),
@@ -50,14 +54,22 @@ pub(super) fn filmed_plate(folders: &[PathBuf], names: &[&str]) -> Result<PathBu
 fn containing(folder: &Path, names: &[&str]) -> Vec<PathBuf> {
     let files = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let is_one = |file: &PathBuf| {
-        let lower = |part: Option<&OsStr>| part.map(|part| part.to_string_lossy().to_lowercase()).unwrap_or_default();
-        let (stem, ending) = (lower(file.file_stem()), lower(file.extension()));
+        let (stem, ending) = (stem(file), lower(file.extension()));
         let is_named = names.iter().any(|name| !name.is_empty() && holds(&stem, &name.to_lowercase()));
         is_named && PICTURE_ENDINGS.contains(&ending.as_str()) && file.is_file()
     };
     let mut files: Vec<PathBuf> = files.filter(is_one).collect();
     files.sort();
     files
+}
+
+fn lower(part: Option<&OsStr>) -> String {
+    part.map(|part| part.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
+/// A file's name without its ending, in small letters.
+fn stem(file: &Path) -> String {
+    lower(file.file_stem())
 }
 
 /// Whether a name contains a camera's, and not as the beginning of a longer number: `cam1` is not in `cam10`.
@@ -78,9 +90,17 @@ mod tests {
     #[test]
     fn plates_may_be_called_after_their_cameras_and_more() {
         let folder = tempfile::tempdir().unwrap();
-        for name in
-            ["bg_cam1.png", "cam10_background.PNG", "cam2.png", "old_cam2.png", "a_cam3.png", "b_cam3.jpg", "cam4.txt"]
-        {
+        for name in [
+            "bg_cam1.png",
+            "cam10_background.PNG",
+            "cam2.png",
+            "old_cam2.png",
+            "a_cam3.png",
+            "b_cam3.jpg",
+            "cam4.txt",
+            "bg_cam5.png",
+            "bg_cam5_half.png",
+        ] {
             fs::write(folder.path().join(name), "").unwrap();
         }
         let plate = |camera: &str| {
@@ -97,6 +117,7 @@ mod tests {
             "{plate:?}",
             plate = plate("cam3")
         );
+        assert_eq!(plate("cam5").unwrap(), "bg_cam5.png", "what ends with the name comes first");
         assert!(plate("cam4").unwrap_err().contains("holds no cam4.png"));
     }
 }

@@ -6,10 +6,10 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 use super::journal::Journal;
-use super::{motion_files, overlay, page, realtime, run_record, smoothed};
+use super::{labels, motion_files, overlay, page, realtime, run_record, smoothed};
 use crate::files::OutputFolder;
 
-/// Everything a run writes but its overlays.
+/// Everything a run writes but its overlays and labels.
 const FILES: [&str; 14] = [
     "poses.csv",
     "joints.csv",
@@ -37,13 +37,16 @@ pub(super) fn clear(output: &OutputFolder) -> Result<()> {
             }
         }
     }
-    let overlays = output.path().join(overlay::FOLDER);
-    if overlays.is_dir() {
-        let cannot = || format!("cannot read the folder {}", overlays.display());
-        for entry in fs::read_dir(&overlays).with_context(cannot)? {
-            let path = entry.with_context(cannot)?.path();
-            if overlay::is_one(&path) {
-                remove(&path)?;
+    let drawn: [(&str, fn(&Path) -> bool); 2] = [(overlay::FOLDER, overlay::is_one), (labels::FOLDER, labels::is_one)];
+    for (name, is_one) in drawn {
+        let folder = output.path().join(name);
+        if folder.is_dir() {
+            let cannot = || format!("cannot read the folder {}", folder.display());
+            for entry in fs::read_dir(&folder).with_context(cannot)? {
+                let path = entry.with_context(cannot)?.path();
+                if is_one(&path) {
+                    remove(&path)?;
+                }
             }
         }
     }

@@ -25,6 +25,7 @@ mod hindsight;
 mod histogram;
 mod hull;
 mod journal;
+mod labels;
 mod motion;
 mod motion_files;
 mod objective_choice;

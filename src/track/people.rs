@@ -79,8 +79,9 @@ pub fn track_people(
     let alone: Vec<Sequence> = sequence.people.iter().map(|person| sequence.of_person(person)).collect();
     let folders = sequence.people.iter().map(|person| OutputFolder::open(&output.path().join(&person.name)));
     let folders = folders.collect::<Result<Vec<_>>>()?;
+    let warnings = sequence.remarks().into_iter().chain(plated.remarks()).chain(plated.doubt()).collect();
     let [first_alone, other_alone @ ..] = alone.as_slice() else { bail!("{name} has no [[person]]") };
-    let first = Planned::new(first_alone, settings, &folders[0], [sequence.remarks(), plated.remarks()].concat())?;
+    let first = Planned::new(first_alone, settings, &folders[0], warnings)?;
     // What suits one suits all; it is not measured again.
     let chosen = Backend::from_name(first.plan.backend.evaluator.name())?;
     let drawing = Drawing { backend: chosen, ..settings.drawing };
@@ -107,7 +108,7 @@ pub fn track_people(
     look_back(sequence, settings, &crowd, &mut people, progress)?;
     let named = people.into_iter().zip(&sequence.people);
     let finish = |(Tracked { run, record, warnings }, person): (Tracked<'_>, &crate::sequence::Person)| {
-        let summary = run.finish(&record, warnings).with_context(|| format!("person {:?}", person.name))?;
+        let summary = run.finish(&record, warnings, progress).with_context(|| format!("person {:?}", person.name))?;
         Ok(PersonSummary { name: person.name.clone(), summary })
     };
     named.map(finish).collect()

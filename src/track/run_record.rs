@@ -129,7 +129,7 @@ impl Run {
         let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
         let command = format!(
             "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-             --refine {} --predict {}{}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {}{} --model {} --overlay-every {}{start}{}{}{}",
+             --refine {} --predict {}{}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {}{} --model {} --overlay-every {}{}{start}{}{}{}",
             sequence.path.display(),
             plan.range.start,
             plan.range.end,
@@ -148,6 +148,7 @@ impl Run {
             drawing_flags(settings),
             settings.model.name(),
             settings.overlay_every,
+            if settings.labels { " --labels" } else { "" },
             settings.smooth.map(|cutoff| format!(" --smooth {cutoff}")).unwrap_or_default(),
             if settings.recording { " --rerun" } else { "" },
             settings.realtime.as_ref().map(|realtime| realtime.flags()).unwrap_or_default(),

@@ -48,6 +48,8 @@ pub struct TrackSettings {
     pub smooth: Option<f64>,
     /// Every how many frames the model is drawn over the pictures; 0 for never.
     pub overlay_every: usize,
+    /// Whether the label of the part that shows is drawn at every pixel of the videos, frame by frame.
+    pub labels: bool,
     /// Measure every pass on the device, for the trace and the timings; it costs time of its own.
     pub trace: bool,
     /// Write the report as a recording too; only in builds with the feature `rerun`.
@@ -78,6 +80,7 @@ impl Default for TrackSettings {
             start: None,
             smooth: None,
             overlay_every: 10,
+            labels: false,
             trace: false,
             recording: false,
             resume: false,
@@ -147,6 +150,10 @@ impl TrackSettings {
                  smooth its poses.csv afterwards (pantin convert --smooth)"
             );
             ensure!(
+                !self.labels,
+                "labels are drawn once all is done, and a run in real time goes on: leave out --labels, or track the recording off line"
+            );
+            ensure!(
                 self.passes() == Passes::Forward,
                 "a run in real time goes over its frames once, expected --passes forward"
             );
@@ -191,6 +198,9 @@ mod tests {
         settings = TrackSettings { smooth: Some(6.0), passes: None, ..settings };
         let error = settings.check().unwrap_err().to_string();
         assert!(error.contains("leave out --smooth"), "{error}");
+        settings = TrackSettings { smooth: None, labels: true, ..settings };
+        let error = settings.check().unwrap_err().to_string();
+        assert!(error.contains("leave out --labels"), "{error}");
         let mut settings = TrackSettings::default();
         settings.search.particles = 0;
         let error = settings.check().unwrap_err().to_string();

@@ -121,8 +121,8 @@ fn wrong_usage_is_said() {
     );
     refused(at, &[&base[..], &["--hold", "focus"]].concat(), "(known: aspect, centre, distortion, k2, k3, tangential)");
     refused(at, &[&base[..], &["--pitch", "0"]].concat(), "--pitch is 0");
-    refused(at, &[&base[..], &["--marker", "20"]].concat(), "--marker is for --board");
-    refused(at, &[&base[..], &["--dictionary", "x"]].concat(), "--dictionary is for --board");
+    refused(at, &[&base[..], &["--marker", "20"]].concat(), "--marker means nothing without --board");
+    refused(at, &[&base[..], &["--dictionary", "x"]].concat(), "--dictionary means nothing without --board");
     refused(at, &["calibrate", "none.csv", "-o", "c.toml", "--size", "640x480"], "cannot read none.csv");
     let (status, _, error) = pantin(at, &["calibrate", "p.csv", "-o", "c.toml", "--size", "640"]);
     assert!(status == 2 && error.contains("expected WIDTHxHEIGHT"), "{error}");

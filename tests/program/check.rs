@@ -9,7 +9,7 @@ use image::{GrayImage, Luma};
 use pantin::body::Body;
 use pantin::evaluate::Reference;
 use pantin::files::Overwrite;
-use pantin::geometry::{Camera, rodrigues_matrix};
+use pantin::geometry::{Camera, Lens, rodrigues_matrix};
 use pantin::sequence::write_cameras_toml;
 
 use super::scene;
@@ -197,6 +197,26 @@ fn half_a_degree_is_caught_and_the_camera_named() {
     }
 }
 
+/// A lens that is not the calibrated one is named as that, and not as a turn of this camera or of others.
+#[test]
+fn a_wrong_focal_length_is_caught_and_named() {
+    for (view, by) in [(2, 1.1), (0, 0.9)] {
+        let mut cameras = cameras();
+        let Lens::BrownConrady(lens) = &mut cameras[view].lens else { panic!("no such lens") };
+        lens.focal *= by;
+        let (failed, report) = fails(&cameras, None);
+        println!("c{view} {by} times as long: {failed:?}");
+        assert!(failed.contains(&format!("focal length c{view}")), "{failed:?}");
+        let value = finding(&report, "focal length", &format!("c{view}"))["value"].as_f64().unwrap();
+        assert!((value - 100.0 * (1.0 / by - 1.0)).abs() < 1.5, "{value}");
+        let others = failed.iter().filter(|check| check.starts_with("direction") || check.starts_with("timing"));
+        assert_eq!(others.count() + failed.iter().filter(|check| check.starts_with("focal")).count(), 1, "{failed:?}");
+    }
+    let mut cameras = cameras();
+    cameras[1] = turned(&cameras[1], DVec3::X * 2.0);
+    assert!(fails(&cameras, None).0.iter().all(|check| !check.starts_with("focal")), "a turn is no other lens");
+}
+
 #[test]
 fn a_camera_a_frame_late_is_caught_and_named() {
     let (failed, report) = fails(&cameras(), Some("c2"));
@@ -272,6 +292,60 @@ fn cameras_off_by_any_delay_are_named_and_one_in_time_is_not() {
     [5, 8, 20, -8, -20].into_iter().for_each(is_named_with_its_whole_delay_alone);
 }
 
+/// The longer walk with each camera's pictures from `from` to before `to` alone, numbered from 0.
+fn started_by_hand(stretches: [[usize; 2]; 5]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    write_cameras_toml(&at.join("cameras.toml"), &cameras(), Overwrite::Refuse).unwrap();
+    let mut manifest = "name = \"walk\"\nfps = 25.0\ncameras = \"cameras.toml\"\nheight = 1750\n".to_string();
+    for (camera, [from, to]) in cameras().iter().zip(stretches) {
+        let name = &camera.name;
+        for frame in from..to {
+            let mask = long_masks().join(format!("{name}_{frame:03}.png"));
+            fs::hard_link(mask, at.join(format!("{name}_{:03}.png", frame - from))).unwrap();
+        }
+        manifest +=
+            &format!("[[view]]\ncamera = \"{name}\"\nsource = \"{name}_%03d.png\"\nmask = \"{name}_%03d.png\"\n");
+    }
+    fs::write(at.join("sequence.toml"), manifest).unwrap();
+    folder
+}
+
+/// Cameras started and stopped by hand: their lengths say about when, their silhouettes say the frame. Every one is named, and nothing else.
+#[test]
+fn lengths_lead_to_the_delays_of_several_cameras() {
+    // All stopped together; and not quite, which the lengths alone would get wrong by up to 5 frames.
+    for (ends, delays) in [([LONG; 5], [-10, 0, 0, 0, -21]), ([LONG, 63, LONG, LONG - 5, 64], [-10, 0, 0, 0, -21])] {
+        let from = delays.map(|delay: isize| delay.unsigned_abs());
+        let folder = started_by_hand([0, 1, 2, 3, 4].map(|view: usize| [from[view], ends[view]]));
+        let (status, report, error) = check(folder.path());
+        let failed = failed(&report);
+        assert_eq!((status, failed), (1, vec!["timing c0".to_string(), "timing c4".to_string()]), "{error}");
+        for (view, delay) in delays.into_iter().enumerate().filter(|(_, delay)| *delay != 0) {
+            let timing = finding(&report, "timing", &format!("c{view}"));
+            assert!((timing["value"].as_f64().unwrap() - delay as f64).abs() < 0.4, "{timing}");
+            let advice = timing["advice"].as_str().unwrap();
+            assert!(advice.contains(&format!("write `delay = {delay}` into the [[view]]")), "{advice}");
+        }
+        // With them written down all is well.
+        let path = folder.path().join("sequence.toml");
+        let mut text = fs::read_to_string(&path).unwrap();
+        for (view, delay) in delays.into_iter().enumerate() {
+            let view = format!("camera = \"c{view}\"\n");
+            text = text.replace(&view, &format!("{view}delay = {delay}\n"));
+        }
+        fs::write(&path, text).unwrap();
+        let (status, report, error) = check(folder.path());
+        assert!(status == 0 && self::failed(&report).is_empty(), "{error}");
+    }
+    // Started together and stopped one after the other: nothing is late.
+    let folder = started_by_hand([LONG, 50, 44, LONG, 55].map(|to| [0, to]));
+    let (status, report, error) = check(folder.path());
+    assert!(status == 0 && failed(&report).is_empty(), "{error}");
+    let said = report["checks"].to_string();
+    assert!(said.contains("44 are taken, those of all") && said.contains("look for the delay"), "{said}");
+}
+
 #[test]
 fn what_failed_comes_first_and_what_is_well_is_a_line() {
     let folder = cut(8);
@@ -292,15 +366,44 @@ fn what_failed_comes_first_and_what_is_well_is_a_line() {
 /// A sequence in which the pictures of c3 were put another way.
 fn put(way: impl Fn(&GrayImage) -> GrayImage, orientation: &str) -> tempfile::TempDir {
     let folder = sequence(&cameras(), None);
+    put_view(folder.path(), "c3", way, orientation);
+    folder
+}
+
+/// Puts the pictures of a view another way.
+fn put_view(folder: &Path, view: &str, way: impl Fn(&GrayImage) -> GrayImage, orientation: &str) {
     for frame in 0..FRAMES {
-        let name = format!("c3_{frame:03}.png");
-        way(&image::open(masks().join(&name)).unwrap().to_luma8()).save(folder.path().join(name)).unwrap();
+        let name = format!("{view}_{frame:03}.png");
+        way(&image::open(masks().join(&name)).unwrap().to_luma8()).save(folder.join(name)).unwrap();
     }
+    let path = folder.join("sequence.toml");
+    let text = fs::read_to_string(&path).unwrap();
+    let [from, to] = [masks(), folder].map(|at| at.join(format!("{view}_")).to_str().unwrap().to_string());
+    let camera = format!("camera = \"{view}\"\n");
+    fs::write(path, text.replace(&from, &to).replace(&camera, &format!("{camera}{orientation}\n"))).unwrap();
+}
+
+/// A ray misses one as long as the other is not put right, so they are found together or not at all.
+#[test]
+fn two_turned_pictures_are_named_together() {
+    use image::imageops::{flip_horizontal, rotate180};
+    let folder = sequence(&cameras(), None);
+    put_view(folder.path(), "c1", rotate180, "");
+    put_view(folder.path(), "c4", flip_horizontal, "");
+    let (status, report, error) = check(folder.path());
+    let failed = failed(&report);
+    let named: Vec<&String> = failed.iter().filter(|check| check.starts_with("orientation")).collect();
+    assert!(status == 1 && named == ["orientation c1", "orientation c4"], "{failed:?} {error}");
+    let said = |camera: &str| finding(&report, "orientation", camera)["advice"].as_str().unwrap().to_string();
+    assert!(said("c1").contains("write `orientation = 180`"), "{}", said("c1"));
+    assert!(said("c4").contains("write `orientation = \"mirrored\"`"), "{}", said("c4"));
+    assert!(failed.iter().all(|check| !check.starts_with("direction") && !check.starts_with("timing")), "{failed:?}");
     let path = folder.path().join("sequence.toml");
     let text = fs::read_to_string(&path).unwrap();
-    let text = text.replace(masks().join("c3_").to_str().unwrap(), folder.path().join("c3_").to_str().unwrap());
-    fs::write(path, text.replace("camera = \"c3\"\n", &format!("camera = \"c3\"\n{orientation}\n"))).unwrap();
-    folder
+    let text = text.replace("camera = \"c1\"\n", "camera = \"c1\"\norientation = 180\n");
+    fs::write(&path, text.replace("camera = \"c4\"\n", "camera = \"c4\"\norientation = \"mirrored\"\n")).unwrap();
+    let (status, report, error) = check(folder.path());
+    assert!(status == 0 && self::failed(&report).is_empty(), "{error}");
 }
 
 #[test]

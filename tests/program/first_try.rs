@@ -111,6 +111,27 @@ fn pictures_upside_down_are_said(folder: &Path) {
     assert!(manifest.contains("orientation = 180"), "{manifest}");
 }
 
+/// Videos of different lengths are begun with as far as all go, and it is said that nothing tells when they were started.
+fn lengths_may_differ(folder: &Path) {
+    fs::create_dir(folder.join("hand")).unwrap();
+    for (at, video) in fs::read_dir(folder.join("videos")).unwrap().enumerate() {
+        let video = video.unwrap();
+        let to = folder.join("hand").join(video.file_name());
+        let frames = if at == 1 { 21 } else { FRAMES };
+        let cut = Command::new("ffmpeg")
+            .args(["-v", "error", "-i"])
+            .arg(video.path())
+            .args(["-frames:v", &frames.to_string(), "-c", "copy"])
+            .arg(&to)
+            .status();
+        assert!(cut.unwrap().success());
+    }
+    let (status, said, error) = start(folder, "hand", &[&["-o", "by_hand"], &QUICK[..]].concat());
+    assert!(status == 0 && said.contains(": 21 frames, "), "{said}{error}");
+    assert!(error.contains("21 are taken, those of all"), "{error}");
+    assert!(error.contains("silhouettes agree with the first pictures") || error.contains("leave open"), "{error}");
+}
+
 #[test]
 fn the_lines_of_readme_and_guide_lead_to_a_track() {
     if !has_ffmpeg("the_lines_of_readme_and_guide_lead_to_a_track") {
@@ -147,6 +168,7 @@ fn the_lines_of_readme_and_guide_lead_to_a_track() {
 
     replaced_manifests_keep_what_their_user_wrote(folder, &manifest);
     pictures_upside_down_are_said(folder);
+    lengths_may_differ(folder);
 
     // What is there is kept unless told otherwise, and what cannot begin is one sentence.
     let start = |more: &[&str]| start(folder, "videos", more);

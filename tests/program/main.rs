@@ -25,6 +25,7 @@ mod example_bodies;
 mod features;
 mod first_try;
 mod hostile;
+mod labels;
 mod losses;
 mod matrix;
 mod observe;

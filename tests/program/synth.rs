@@ -143,7 +143,7 @@ fn bad_scenes_are_one_sentence_before_anything_is_written() {
         assert!(!folder.exists(), "{text} wrote something");
     }
     let unused = synth(&["--preset", "demo", "--people", "nowhere"], &folder);
-    assert!(message(&unused).contains("--people is for --lottery"), "{}", message(&unused));
+    assert!(message(&unused).contains("--people means nothing without --lottery"), "{}", message(&unused));
     let unknown = synth(&["--preset", "p3s"], &folder);
     assert!(
         message(&unknown)

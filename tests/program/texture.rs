@@ -224,7 +224,7 @@ fn bad_holes_and_masks_are_one_sentence() {
         assert!(!folder.path().join("x.png").exists(), "{arguments:?} wrote something");
     }
     let failed = texture(&["marble", "-o", "x.png", "--patch", "16x8"], folder.path());
-    assert!(message(&failed).contains("--patch is for --example"));
+    assert!(message(&failed).contains("--patch means nothing without --example"));
 }
 
 #[test]
@@ -297,7 +297,10 @@ fn bad_requests_are_one_sentence() {
         (&["marble", "-o", "x.png", "--params", "p.toml"], "nearest known key is `vein`"),
         (&["marbel", "--defaults"], "unknown material `marbel`, the nearest is `marble`"),
         (&["marble", "-o", "x.png", "--scale", "nan"], "a picture of NaN units"),
-        (&["marble", "-o", "x.png", "--preview", "sphere", "--person", "a.glb"], "--person is for --preview person"),
+        (
+            &["marble", "-o", "x.png", "--preview", "sphere", "--person", "a.glb"],
+            "--person means nothing without --preview person",
+        ),
         (&["marble", "-o", "x.png", "--preview", "person", "--person", "a.glb"], "a.glb"),
         (&["marble", "-o", "x.jpg", "--size", "20x20"], "x.jpg is called as if it were no PNG"),
         (&["--example", "nowhere.png", "-o", "x.png"], "nowhere.png"),

@@ -412,6 +412,38 @@ fn the_mesh_model_is_tracked_and_resumed_as_such() {
     refused(&flat, &["another model: \"mesh\" there, \"flat\" now"]);
 }
 
+/// What a plate holds is missing in what errors are expected from: that is said, and not of plates that were filmed.
+#[test]
+fn doubtful_plates_make_expected_errors_doubtful() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    for name in ["cameras.toml", "body.toml", "start.csv"] {
+        fs::copy(sequence().join(name), at.join(name)).unwrap();
+    }
+    image::RgbImage::from_pixel(160, 120, image::Rgb([40, 60, 50])).save(at.join("plate.png")).unwrap();
+    let said = |doubtful: &str| {
+        let frames = sequence().join("frames");
+        let views = ["cam0", "cam1", "cam2", "cam3"].map(|camera| {
+            let doubt = if camera == "cam2" { doubtful } else { "" };
+            format!(
+                "[[view]]\ncamera = \"{camera}\"\nsource = \"{}/{camera}_%04d.png\"\nbackground = \"plate.png\"\n{doubt}\n",
+                frames.display()
+            )
+        });
+        let head =
+            "name = \"walk\"\nfps = 25\ncameras = \"cameras.toml\"\nbody = \"body.toml\"\nstart = \"start.csv\"\n";
+        fs::write(at.join("sequence.toml"), format!("{head}{}", views.concat())).unwrap();
+        let done = track_with(at, &at.join("track"), &["--frames", "0..2", "--force"]);
+        succeeded(&done);
+        (stderr(&done), fs::read_to_string(at.join("track/report.html")).unwrap())
+    };
+    let (error, report) = said("background_doubtful = 6.5");
+    let sentence = "the plates of cam2 may hold the person, and the expected errors (sigma, wrong) are too small";
+    assert!(error.contains(sentence) && report.contains(sentence), "{error}");
+    let (error, report) = said("");
+    assert!(!error.contains("sigma") && !report.contains("expected errors (sigma"), "{error}");
+}
+
 #[test]
 fn part_of_the_frames() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,10 +1,12 @@
 //! The manifest of a first try, as text.
 
 use std::fmt::Write as _;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use toml::{Table, Value};
+
+use crate::files::seen_from;
 
 /// A view of the manifest.
 pub(super) struct ManifestView<'a> {
@@ -13,6 +15,8 @@ pub(super) struct ManifestView<'a> {
     pub(super) plate: Option<PathBuf>,
     /// How much of it is doubtful, % of the picture.
     pub(super) doubtful: f64,
+    /// Frames by which its pictures come too late, as was found.
+    pub(super) delay: Option<isize>,
     /// Keys that its user wrote.
     pub(super) kept: Option<&'a Table>,
 }
@@ -38,7 +42,7 @@ impl ManifestText<'_> {
         let mut text = String::from(
             "# Written by `pantin start`; docs/FORMATS.md has every key. Paths are seen from this folder.\n",
         );
-        let cameras = quoted(&seen_from(folder, self.cameras)?);
+        let cameras = quoted(&named_in(folder, self.cameras)?);
         // Writing into a String cannot fail.
         let _ = writeln!(text, "name = {}\nfps = {:?}\ncameras = {cameras}", quoted(self.name), self.fps);
         let _ = writeln!(text, "body = \"body.toml\"\nstart = \"start.csv\"\nheight = {:?}", self.height);
@@ -47,10 +51,10 @@ impl ManifestText<'_> {
         let (tables, keys): (Vec<_>, Vec<_>) = self.kept.iter().partition(|(_, value)| has_tables(value));
         text.push_str(&written(&keys)?);
         for view in &self.views {
-            let source = quoted(&seen_from(folder, view.source)?);
+            let source = quoted(&named_in(folder, view.source)?);
             let _ = writeln!(text, "\n[[view]]\ncamera = {}\nsource = {source}", quoted(view.camera));
             if let Some(plate) = &view.plate {
-                let _ = writeln!(text, "background = {}", quoted(&seen_from(folder, plate)?));
+                let _ = writeln!(text, "background = {}", quoted(&named_in(folder, plate)?));
                 if view.doubtful > 0.0 {
                     let _ = writeln!(
                         text,
@@ -58,6 +62,10 @@ impl ManifestText<'_> {
                         view.doubtful
                     );
                 }
+            }
+            if let Some(delay) = view.delay {
+                let _ =
+                    writeln!(text, "delay = {delay} # frames that its pictures come too late, as the silhouettes say");
             }
             text.push_str(&written(&view.kept.into_iter().flatten().collect::<Vec<_>>())?);
         }
@@ -83,20 +91,12 @@ fn quoted(text: &str) -> String {
 }
 
 /// A file, which may be a pattern of numbered pictures, as seen from a folder.
-fn seen_from(folder: &Path, file: &Path) -> Result<String> {
+fn named_in(folder: &Path, file: &Path) -> Result<String> {
     let absolute = |path: &Path| path.canonicalize().with_context(|| format!("cannot find {}", path.display()));
     let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let (folder, parent) = (absolute(folder)?, absolute(parent)?);
-    let common = folder.components().zip(parent.components()).take_while(|(a, b)| a == b).count();
-    let mut seen = PathBuf::new();
-    // Two files that share nothing but the root are named from there: the way up says nothing.
-    if common <= 1 {
-        seen.push(&parent);
-    } else {
-        folder.components().skip(common).for_each(|_| seen.push(Component::ParentDir));
-        parent.components().skip(common).for_each(|part| seen.push(part));
-    }
-    seen.push(file.file_name().unwrap_or_default());
+    // Of pictures that are numbered no file has the name.
+    let seen = seen_from(&folder, &parent.join(file.file_name().unwrap_or_default()), usize::MAX);
     seen.into_os_string()
         .into_string()
         .map_err(|name| anyhow::anyhow!("{} is no UTF-8, expected another name", name.display()))
@@ -113,9 +113,9 @@ mod tests {
         for name in ["walk", "videos"] {
             std::fs::create_dir(at(name)).unwrap();
         }
-        assert_eq!(seen_from(&at("walk"), &at("videos/a.mp4")).unwrap(), "../videos/a.mp4");
-        assert_eq!(seen_from(&at("walk"), &at("walk/a_%04d.png")).unwrap(), "a_%04d.png");
-        assert!(seen_from(&at("walk"), &at("none/a.mp4")).unwrap_err().to_string().contains("cannot find"));
+        assert_eq!(named_in(&at("walk"), &at("videos/a.mp4")).unwrap(), "../videos/a.mp4");
+        assert_eq!(named_in(&at("walk"), &at("walk/a_%04d.png")).unwrap(), "a_%04d.png");
+        assert!(named_in(&at("walk"), &at("none/a.mp4")).unwrap_err().to_string().contains("cannot find"));
         let cameras = at("cameras.toml");
         let source = at("videos/the \"first\".mp4");
         let kept_view: Table = "delay = -8\nignore = \"desk.png\"".parse().unwrap();
@@ -125,6 +125,7 @@ mod tests {
             source: &source,
             plate: Some(at("walk/c.png")),
             doubtful: 2.25,
+            delay: None,
             kept: Some(&kept_view),
         }];
         let (name, fps, height, scale) = ("a \"b\"", 25.0, 1720.0, 0.25);

@@ -20,7 +20,7 @@ use self::matching::match_cameras;
 use self::scale::{ChosenScale, choose_scale};
 use super::filmed_plate::filmed_plate;
 use super::fit::{Coverage, Fit, FitSettings, fit_with};
-use crate::check::misplaced_picture;
+use crate::check::{Start, misplaced_pictures, started};
 use crate::features::LearntPlate;
 use crate::files::{OutputFolder, Overwrite, listed, write_atomically};
 use crate::geometry::Camera;
@@ -162,10 +162,10 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
     let output = OutputFolder::open(folder)?;
     let manifest = output.file("sequence.toml")?;
     let name = kept.name.as_deref().unwrap_or(&settings.name);
-    let write_manifest = |learnt: &[ViewPlate], overwrite: Overwrite| {
-        let views = cameras.iter().zip(&settings.videos).zip(&filmed);
+    let write_manifest = |learnt: &[ViewPlate], delays: &[Option<isize>], overwrite: Overwrite| {
+        let views = cameras.iter().zip(&settings.videos).zip(&filmed).enumerate();
         let views = views
-            .map(|((camera, source), filmed)| {
+            .map(|(at, ((camera, source), filmed))| {
                 let plate = of_camera(learnt, camera)
                     .map(|plate| (output.path().join(learnt_plate(&camera.name)), plate.percent_doubtful()));
                 let plate = plate.or_else(|| filmed.clone());
@@ -174,6 +174,7 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
                     source,
                     doubtful: plate.as_ref().map_or(0.0, |(_, doubtful)| *doubtful),
                     plate: plate.map(|(file, _)| file),
+                    delay: delays.get(at).copied().flatten(),
                     kept: kept.keys(&camera.name),
                 }
             })
@@ -182,28 +183,31 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
         let text = text.text(output.path())?;
         write_atomically(&manifest, overwrite, |writer| Ok(writer.write_all(text.as_bytes())?))
     };
-    write_manifest(&[], settings.overwrite)?;
-    let (frame_count, learnt) = {
+    write_manifest(&[], &[], settings.overwrite)?;
+    let (learnt, delays) = {
         let sequence = Sequence::open_unfitted(&manifest)?;
-        remarks.extend(sequence.remarks());
         let plated = with_plates(&sequence, progress)?;
-        remarks.extend(plated.remarks());
         ensure!(
             kept.learns_on() || plated.sequence.views.iter().all(|view| !view.learns_background()),
             "the videos have {} frames, too few to learn the empty scene from, expected pictures of it with --plates",
             sequence.frame_count
         );
-        let learnt = plated.learnt;
-        (sequence.frame_count, learnt)
+        let start = started(&plated.sequence, progress)?;
+        remarks.extend(start_remark(&start, &cameras));
+        remarks.extend(plated.remarks());
+        let delays = stated_delays(start);
+        (plated.learnt, delays)
     };
     for ViewPlate { camera, plate } in &learnt {
         output
             .write(&learnt_plate(camera), |writer| Ok(plate.picture.write_with_encoder(PngEncoder::new(writer))?))?;
     }
-    if !learnt.is_empty() {
-        write_manifest(&learnt, Overwrite::Replace)?;
+    if !learnt.is_empty() || !delays.is_empty() {
+        write_manifest(&learnt, &delays, Overwrite::Replace)?;
     }
     let sequence = Sequence::open_unfitted(&manifest)?;
+    let frame_count = sequence.frame_count;
+    remarks.extend(sequence.remarks_on_recordings());
     let fit = fit_with(&sequence, &settings.fit, progress).map_err(|error| format!("{error:#}"));
     if let Ok(fit) = &fit {
         let text = format!("# Measured by `pantin start` on {}.\n\n{}", sequence.name, fit.body.to_toml());
@@ -230,7 +234,7 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
     let mut made = FirstTry { manifest: manifest.clone(), fps, frame_count, scale, views, fit, looks, remarks };
     if !made.fits() {
         // What cannot be looked at says nothing; the first try is made all the same.
-        made.remarks.extend(misplaced_picture(&sequence, progress).unwrap_or_default());
+        made.remarks.extend(misplaced_pictures(&sequence, progress).unwrap_or_default());
     }
     Ok(made)
 }
@@ -238,6 +242,39 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
 /// The plate that was learnt for a camera.
 fn of_camera<'a>(learnt: &'a [ViewPlate], camera: &Camera) -> Option<&'a LearntPlate> {
     learnt.iter().find(|view| view.camera == camera.name).map(|view| &view.plate)
+}
+
+/// What is stated of each view's delay. Where the silhouettes agree as they are, one 0 says so, and nobody needs to ask again.
+fn stated_delays(start: Start) -> Vec<Option<isize>> {
+    match start {
+        Start::Unasked | Start::Untold => Vec::new(),
+        Start::Together => vec![Some(0)],
+        Start::Apart { delays, .. } => {
+            delays.into_iter().map(|delay| Some(delay).filter(|delay| *delay != 0)).collect()
+        }
+    }
+}
+
+/// A sentence on when the cameras were started, where their files say that it was not at one moment.
+fn start_remark(start: &Start, cameras: &[Camera]) -> Option<String> {
+    match start {
+        Start::Unasked => None,
+        Start::Together => Some("the silhouettes agree with the first pictures of all cameras taken for one moment".to_string()),
+        Start::Untold => Some(
+            "the files leave open whether the cameras were started together, and the silhouettes agree neither as they are nor moved by what \
+             lengths and clocks make likely: look for a clap in each video, state its `delay`, and start again with --force"
+                .to_string(),
+        ),
+        Start::Apart { delays, explained: [before, after] } => {
+            let late = cameras.iter().zip(delays).filter(|(_, delay)| **delay != 0);
+            let late: Vec<String> = late.map(|(camera, delay)| format!("{} {delay}", camera.name)).collect();
+            Some(format!(
+                "the cameras were not started together: written into the manifest is `delay`, the frames by which pictures come too late ({}); \
+                 the views then explain {after:.0} % of each other's borders instead of {before:.0}",
+                listed(&late)
+            ))
+        }
+    }
 }
 
 /// A sentence about cameras that no video is of.

@@ -8,10 +8,14 @@ use toml::{Table, Value};
 
 use super::super::filmed_plate::filmed_plate;
 use super::POSE2SIM_OWN;
+use crate::files::seen_from;
 use crate::sequence::{Pose2SimTrial, Pose2SimView};
 
 /// Length of the longer side that is worked at where nobody says, pixels.
 const WORKING_SIDE: f64 = 480.0;
+
+/// Folders from a trial's own up to its session's: the trial, its participant's folder, the session's. What lies outside is named in full.
+const SESSION: usize = 3;
 
 /// What a user gives beside a project's files.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,7 +44,7 @@ pub fn pose2sim_manifest(trial: &Pose2SimTrial, given: &Pose2SimGiven) -> Result
     let Some(fps) = given.fps.or(trial.fps) else {
         bail!("{config}: project.frame_rate is 'auto', which pictures do not tell: give --fps HZ");
     };
-    let path = |file: &Path| Value::String(seen_from(&own, file).to_string_lossy().into_owned());
+    let path = |file: &Path| Value::String(seen_from(&own, file, SESSION).to_string_lossy().into_owned());
     let mut manifest = Table::new();
     manifest.insert("name".into(), Value::String(trial.name.clone()));
     manifest.insert("fps".into(), Value::Float(fps));
@@ -88,35 +92,9 @@ fn scale(views: &[Pose2SimView]) -> f64 {
     ((scale * 1000.0).round() / 1000.0).clamp(0.001, 1.0)
 }
 
-/// A file as it is named in a folder: so that a session may be moved. What lies outside it is named in full.
-fn seen_from(folder: &Path, file: &Path) -> PathBuf {
-    let mut up = PathBuf::new();
-    // The trial, its participant's folder, the session's.
-    for ancestor in folder.ancestors().skip(1).take(3) {
-        up.push("..");
-        if let (Ok(rest), Some(_)) = (file.strip_prefix(ancestor), ancestor.parent()) {
-            return up.join(rest);
-        }
-    }
-    file.to_path_buf()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn files_of_a_session_are_named_so_that_it_may_be_moved() {
-        let own = Path::new("/data/session/anna/walk/pantin");
-        for (file, expected) in [
-            ("/data/session/anna/walk/videos/cam1.mp4", "../videos/cam1.mp4"),
-            ("/data/session/calibration/c.toml", "../../../calibration/c.toml"),
-            ("/data/plates/cam1.png", "/data/plates/cam1.png"),
-        ] {
-            assert_eq!(seen_from(own, Path::new(file)), Path::new(expected));
-        }
-        assert_eq!(seen_from(Path::new("/walk/pantin"), Path::new("/etc/c.toml")), Path::new("/etc/c.toml"));
-    }
 
     #[test]
     fn large_pictures_are_worked_at_smaller() {

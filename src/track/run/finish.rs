@@ -7,7 +7,9 @@ use super::Run;
 use crate::track::confidence::{Confidence, LossRule};
 use crate::track::held::Held;
 use crate::track::journal::{Extent, Journal};
+use crate::track::labels;
 use crate::track::pace::Finished;
+use crate::track::progress::Progress;
 use crate::track::results;
 use crate::track::run_record::RunRecord;
 use crate::track::smoothed;
@@ -15,7 +17,12 @@ use crate::track::summary::{TrackSummary, lost_sentence, mean};
 
 impl Run<'_> {
     /// Writes the results, unless the run was stopped.
-    pub(crate) fn finish(mut self, record: &RunRecord, warnings: Vec<String>) -> Result<TrackSummary> {
+    pub(crate) fn finish(
+        mut self,
+        record: &RunRecord,
+        warnings: Vec<String>,
+        progress: &mut dyn Progress,
+    ) -> Result<TrackSummary> {
         let (sequence, output, body) = (self.sequence, self.output, &self.plan.body);
         let next = self.next_frame();
         let is_stopped = self.is_stopped || next < self.plan.range.end;
@@ -67,6 +74,10 @@ impl Run<'_> {
             let has_gaps = self.recovery.is_some();
             let told = smoothed::write(output, sequence, body, &summary.frames, &confidences, has_gaps, cutoff)?;
             summary.warnings.extend(told);
+        }
+        if self.settings.labels && !summary.frames.is_empty() {
+            let mesh = self.plan.mesh.as_ref();
+            summary.warnings.extend(labels::write(output, sequence, body, mesh, &held, progress)?);
         }
         // A finished run that is gone on with has no times to tell; those of the run that did the work stay.
         if summary.new_frames > 0 || !output.path().join("stages.json").exists() {
