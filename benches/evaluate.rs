@@ -1,7 +1,8 @@
 //! Throughput of the evaluators, poses in to fitness out, side by side in one run.
 //!
 //! `cargo bench --bench evaluate` prints the table of docs/PERFORMANCE.md; run by `cargo test` it scores a few candidates. Either way
-//! it checks first that all give the same integers. Rows `in segments` are scored by three segments (docs/RASTER.md).
+//! it checks first that all give the same integers. Rows `in segments` are scored by three segments (docs/RASTER.md), those `with edges`
+//! by the edges of each too.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark ends where something fails, and prints")]
 
 mod table;
@@ -15,7 +16,7 @@ use pantin::evaluate::cpu::{Cpu, InstructionSet};
 use pantin::evaluate::device::{
     Comparison, Coverage, Gathering, GraphicsSettings, Packing, Projection, Tiling, open_device,
 };
-use pantin::evaluate::{Components, Evaluator, Objective, Reference};
+use pantin::evaluate::{Components, EdgeTerm, Evaluator, Objective, Reference};
 use pantin::features::{Observation, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;
 use pantin::gpu::Device;
@@ -113,7 +114,7 @@ fn row<'a>(
     contestant: Contestant,
     scene: &Scene,
     device: &Result<Device, String>,
-    poses: &'a [f32],
+    (poses, objective): (&'a [f32], Objective),
     expected: &mut Option<Vec<Components>>,
 ) -> Option<impl FnMut() + 'a> {
     let mut evaluator = match contestant.build(scene, None, device) {
@@ -129,7 +130,7 @@ fn row<'a>(
     // The hardware's rule covers other pixels at the edges.
     let is_exact = !matches!(contestant, Contestant::Graphics(settings) if settings.coverage == Coverage::Hardware);
     assert!(!is_exact || found == *expected.get_or_insert_with(|| found.clone()), "{name} gives other integers");
-    let (objective, mut fitness) = (Objective::default(), vec![0.0; count]);
+    let mut fitness = vec![0.0; count];
     let passes = pass_times(evaluator.as_mut(), poses, &objective, &mut fitness).unwrap();
     if !passes.is_empty() {
         println!("{name} stages, ms: {}", in_a_line(&passes));
@@ -155,13 +156,19 @@ fn main() {
         let mut table = Table::new(title, "image").beside(&["rowspan", "zbuffer"]);
         let mut expected = None;
         let segmented = Scene { observations: segmented, ..scene.clone() };
-        for (suffix, scene) in [("", &scene), (" in segments", &segmented)] {
+        let usual = Objective::default();
+        let by_segments = Objective { edges: EdgeTerm::Segments, ..usual };
+        for (suffix, scene, objective) in [
+            ("", &scene, usual),
+            (" in segments", &segmented, usual),
+            (" in segments with edges", &segmented, by_segments),
+        ] {
             for (name, contestant) in contestants(!suffix.is_empty()) {
                 let name = format!("{name}{suffix}");
                 if !is_wanted(&name) {
                     continue;
                 }
-                if let Some(run) = row(&name, contestant, scene, &device, &poses, &mut expected) {
+                if let Some(run) = row(&name, contestant, scene, &device, (&poses, objective), &mut expected) {
                     table.row(name, count * cameras.len(), run);
                 }
             }

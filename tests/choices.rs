@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use pantin::bench::{Preset, YardstickKind};
 use pantin::body::{Model, Skinning};
 use pantin::calibrate::{BoardKind, Held, Layout, LensModel};
-use pantin::evaluate::ObjectiveKind;
 use pantin::evaluate::cpu::InstructionSet;
 use pantin::evaluate::device::{Coverage, Gathering, HostComparison, Packing, Projection, Tiling};
+use pantin::evaluate::{EdgeTerm, ObjectiveKind};
 use pantin::features::{Adaptation, Cue, ForegroundKind, Magnitude, Metric, Normalisation, Operator, Shape};
 use pantin::files::Choice;
 use pantin::geometry::LengthUnit;
@@ -39,6 +39,7 @@ fn lists() -> Vec<List> {
         list::<FeaturesOn>(),
         list::<Model>(),
         list::<ObjectiveKind>(),
+        list::<EdgeTerm>(),
         list::<SearchKind>(),
         list::<Prediction>(),
         list::<Width>(),

@@ -16,7 +16,7 @@ use std::time::Instant;
 use device::{device, device_under};
 use pantin::body::{Body, Mesh};
 use pantin::evaluate::device::{Comparison, Compute, Gathering, Graphics, GraphicsSettings, Packing};
-use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind};
+use pantin::evaluate::{Components, EdgeTerm, Evaluator, Objective, ObjectiveKind};
 use pantin::features::{Observation, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;
 use pantin::gpu::{DeviceSettings, Timing, Validation, by_name};
@@ -70,7 +70,7 @@ fn one_submission_finds_what_the_host_finds_batch_by_batch() {
         let mut random = Random(5);
         let frames: Vec<Vec<Observation>> = (0..3).map(|_| observations(&cameras, &mut random)).collect();
         for kind in on_devices() {
-            let objective = Objective { kind: ObjectiveKind::Sp, beta: 0.4, w1: 0.7, w2: 0.3 };
+            let objective = Objective { beta: 0.4, w1: 0.7, w2: 0.3, ..Objective::of(ObjectiveKind::Sp) };
             let settings = SearchSettings { kind, particles: 37, iterations: 4, seed: 3, ..SearchSettings::default() };
             let mut compute = Compute::on(&device, &body, &cameras).unwrap();
             let evaluator = compute.on_device().unwrap();
@@ -125,7 +125,7 @@ fn a_search_by_segments_runs_on_the_device_over_every_backend() {
             in_segments(seen, &mut random)
         })
         .collect();
-    let objective = Objective { kind: ObjectiveKind::Sp, beta: 0.4, w1: 0.7, w2: 0.3 };
+    let usual_edges = Objective { beta: 0.4, w1: 0.7, w2: 0.3, ..Objective::of(ObjectiveKind::Sp) };
     let mesh = Mesh::of_body(&body).unwrap();
     let usual = GraphicsSettings::default();
     let depth = GraphicsSettings { packing: Packing::Depth, ..usual };
@@ -140,6 +140,9 @@ fn a_search_by_segments_runs_on_the_device_over_every_backend() {
     ];
     let mut by_segments = None;
     for (name, mut evaluator) in evaluators {
+        let is_by_segments = ["compute", "graphics, subgroup", "mesh"].contains(&name);
+        let edges = if is_by_segments { EdgeTerm::Segments } else { EdgeTerm::Whole };
+        let objective = Objective { edges, ..usual_edges };
         for kind in on_devices() {
             let settings = SearchSettings { kind, particles: 23, iterations: 3, seed: 3, ..SearchSettings::default() };
             // As the tracker does: recorded when the first observations are there.

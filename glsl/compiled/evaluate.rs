@@ -218,7 +218,7 @@ pub mod compare_shared_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/compare_shared_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4330, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5318, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/compare_shared_segments.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -240,6 +240,7 @@ pub mod compare_shared_segments_comp {
             crate::gpu::SpecConstant { name: "CODES", id: 1, default: 128 },
             crate::gpu::SpecConstant { name: "SEGMENTS", id: 2, default: 8 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 3, default: 0 },
+            crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 4, default: 0 },
         ],
     };
     /// Specialisation constants.
@@ -253,13 +254,15 @@ pub mod compare_shared_segments_comp {
         pub segments: u32,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `SEGMENT_EDGES`, false by default.
+        pub segment_edges: bool,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, } }
+        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, segment_edges: false, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), (4, u32::from(constants.segment_edges)), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -409,7 +412,7 @@ pub mod compare_subgroup_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/compare_subgroup_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4595, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5643, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/compare_subgroup_segments.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -431,6 +434,7 @@ pub mod compare_subgroup_segments_comp {
             crate::gpu::SpecConstant { name: "CODES", id: 1, default: 128 },
             crate::gpu::SpecConstant { name: "SEGMENTS", id: 2, default: 8 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 3, default: 0 },
+            crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 4, default: 0 },
             crate::gpu::SpecConstant { name: "FULL_SUBGROUP", id: 31, default: 0 },
         ],
     };
@@ -445,15 +449,17 @@ pub mod compare_subgroup_segments_comp {
         pub segments: u32,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `SEGMENT_EDGES`, false by default.
+        pub segment_edges: bool,
         /// `FULL_SUBGROUP`, 0 by default.
         pub full_subgroup: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, full_subgroup: 0, } }
+        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, segment_edges: false, full_subgroup: 0, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), (31, constants.full_subgroup), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), (4, u32::from(constants.segment_edges)), (31, constants.full_subgroup), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -600,7 +606,7 @@ pub mod compare_texels_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/compare_texels_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<8225, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<10606, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/compare_texels_segments.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -622,6 +628,7 @@ pub mod compare_texels_segments_comp {
             crate::gpu::SpecConstant { name: "CODES", id: 1, default: 128 },
             crate::gpu::SpecConstant { name: "SEGMENTS", id: 2, default: 8 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 3, default: 0 },
+            crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 4, default: 0 },
         ],
     };
     /// Specialisation constants.
@@ -635,13 +642,15 @@ pub mod compare_texels_segments_comp {
         pub segments: u32,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `SEGMENT_EDGES`, false by default.
+        pub segment_edges: bool,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, } }
+        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, segment_edges: false, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), (4, u32::from(constants.segment_edges)), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -1272,7 +1281,7 @@ pub mod objective_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/objective_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<11781, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<13089, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/objective_segments.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 28,
@@ -1284,11 +1293,21 @@ pub mod objective_segments_comp {
             crate::gpu::BindingLayout { name: "AllSegmentSums", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
         ],
         constants: &[
+            crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 0, default: 0 },
         ],
     };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `SEGMENT_EDGES`, false by default.
+        pub segment_edges: bool,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { segment_edges: false, } }
+    }
     /// What a pipeline is compiled from.
-    pub fn stage() -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.segment_edges)), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Scoring;
@@ -1320,10 +1339,10 @@ pub mod objective_segments_comp {
     }
     impl<'a> Bindings<'a> {
         /// A run on them.
-        pub fn dispatch(self, push: Push, groups: crate::gpu::Groups<'a>)
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
             -> crate::gpu::Dispatch<'a> {
             let bindings = self.bound().to_vec();
-            crate::gpu::Dispatch { stage: stage(), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
         }
     }
 }
@@ -2056,7 +2075,7 @@ pub mod raster_mesh_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_mesh_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<11632, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<11912, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_mesh_segments.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 32,
@@ -2076,6 +2095,7 @@ pub mod raster_mesh_segments_comp {
         ],
         constants: &[
             crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
+            crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 4, default: 0 },
         ],
     };
     /// Specialisation constants.
@@ -2083,13 +2103,15 @@ pub mod raster_mesh_segments_comp {
     pub struct Constants {
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `SEGMENT_EDGES`, false by default.
+        pub segment_edges: bool,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { ignores: false, } }
+        fn default() -> Self { Self { ignores: false, segment_edges: false, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(1, u32::from(constants.ignores)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(1, u32::from(constants.ignores)), (4, u32::from(constants.segment_edges)), ] }
     }
     /// Push constants.
     pub type Push = super::layout::MeshBatch;
@@ -2156,7 +2178,7 @@ pub mod raster_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5420, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5674, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_segments.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -2175,6 +2197,7 @@ pub mod raster_segments_comp {
         constants: &[
             crate::gpu::SpecConstant { name: "LISTED", id: 0, default: 0 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
+            crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 4, default: 0 },
         ],
     };
     /// Specialisation constants.
@@ -2184,13 +2207,15 @@ pub mod raster_segments_comp {
         pub listed: bool,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `SEGMENT_EDGES`, false by default.
+        pub segment_edges: bool,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { listed: false, ignores: false, } }
+        fn default() -> Self { Self { listed: false, ignores: false, segment_edges: false, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (4, u32::from(constants.segment_edges)), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -2507,7 +2532,7 @@ pub mod raster_spans_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_spans_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5948, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<6228, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_spans_segments.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 24,
@@ -2525,6 +2550,7 @@ pub mod raster_spans_segments_comp {
         constants: &[
             crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
             crate::gpu::SpecConstant { name: "local_size_x", id: 2, default: 64 },
+            crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 4, default: 0 },
         ],
     };
     /// Specialisation constants.
@@ -2534,13 +2560,15 @@ pub mod raster_spans_segments_comp {
         pub ignores: bool,
         /// `local_size_x`, 64 by default.
         pub local_size_x: u32,
+        /// `SEGMENT_EDGES`, false by default.
+        pub segment_edges: bool,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { ignores: false, local_size_x: 64, } }
+        fn default() -> Self { Self { ignores: false, local_size_x: 64, segment_edges: false, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(1, u32::from(constants.ignores)), (2, constants.local_size_x), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(1, u32::from(constants.ignores)), (2, constants.local_size_x), (4, u32::from(constants.segment_edges)), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -2963,18 +2991,6 @@ pub mod layout {
     const _: () = assert!(std::mem::offset_of!(Seen, at) == 0);
     const _: () = assert!(std::mem::offset_of!(Seen, depth) == 8);
     const _: () = assert!(std::mem::offset_of!(Seen, edge_depth) == 12);
-    /// `SegmentSum` in memory, 8 bytes.
-    #[repr(C)]
-    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-    pub struct SegmentSum {
-        /// `area_model` at byte 0.
-        pub area_model: u32,
-        /// `overlap` at byte 4.
-        pub overlap: u32,
-    }
-    const _: () = assert!(size_of::<SegmentSum>() == 8);
-    const _: () = assert!(std::mem::offset_of!(SegmentSum, area_model) == 0);
-    const _: () = assert!(std::mem::offset_of!(SegmentSum, overlap) == 4);
     /// `SegmentTableHeader` in memory, 544 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

@@ -29,7 +29,8 @@ layout(std430, set = 0, binding = 10) readonly buffer Counted { uint counted[]; 
 #endif
 
 #ifdef SEGMENTED
-#include "evaluate/segments.glsl"
+// Whether edges and proximity are counted by segments too, not areas alone.
+layout(constant_id = 4) const bool SEGMENT_EDGES = false;
 
 layout(std430, set = 0, binding = 6) readonly buffer SegmentTable {
     float weights[MOST_SEGMENTS];
@@ -39,7 +40,7 @@ layout(std430, set = 0, binding = 6) readonly buffer SegmentTable {
 // The number of every observed pixel's segment, packed and placed as `pixels`.
 layout(std430, set = 0, binding = 8) readonly buffer SegmentPixels { uint segment_pixels[]; };
 // [candidate][view][segment]
-layout(std430, set = 0, binding = 9) buffer AllSegmentSums { SegmentSum segment_sums[]; };
+layout(std430, set = 0, binding = 9) buffer AllSegmentSums { Sums segment_sums[]; };
 
 layout(constant_id = 2) const uint SEGMENTS = 8u;
 
@@ -85,11 +86,15 @@ shared uint code_bits[CANDIDATES_A_TILE * 4u];
 struct Total {
     uvec4 whole; // as Sums
 #ifdef SEGMENTED
-    // Of the first four segments, and of the others.
+    // Of the first four segments, and of the others; edges and proximity where they are asked for.
     uvec4 areas;
     uvec4 overlaps;
+    uvec4 edges;
+    uvec4 proximity;
     uvec4 more_areas;
     uvec4 more_overlaps;
+    uvec4 more_edges;
+    uvec4 more_proximity;
 #endif
 };
 
@@ -243,8 +248,15 @@ uvec4 zero_bytes(uvec4 words) {
     return ~(words + 0x7f7f7f7fu) & 0x80808080u;
 }
 
-// Adds four pixels of one candidate segment by segment: their drawn bytes and the observed numbers.
-void add_segments(uint drawn, uint seen, Source source, inout Total total) {
+// The sums of the four bytes of each word.
+uvec4 byte_sums(uvec4 words) {
+    uvec4 pairs = (words & 0x00ff00ffu) + ((words >> 8) & 0x00ff00ffu);
+    return (pairs & 0xffffu) + (pairs >> 16);
+}
+
+// Adds four pixels of one candidate segment by segment: their drawn bytes and the observed numbers; of its edge pixels, 1 a byte, the
+// proximity.
+void add_segments(uint drawn, uint seen, uint edges, uint near, Source source, inout Total total) {
     uint segments = SEGMENTS;
     uvec4 number = numbers_of(uvec4(drawn) >> uvec4(0u, 8u, 16u, 24u), source);
     uint shown = number.x | number.y << 8 | number.z << 16 | number.w << 24;
@@ -252,10 +264,20 @@ void add_segments(uint drawn, uint seen, Source source, inout Total total) {
     uvec4 own = zero_bytes(uvec4(shown) ^ uvec4(0x01010101u, 0x02020202u, 0x03030303u, 0x04040404u));
     total.areas += uvec4(bitCount(own));
     total.overlaps += uvec4(bitCount(own & same));
+    if (SEGMENT_EDGES && edges != 0u) {
+        uvec4 border = (own >> 7) & edges;
+        total.edges += uvec4(bitCount(border));
+        total.proximity += byte_sums(near & (border * 0x7fu));
+    }
     if (segments > 4u) {
         own = zero_bytes(uvec4(shown) ^ uvec4(0x05050505u, 0x06060606u, 0x07070707u, 0x08080808u));
         total.more_areas += uvec4(bitCount(own));
         total.more_overlaps += uvec4(bitCount(own & same));
+        if (SEGMENT_EDGES && edges != 0u) {
+            uvec4 border = (own >> 7) & edges;
+            total.more_edges += uvec4(bitCount(border));
+            total.more_proximity += byte_sums(near & (border * 0x7fu));
+        }
     }
 }
 #endif
@@ -278,8 +300,12 @@ Total nothing() {
 #ifdef SEGMENTED
     total.areas = uvec4(0u);
     total.overlaps = uvec4(0u);
+    total.edges = uvec4(0u);
+    total.proximity = uvec4(0u);
     total.more_areas = uvec4(0u);
     total.more_overlaps = uvec4(0u);
+    total.more_edges = uvec4(0u);
+    total.more_proximity = uvec4(0u);
 #endif
     return total;
 }
@@ -301,7 +327,7 @@ void add_word(uint drawn, int place, Source source, inout Total total) {
 #ifdef SEGMENTED
     if (drawn != 0u) {
         int at = clamp(source.from + place, 0, int(segment_pixels.length()) - 1);
-        add_segments(drawn, segment_pixels[at], source, total);
+        add_segments(drawn, segment_pixels[at], edges, near, source, total);
     }
 #endif
 }
@@ -321,8 +347,13 @@ void add_to_sums(Tile tile, uint channel, Total total) {
         uint area = segment < 4u ? total.areas[own] : total.more_areas[own];
         uint overlap = segment < 4u ? total.overlaps[own] : total.more_overlaps[own];
         if (area == 0u) continue;
-        atomicAdd(segment_sums[image * MOST_SEGMENTS + segment].area_model, area);
-        atomicAdd(segment_sums[image * MOST_SEGMENTS + segment].overlap, overlap);
+        uint at = image * MOST_SEGMENTS + segment;
+        atomicAdd(segment_sums[at].area_model, area);
+        atomicAdd(segment_sums[at].overlap, overlap);
+        if (SEGMENT_EDGES) {
+            atomicAdd(segment_sums[at].edges, segment < 4u ? total.edges[own] : total.more_edges[own]);
+            atomicAdd(segment_sums[at].proximity, segment < 4u ? total.proximity[own] : total.more_proximity[own]);
+        }
     }
 #endif
 }

@@ -14,9 +14,17 @@ Total over_channel(Total total) {
     uint segments = SEGMENTS;
     total.areas = over_channel(total.areas);
     total.overlaps = over_channel(total.overlaps);
+    if (SEGMENT_EDGES) {
+        total.edges = over_channel(total.edges);
+        total.proximity = over_channel(total.proximity);
+    }
     if (segments > 4u) {
         total.more_areas = over_channel(total.more_areas);
         total.more_overlaps = over_channel(total.more_overlaps);
+        if (SEGMENT_EDGES) {
+            total.more_edges = over_channel(total.more_edges);
+            total.more_proximity = over_channel(total.more_proximity);
+        }
     }
 #endif
     return total;

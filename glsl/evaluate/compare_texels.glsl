@@ -8,10 +8,11 @@
 
 layout(local_size_x = COMPARE_GROUP) in;
 
-// Of each channel four sums, and with segments four fours.
+// Of each channel four sums, and with segments eight fours.
 shared uint shared_totals[16];
 #ifdef SEGMENTED
-shared uint shared_segments[64];
+// Eight would do; of 128, as many as SegmentTable's numbers, the compiler makes their type (compare_shared.glsl).
+shared uint shared_segments[4u * 32u + 1u];
 #endif
 
 void add_to_shared(uint channel, Total total) {
@@ -19,12 +20,20 @@ void add_to_shared(uint channel, Total total) {
         atomicAdd(shared_totals[4u * channel + sum], total.whole[sum]);
 #ifdef SEGMENTED
         uint segments = SEGMENTS;
-        uint first = 16u * channel + sum;
+        uint first = 32u * channel + sum;
         atomicAdd(shared_segments[first], total.areas[sum]);
         atomicAdd(shared_segments[first + 4u], total.overlaps[sum]);
+        if (SEGMENT_EDGES) {
+            atomicAdd(shared_segments[first + 8u], total.edges[sum]);
+            atomicAdd(shared_segments[first + 12u], total.proximity[sum]);
+        }
         if (segments > 4u) {
-            atomicAdd(shared_segments[first + 8u], total.more_areas[sum]);
-            atomicAdd(shared_segments[first + 12u], total.more_overlaps[sum]);
+            atomicAdd(shared_segments[first + 16u], total.more_areas[sum]);
+            atomicAdd(shared_segments[first + 20u], total.more_overlaps[sum]);
+            if (SEGMENT_EDGES) {
+                atomicAdd(shared_segments[first + 24u], total.more_edges[sum]);
+                atomicAdd(shared_segments[first + 28u], total.more_proximity[sum]);
+            }
         }
 #endif
     }
@@ -35,11 +44,15 @@ Total shared_total(uint channel) {
     for (uint sum = 0u; sum < 4u; sum++) {
         total.whole[sum] = shared_totals[4u * channel + sum];
 #ifdef SEGMENTED
-        uint first = 16u * channel + sum;
+        uint first = 32u * channel + sum;
         total.areas[sum] = shared_segments[first];
         total.overlaps[sum] = shared_segments[first + 4u];
-        total.more_areas[sum] = shared_segments[first + 8u];
-        total.more_overlaps[sum] = shared_segments[first + 12u];
+        total.edges[sum] = shared_segments[first + 8u];
+        total.proximity[sum] = shared_segments[first + 12u];
+        total.more_areas[sum] = shared_segments[first + 16u];
+        total.more_overlaps[sum] = shared_segments[first + 20u];
+        total.more_edges[sum] = shared_segments[first + 24u];
+        total.more_proximity[sum] = shared_segments[first + 28u];
 #endif
     }
     return total;
@@ -53,7 +66,7 @@ void main() {
     Walk walk = walk_from(unit, tile.width >> 2);
     if (unit < 16u) shared_totals[unit] = 0u;
 #ifdef SEGMENTED
-    if (unit < 64u) shared_segments[unit] = 0u;
+    for (uint at = unit; at < 4u * 32u; at += COMPARE_GROUP) shared_segments[at] = 0u;
     load_numbers(tile);
 #endif
     Source source0 = source_of(tile, 0u);

@@ -28,14 +28,15 @@ layout(push_constant) uniform Scoring {
 } push;
 
 #ifdef SEGMENTED
-#include "evaluate/segments.glsl"
+// Whether the edge term is that of the segments, weighed, too.
+layout(constant_id = 0) const bool SEGMENT_EDGES = false;
 
 layout(std430, set = 0, binding = 3) readonly buffer SegmentTable {
     float weights[MOST_SEGMENTS]; // 0 for those that are not
     uint numbers[LABELS];
     uint areas[];
 } table;
-layout(std430, set = 0, binding = 4) readonly buffer AllSegmentSums { SegmentSum segment_sums[]; };
+layout(std430, set = 0, binding = 4) readonly buffer AllSegmentSums { Sums segment_sums[]; };
 #endif
 
 #ifdef EVIDENCE
@@ -112,7 +113,7 @@ float views_area(Terms t, uint candidate, uint first_view, uint end_view) {
         float area_model = 0.0;
         float overlap = 0.0;
         for (uint view = first_view; view < end_view; view++) {
-            SegmentSum seen = segment_sums[(candidate * push.views + view) * MOST_SEGMENTS + segment];
+            Sums seen = segment_sums[(candidate * push.views + view) * MOST_SEGMENTS + segment];
             area_obs += float(table.areas[view * MOST_SEGMENTS + segment]);
             area_model += float(seen.area_model);
             overlap += float(seen.overlap);
@@ -126,14 +127,36 @@ float views_area(Terms t, uint candidate, uint first_view, uint end_view) {
 #endif
 }
 
-float edge(Terms t) {
-    precise float most = 127.0 * t.edges;
-    return ratio(t.proximity, most);
+float edge(float edges, float proximity) {
+    precise float most = 127.0 * edges;
+    return ratio(proximity, most);
 }
 
-float score(Terms t, float f1) {
+// The second term of some views of a candidate.
+float views_edge(Terms t, uint candidate, uint first_view, uint end_view) {
+#ifdef SEGMENTED
+    if (SEGMENT_EDGES) {
+        precise float term = 0.0;
+        for (uint segment = 0u; segment < MOST_SEGMENTS; segment++) {
+            float edges = 0.0;
+            float proximity = 0.0;
+            for (uint view = first_view; view < end_view; view++) {
+                Sums seen = segment_sums[(candidate * push.views + view) * MOST_SEGMENTS + segment];
+                edges += float(seen.edges);
+                proximity += float(seen.proximity);
+            }
+            term += table.weights[segment] * edge(edges, proximity);
+        }
+        return term;
+    }
+#endif
+    return edge(t.edges, t.proximity);
+}
+
+float score(Terms t, uint candidate, uint first_view, uint end_view) {
+    float f1 = views_area(t, candidate, first_view, end_view);
     if (f1 < 0.0) return 0.0;
-    float f2 = edge(t);
+    float f2 = views_edge(t, candidate, first_view, end_view);
     precise float together;
     if (push.terms == TERMS_SUM) together = push.w1 * f1 + push.w2 * f2;
     else together = power(f1, push.w1) * power(f2, push.w2);
@@ -155,12 +178,11 @@ void main() {
         all.overlap += own.overlap;
         all.edges += own.edges;
         all.proximity += own.proximity;
-        float f1 = views_area(own, candidate, view, view + 1u);
-        float value = score(own, f1);
+        float value = score(own, candidate, view, view + 1u);
         sum += value;
         products *= value;
     }
-    float together = score(all, views_area(all, candidate, 0u, push.views));
+    float together = score(all, candidate, 0u, push.views);
     float value = 0.0;
     if (push.over == OVER_TOGETHER) value = together;
     else if (push.over == OVER_MEAN) value = quotient(sum, float(push.views));

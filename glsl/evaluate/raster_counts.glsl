@@ -20,7 +20,8 @@ layout(std430, set = 0, binding = 5) SUMMED buffer AllSums { Sums sums[]; };
 layout(std430, set = 0, binding = 9) readonly buffer Counted { uint counted[]; };
 
 #ifdef SEGMENTED
-#include "evaluate/segments.glsl"
+// Whether edges and proximity are counted by segments too, not areas alone.
+layout(constant_id = 4) const bool SEGMENT_EDGES = false;
 
 layout(std430, set = 0, binding = 6) readonly buffer SegmentTable {
     float weights[MOST_SEGMENTS];
@@ -30,10 +31,26 @@ layout(std430, set = 0, binding = 6) readonly buffer SegmentTable {
 // A word a segment for 32 pixels of a row.
 layout(std430, set = 0, binding = 7) readonly buffer SegmentPlanes { uint segment_planes[]; };
 // [candidate][view][segment]
-layout(std430, set = 0, binding = 8) SUMMED buffer AllSegmentSums { SegmentSum segment_sums[]; };
+layout(std430, set = 0, binding = 8) SUMMED buffer AllSegmentSums { Sums segment_sums[]; };
 
 shared uint segment_areas[MOST_SEGMENTS];
 shared uint segment_overlaps[MOST_SEGMENTS];
+shared uint segment_edges[MOST_SEGMENTS];
+shared uint segment_proximities[MOST_SEGMENTS];
+
+// Begins the sums of the workgroup; an invocation a segment.
+void clear_segment(uint own) {
+    if (own >= MOST_SEGMENTS) return;
+    segment_areas[own] = 0u;
+    segment_overlaps[own] = 0u;
+    segment_edges[own] = 0u;
+    segment_proximities[own] = 0u;
+}
+
+// What the workgroup has counted of a segment.
+Sums segment_sum(uint own) {
+    return Sums(segment_areas[own], segment_overlaps[own], segment_edges[own], segment_proximities[own]);
+}
 #endif
 
 #ifdef EVIDENCE
@@ -68,6 +85,13 @@ uint counting(int columns, uint group) {
     return inside;
 }
 
+// The proximity of edge pixels, added up: the bits of the observation there, planes 0..=3 and 4..=6.
+uint proximity_of(uvec4 near, uvec3 far, uint edges) {
+    uvec4 ones = uvec4(1u, 2u, 4u, 8u) * uvec4(bitCount(near & edges));
+    uvec3 sixteens = uvec3(16u, 32u, 64u) * uvec3(bitCount(far & edges));
+    return ones.x + ones.y + ones.z + ones.w + sixteens.x + sixteens.y + sixteens.z;
+}
+
 // Adds what is drawn on the pixels of a group that count: area of the model, overlap, edges, proximity.
 #ifdef SEGMENTED
 void count_drawn(inout uvec4 sum, uint group, uint drawn, uint edges, uvec4 shown) {
@@ -77,8 +101,6 @@ void count_drawn(inout uvec4 sum, uint group, uint drawn, uint edges) {
     if (drawn == 0u) return;
     uvec4 near = planes[2u * group];
     uvec4 far = planes[2u * group + 1u];
-    uvec4 ones = uvec4(1u, 2u, 4u, 8u) * uvec4(bitCount(near & edges));
-    uvec3 sixteens = uvec3(16u, 32u, 64u) * uvec3(bitCount(far.xyz & edges));
 #ifdef SEGMENTED
     for (uint segment = 0u; segment < MOST_SEGMENTS; segment++) {
         uvec4 same = ~(shown ^ number_bits(segment + 1u));
@@ -87,12 +109,17 @@ void count_drawn(inout uvec4 sum, uint group, uint drawn, uint edges) {
         atomicAdd(segment_areas[segment], uint(bitCount(own)));
         uint both = own & segment_planes[MOST_SEGMENTS * group + segment];
         atomicAdd(segment_overlaps[segment], uint(bitCount(both)));
+        uint border = own & edges;
+        if (SEGMENT_EDGES && border != 0u) {
+            atomicAdd(segment_edges[segment], uint(bitCount(border)));
+            atomicAdd(segment_proximities[segment], proximity_of(near, far.xyz, border));
+        }
     }
 #endif
     sum.x += uint(bitCount(drawn));
     sum.y += uint(bitCount(drawn & far.w));
     sum.z += uint(bitCount(edges));
-    sum.w += ones.x + ones.y + ones.z + ones.w + sixteens.x + sixteens.y + sixteens.z;
+    sum.w += proximity_of(near, far.xyz, edges);
 }
 
 #ifdef EVIDENCE

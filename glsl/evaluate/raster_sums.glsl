@@ -12,10 +12,7 @@ void main() {
     uint place = batch.first * batch.views + image;
     if (own < 4u) totals[own] = 0u;
 #ifdef SEGMENTED
-    if (own < MOST_SEGMENTS) {
-        segment_areas[own] = 0u;
-        segment_overlaps[own] = 0u;
-    }
+    clear_segment(own);
 #endif
 #ifdef EVIDENCE
     if (own == 0u) all_codes = 0u;
@@ -31,8 +28,14 @@ void main() {
     if (totals[0] == 0u) return;
 #ifdef SEGMENTED
     if (own < MOST_SEGMENTS && segment_areas[own] != 0u) {
-        atomicAdd(segment_sums[place * MOST_SEGMENTS + own].area_model, segment_areas[own]);
-        atomicAdd(segment_sums[place * MOST_SEGMENTS + own].overlap, segment_overlaps[own]);
+        Sums found = segment_sum(own);
+        uint at = place * MOST_SEGMENTS + own;
+        atomicAdd(segment_sums[at].area_model, found.area_model);
+        atomicAdd(segment_sums[at].overlap, found.overlap);
+        if (found.edges != 0u) {
+            atomicAdd(segment_sums[at].edges, found.edges);
+            atomicAdd(segment_sums[at].proximity, found.proximity);
+        }
     }
 #endif
     if (own != 0u) return;

@@ -88,10 +88,12 @@ class Evaluator:
         beta: Optional[float] = None,
         w1: Optional[float] = None,
         w2: Optional[float] = None,
+        edges: Optional[str] = None,
     ) -> NDArray[np.float32]:
         """The fitness of every pose [n, dofs]: float32 [n], 0 to 1, the larger the better. `beta` is the share of "observed
-        silhouette covered", `w1` and `w2` weigh silhouette and edges."""
-        return self._native.fitness(_rows(poses), objective, [beta, w1, w2])
+        silhouette covered", `w1` and `w2` weigh silhouette and edges, and `edges` says whether these are `whole` (the default) or
+        weighed by `segments`."""
+        return self._native.fitness(_rows(poses), objective, [beta, w1, w2], edges)
 
     def drawn(self, pose: ArrayLike, view: int) -> Optional[NDArray[np.uint8]]:
         """A pose [dofs] as it is drawn in a view: uint8 [height, width], bits 0 to 6 the label of the part that is seen, bit 7 an

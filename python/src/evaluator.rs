@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use anyhow::{Context, Result, ensure};
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pantin::body::Model;
-use pantin::evaluate::{self, Components, Objective, ObjectiveKind};
+use pantin::evaluate::{self, Components, EdgeTerm, Objective, ObjectiveKind};
 use pantin::features::Observation;
 use pantin::files::Choice as _;
 use pantin::sequence::Sequence;
@@ -47,10 +47,11 @@ impl Evaluator {
     }
 }
 
-/// An objective by its name, with its usual weights where none are given.
-fn objective(name: &str, weights: [Option<f32>; 3]) -> Result<Objective> {
+/// An objective by its name, with its usual weights and edge term where none are given.
+fn objective(name: &str, weights: [Option<f32>; 3], edges: Option<&str>) -> Result<Objective> {
     let [beta, w1, w2] = weights;
-    ObjectiveChoice { kind: Some(ObjectiveKind::named(name)?), beta, w1, w2 }.resolve(None, "")
+    let edges = edges.map(EdgeTerm::named).transpose()?;
+    ObjectiveChoice { kind: Some(ObjectiveKind::named(name)?), beta, w1, w2, edges }.resolve(None, "")
 }
 
 #[pymethods]
@@ -71,7 +72,7 @@ impl Evaluator {
         objective_name: &str,
     ) -> PyResult<Self> {
         py.detach(|| {
-            let objective = objective(objective_name, [None; 3])?;
+            let objective = objective(objective_name, [None; 3], None)?;
             let frame = ScoredFrame::of_sequence(&Sequence::open(&sequence)?, frame, &objective)?;
             let built = Self::build(&frame.body, &frame.cameras, [backend, model])?;
             built.evaluator.lock().unwrap_or_else(PoisonError::into_inner).observe(&frame.observations)?;
@@ -141,13 +142,17 @@ impl Evaluator {
         poses: PyReadonlyArray2<'py, f32>,
         objective_name: &str,
         weights: [Option<f32>; 3],
+        edges: Option<&str>,
     ) -> PyResult<Bound<'py, PyArray1<f32>>> {
-        let objective = objective(objective_name, weights).map_err(raised)?;
+        let objective = objective(objective_name, weights, edges).map_err(raised)?;
         let poses = rows(&poses, self.dofs)?;
         let result = PyArray1::zeros(py, [poses.len() / self.dofs], false);
         let mut written = result.try_readwrite()?;
         let fitness = written.as_slice_mut()?;
-        self.with(py, |evaluator| evaluator.fitness(poses, &objective, fitness))?;
+        self.with(py, |evaluator| {
+            objective.check_segments(evaluator.segments().is_some())?;
+            evaluator.fitness(poses, &objective, fitness)
+        })?;
         drop(written);
         Ok(result)
     }

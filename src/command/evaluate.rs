@@ -79,6 +79,7 @@ pub(super) fn run(args: &EvaluateArgs) -> Result<()> {
         }
         (None, None) => return Err(anyhow!("--sequence or --observations is missing")),
     };
+    objective.check_segments(frame.observations.iter().all(|view| view.segmentation.is_some()))?;
     let poses = PoseTable::read(&args.poses, &frame.body)?;
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
     let output = args.output.as_deref().map(|path| OutputFolder::create(path, overwrite)).transpose()?;

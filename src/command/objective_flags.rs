@@ -1,6 +1,6 @@
 //! The flags that choose an objective function, shared by the commands that score poses.
 
-use crate::evaluate::ObjectiveKind;
+use crate::evaluate::{EdgeTerm, ObjectiveKind};
 use crate::track::ObjectiveChoice;
 
 /// Flags over a sequence's `[objective]` table over the defaults.
@@ -19,11 +19,14 @@ pub(super) struct ObjectiveFlags {
     /// Weight, or exponent, of the edges [default: 0.5; beside evidence 0.25].
     #[arg(long, value_name = "F")]
     w2: Option<f32>,
+    /// What the edge term is made of where [[features.segment]] tells body parts apart [default: whole].
+    #[arg(long, value_name = "NAME")]
+    edges: Option<EdgeTerm>,
 }
 
 impl ObjectiveFlags {
     /// What they choose.
     pub(super) fn choice(&self) -> ObjectiveChoice {
-        ObjectiveChoice { kind: self.objective, beta: self.beta, w1: self.w1, w2: self.w2 }
+        ObjectiveChoice { kind: self.objective, beta: self.beta, w1: self.w1, w2: self.w2, edges: self.edges }
     }
 }

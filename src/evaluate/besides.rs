@@ -1,6 +1,6 @@
 //! What is summed of drawn candidates besides their components.
 
-use super::objective::Objective;
+use super::objective::{EdgeTerm, Objective};
 
 /// One of the sums that cost time of their own; the objective says which it needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,6 +9,8 @@ pub(crate) enum Besides {
     Nothing,
     /// Areas and overlaps of the segments, where there are any.
     Segments,
+    /// Those, and the edges of each with their proximity.
+    SegmentEdges,
     /// Evidence.
     Evidence,
 }
@@ -16,6 +18,10 @@ pub(crate) enum Besides {
 impl Besides {
     /// What an objective needs; silhouettes are compared by segments where there are any.
     pub(crate) fn of(objective: &Objective) -> Self {
-        if objective.weighs_evidence() { Self::Evidence } else { Self::Segments }
+        match objective.edges {
+            _ if objective.weighs_evidence() => Self::Evidence,
+            EdgeTerm::Whole => Self::Segments,
+            EdgeTerm::Segments => Self::SegmentEdges,
+        }
     }
 }

@@ -28,7 +28,7 @@ pub use evaluator::{Evaluator, Footprint};
 pub use evidence::EvidenceSum;
 pub use mesh_projection::{EDGE_BIAS, MeshProjector, NEAR, NEAREST, ProjectedVertex};
 pub use mesh_raster::draw_mesh;
-pub use objective::{Area, Objective, ObjectiveKind, Terms, Views};
+pub use objective::{Area, EdgeTerm, Objective, ObjectiveKind, Terms, Views};
 pub use projection::{PartQuad, Projector};
 pub use raster::{CandidateImage, draw_quads};
 pub use reference::{Reference, compare};

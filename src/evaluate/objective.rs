@@ -31,6 +31,17 @@ choices! {
     }
 }
 
+choices! {
+    /// What the edge term is made of where observations tell body parts apart.
+    #[derive(Default)]
+    "edge term" pub enum EdgeTerm {
+        /// All edges of the candidate together (the default).
+        "whole" #[default] Whole,
+        /// The edges of each segment by themselves, weighed as the silhouettes of the segments are.
+        "segments" Segments,
+    }
+}
+
 /// What the first term judges the drawn area by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Area {
@@ -71,6 +82,8 @@ pub struct Objective {
     pub w1: f32,
     /// Weight or exponent of the edge term.
     pub w2: f32,
+    /// What the edge term is made of where there are segments.
+    pub edges: EdgeTerm,
 }
 
 impl Default for Objective {
@@ -100,7 +113,7 @@ impl Objective {
             Area::Silhouette => (0.5, 0.5),
             Area::Evidence => (0.75, 0.25),
         };
-        Self { kind, beta: 0.5, w1, w2 }
+        Self { kind, beta: 0.5, w1, w2, edges: EdgeTerm::Whole }
     }
 
     /// Whether it weighs evidence, which the observations must then carry.
@@ -113,7 +126,7 @@ impl Objective {
     /// # Errors
     /// With the number and what was expected.
     pub fn check(&self) -> Result<()> {
-        let Self { kind, beta, w1, w2 } = *self;
+        let Self { kind, beta, w1, w2, .. } = *self;
         ensure!((0.0..=1.0).contains(&beta), "the objective's beta is {beta}, expected 0 to 1");
         let is_sum = kind.formula().1 == Terms::Sum;
         for (name, weight) in [("w1", w1), ("w2", w2)] {
@@ -131,16 +144,31 @@ impl Objective {
         Ok(())
     }
 
+    /// Whether what is observed serves it: edges are weighed by segments where there are some.
+    ///
+    /// # Errors
+    /// When there are none to weigh them by.
+    pub fn check_segments(&self, has_segments: bool) -> Result<()> {
+        ensure!(
+            self.edges == EdgeTerm::Whole || has_segments,
+            "the objective's edges are to be weighed by {}, and no [[features.segment]] tells body parts apart, expected {}",
+            EdgeTerm::Segments,
+            EdgeTerm::Whole
+        );
+        Ok(())
+    }
+
     /// The fitness of one candidate from its components, one a view. Nothing drawn or nothing observed scores 0; 0/0 is 0. So does
     /// any candidate by an objective that weighs evidence, of which there is none here.
     pub fn fitness(&self, views: &[Components]) -> f32 {
         if self.weighs_evidence() {
             return 0.0;
         }
-        self.combined(views, |_, sums| sums.is_something().then(|| sums.silhouette(self.beta)))
+        self.combined(views, |_, sums| sums.is_something().then(|| [sums.silhouette(self.beta), sums.edge()]))
     }
 
-    /// The segmented form: the silhouette term is the weighted mean of the segments' own, `segment_sums[view * segments + segment]`.
+    /// The segmented form: the silhouette term, and the edge term where [`Self::edges`] says so, is the weighted mean of the segments'
+    /// own, `segment_sums[view * segments + segment]`.
     pub fn segmented_fitness(&self, views: &[Components], segments: &Segments, segment_sums: &[SegmentSums]) -> f32 {
         if self.weighs_evidence() {
             return 0.0;
@@ -148,11 +176,18 @@ impl Objective {
         let segments = segments.as_slice();
         self.combined(views, |views, sums| {
             let rows = &segment_sums[views.start * segments.len()..views.end * segments.len()];
-            let term = |(at, segment): (usize, &Segment)| {
-                let of_segment = rows.iter().skip(at).step_by(segments.len());
-                segment.weight * of_segment.fold(Sums::default(), Sums::plus_segment).silhouette(self.beta)
+            let weighed = |term: &dyn Fn(&Sums) -> f32| -> f32 {
+                let own = |(at, segment): (usize, &Segment)| {
+                    let of_segment = rows.iter().skip(at).step_by(segments.len());
+                    segment.weight * term(&of_segment.fold(Sums::default(), Sums::plus_segment))
+                };
+                segments.iter().enumerate().map(own).sum()
             };
-            sums.is_something().then(|| segments.iter().enumerate().map(term).sum())
+            let edge = || match self.edges {
+                EdgeTerm::Whole => sums.edge(),
+                EdgeTerm::Segments => weighed(&Sums::edge),
+            };
+            sums.is_something().then(|| [weighed(&|sums| sums.silhouette(self.beta)), edge()])
         })
     }
 
@@ -199,18 +234,17 @@ impl Objective {
     ) -> f32 {
         self.combined(views, |views, sums| {
             let share = share_of_best(evidence(views)).filter(|_| sums.area_model > 0);
-            share.map(|share| share.max(LEAST_EVIDENCE))
+            share.map(|share| [share.max(LEAST_EVIDENCE), sums.edge()])
         })
     }
 
-    /// The terms of all views together or of each by itself, put together; `area` is f1 of some of the views and their sums, and
-    /// none where they score 0.
-    fn combined(&self, views: &[Components], area: impl Fn(Range<usize>, &Sums) -> Option<f32>) -> f32 {
+    /// The terms of all views together or of each by itself, put together; `both` is f1 and f2 of some of the views and their sums,
+    /// and none where they score 0.
+    fn combined(&self, views: &[Components], both: impl Fn(Range<usize>, &Sums) -> Option<[f32; 2]>) -> f32 {
         let (_, terms, over) = self.kind.formula();
         let score = |range: Range<usize>| {
             let sums = views[range.clone()].iter().fold(Sums::default(), Sums::plus);
-            let Some(f1) = area(range, &sums) else { return 0.0 };
-            let f2 = sums.edge();
+            let Some([f1, f2]) = both(range, &sums) else { return 0.0 };
             match terms {
                 Terms::Sum => self.w1 * f1 + self.w2 * f2,
                 Terms::Product => power(f1, self.w1) * power(f2, self.w2),
@@ -277,7 +311,8 @@ impl Sums {
             area_obs: self.area_obs + u64::from(segment.area_obs),
             area_model: self.area_model + u64::from(segment.area_model),
             overlap: self.overlap + u64::from(segment.overlap),
-            ..self
+            edges: self.edges + u64::from(segment.edges),
+            proximity: self.proximity + u64::from(segment.proximity),
         }
     }
 
@@ -339,7 +374,7 @@ mod tests {
         let f1_all = beta * 110.0 / 300.0 + 0.7 * 110.0 / 180.0;
         let f2_all = 1016.0 / (127.0 * 40.0);
         for (kind, expected) in ObjectiveKind::ALL.into_iter().zip(five(f1, f2, f1_all, f2_all)) {
-            let objective = Objective { kind, beta: 0.3, w1: W1 as f32, w2: W2 as f32 };
+            let objective = Objective { beta: 0.3, w1: W1 as f32, w2: W2 as f32, ..Objective::of(kind) };
             let seen = ViewCounts { components: views()[1], evidence: None };
             let [term1, term2] = objective.view_terms(&seen).map(f64::from);
             assert!((term1 - f1[1]).abs() < 1e-6 && (term2 - f2[1]).abs() < 1e-6, "{term1} {term2}");
@@ -348,25 +383,53 @@ mod tests {
         }
     }
 
-    /// The same with the silhouette term of two segments, 3/4 and 1/4 of it.
-    #[test]
-    fn the_five_segmented_formulas() {
+    /// Two segments, 3/4 and 1/4 of the terms: sums of each in each of the two views.
+    fn in_segments() -> (Segments, [SegmentSums; 4]) {
         let segment = |name: &str, label, weight| Segment { name: name.into(), labels: vec![label], weight };
         let segments = Segments::new(vec![segment("a", 1, 0.75), segment("b", 2, 0.25)]).unwrap();
-        let sums = [[40, 50, 30], [60, 20, 10], [150, 60, 30], [0, 40, 0]]
-            .map(|[area_obs, area_model, overlap]| SegmentSums { area_obs, area_model, overlap });
+        let sums = [[40, 50, 30, 4, 127], [60, 20, 10, 5, 381], [150, 60, 30, 20, 254], [0, 40, 0, 0, 0]];
+        let sums = sums.map(|[area_obs, area_model, overlap, edges, proximity]| SegmentSums {
+            area_obs,
+            area_model,
+            overlap,
+            edges,
+            proximity,
+        });
+        (segments, sums)
+    }
+
+    /// The same with the silhouette term of the segments, and with that and their edge term; one of them shows no edge in a view.
+    #[test]
+    fn the_five_segmented_formulas() {
+        let (segments, sums) = in_segments();
         let beta = 0.3_f64;
         let f = |overlap: f64, obs: f64, model: f64| {
             if overlap == 0.0 { 0.0 } else { beta * overlap / obs + 0.7 * overlap / model }
         };
         let f1 = [0.75 * f(30.0, 40.0, 50.0) + 0.25 * f(10.0, 60.0, 20.0), 0.75 * f(30.0, 150.0, 60.0)];
         let f1_all = 0.75 * f(60.0, 190.0, 110.0) + 0.25 * f(10.0, 60.0, 60.0);
-        let (f2, f2_all) = ([0.5, 0.1], 1016.0 / (127.0 * 40.0));
-        for (kind, expected) in ObjectiveKind::ALL.into_iter().zip(five(f1, f2, f1_all, f2_all)) {
-            let objective = Objective { kind, beta: 0.3, w1: W1 as f32, w2: W2 as f32 };
-            let found = f64::from(objective.segmented_fitness(&views(), &segments, &sums));
-            assert!((found - expected).abs() < 1e-6, "{}: {found} is not {expected}", kind.name());
+        let whole = ([0.5, 0.1], 1016.0 / (127.0 * 40.0));
+        // 127 of each of 4, 3 x 127 of 5, 2 x 127 of 20.
+        let in_parts = ([0.75 / 4.0 + 0.25 * 3.0 / 5.0, 0.75 * 2.0 / 20.0], 0.75 * 3.0 / 24.0 + 0.25 * 3.0 / 5.0);
+        for (edges, (f2, f2_all)) in [(EdgeTerm::Whole, whole), (EdgeTerm::Segments, in_parts)] {
+            for (kind, expected) in ObjectiveKind::ALL.into_iter().zip(five(f1, f2, f1_all, f2_all)) {
+                let weights = Objective { beta: 0.3, w1: W1 as f32, w2: W2 as f32, ..Objective::of(kind) };
+                let objective = Objective { edges, ..weights };
+                let found = f64::from(objective.segmented_fitness(&views(), &segments, &sums));
+                assert!((found - expected).abs() < 1e-6, "{}, {edges}: {found} is not {expected}", kind.name());
+            }
         }
+    }
+
+    #[test]
+    fn edges_by_segments_need_segments() {
+        let objective = Objective { edges: EdgeTerm::Segments, ..Objective::default() };
+        let error = objective.check_segments(false).unwrap_err().to_string();
+        assert!(
+            ["by segments", "[[features.segment]]", "expected whole"].iter().all(|part| error.contains(part)),
+            "{error}"
+        );
+        assert!(objective.check_segments(true).is_ok() && Objective::default().check_segments(false).is_ok());
     }
 
     /// METHOD A7 written out by hand: the two views above with evidence, of which one speaks against the candidate.

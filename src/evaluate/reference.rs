@@ -140,7 +140,8 @@ impl Evaluator for Reference {
             for (view, sums) in row.chunks_exact_mut(a_pose / views).enumerate() {
                 let observation = &self.observations[view];
                 if let Some(segmentation) = &observation.segmentation {
-                    compare_segments(&counted(self.draw(pose, view), observation), segmentation, sums);
+                    let image = counted(self.draw(pose, view), observation);
+                    compare_segments(&image, &observation.bytes, segmentation, sums);
                 }
             }
         }
@@ -182,15 +183,20 @@ fn counted(mut image: CandidateImage, observation: &Observation) -> CandidateIma
     image
 }
 
-/// Counts a drawn candidate segment by segment: a pixel is of the segment that its label belongs to.
-fn compare_segments(image: &CandidateImage, seen: &Segmentation, sums: &mut [SegmentSums]) {
+/// Counts a drawn candidate segment by segment, beside the packed bytes and the segments of an observation: a pixel is of the segment
+/// that its label belongs to.
+fn compare_segments(image: &CandidateImage, packed: &[u8], seen: &Segmentation, sums: &mut [SegmentSums]) {
     sums.fill(SegmentSums::default());
-    for (byte, &observed) in image.bytes.iter().zip(seen.numbers()) {
+    for ((byte, &observed), packed) in image.bytes.iter().zip(seen.numbers()).zip(packed) {
         let drawn = seen.segments().number(byte & 0x7f);
         for (number, sums) in (1..).zip(&mut *sums) {
             sums.area_obs += u32::from(observed == number);
             sums.area_model += u32::from(drawn == number);
             sums.overlap += u32::from(observed == number && drawn == number);
+            if drawn == number && byte & 0x80 != 0 {
+                sums.edges += 1;
+                sums.proximity += u32::from(packed & Observation::PROXIMITY);
+            }
         }
     }
 }
@@ -227,9 +233,19 @@ mod tests {
         let numbers = [[0, 0, 1, 1, 1, 1, 0, 0], [2, 2, 1, 1, 1, 2, 2, 2]];
         let numbers = (0..6).flat_map(|y| numbers[usize::from((2..5).contains(&y))]).collect();
         let mut sums = [SegmentSums::default(); 2];
-        compare_segments(&image, &Segmentation::new(segments, 8, 6, numbers).unwrap(), &mut sums);
-        assert_eq!(sums[0], SegmentSums { area_obs: 21, area_model: 24, overlap: 21 });
-        assert_eq!(sums[1], SegmentSums { area_obs: 15, area_model: 12, overlap: 12 });
+        // Proximity is the column, whatever the silhouette. The near one's border: columns 2 and 5 of six rows, 3 and 4 of two. The far
+        // one's: columns 0, 1, 6 and 7 of two rows, 0 and 7 of the one between.
+        let packed: Vec<u8> = (0..48).map(|at| (at % 8) | ((at % 2) << 7)).collect();
+        let segmentation = Segmentation::new(segments, 8, 6, numbers).unwrap();
+        compare_segments(&image, &packed, &segmentation, &mut sums);
+        let near = SegmentSums { area_obs: 21, area_model: 24, overlap: 21, edges: 16, proximity: 6 * 7 + 2 * 7 };
+        let far = SegmentSums { area_obs: 15, area_model: 12, overlap: 12, edges: 10, proximity: 2 * (1 + 6 + 7) + 7 };
+        assert_eq!(sums, [near, far]);
+        // Together they are the candidate's own.
+        let mut observation = Observation::empty(8, 6);
+        observation.bytes = packed;
+        let Components { edges, proximity, .. } = compare(&image, &observation);
+        assert_eq!((edges, proximity), (sums[0].edges + sums[1].edges, sums[0].proximity + sums[1].proximity));
     }
 
     #[test]

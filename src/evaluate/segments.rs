@@ -1,4 +1,4 @@
-//! Silhouettes compared segment by segment (METHOD A6, A7): a body in parts that look alike.
+//! Silhouettes and edges compared segment by segment (METHOD A6, A7): a body in parts that look alike.
 
 use std::sync::Arc;
 
@@ -16,6 +16,10 @@ pub struct SegmentSums {
     pub area_model: u32,
     /// Pixels observed and drawn as this segment.
     pub overlap: u32,
+    /// Visible edge pixels drawn as this segment.
+    pub edges: u32,
+    /// Sum over these of the packed 7-bit proximity.
+    pub proximity: u32,
 }
 
 /// The segments of a frame's observations, one a view: those of all of them, or none.

@@ -124,6 +124,10 @@ fn make(
     scene.frames = length.unwrap_or(scene.frames);
     let frames = scene.frames;
     let synthetic = SyntheticSequence::new(&scene)?;
+    // Every process that makes a run looks; the empty room alone takes seconds to draw.
+    if synthetic.is_written(folder)? {
+        return Ok(());
+    }
     let begun = fs::read_dir(folder.path())?.next().is_some();
     synthetic.write(folder, begun, None, &|done| {
         progress(done, frames);

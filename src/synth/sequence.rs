@@ -181,6 +181,18 @@ impl SyntheticSequence {
         self.write_as(&FileNames::default(), folder, resume, device, progress)
     }
 
+    /// Whether a folder that nothing was ever replaced in holds all of it: the manifest is written last.
+    ///
+    /// # Errors
+    /// When the settings that the folder was made with cannot be read.
+    pub fn is_written(&self, folder: &OutputFolder) -> Result<bool> {
+        if !folder.path().join(FileNames::default().manifest).is_file() {
+            return Ok(false);
+        }
+        let record = toml::to_string(&self.scene).context("cannot write the scene's settings")?;
+        Ok(SETTINGS.read_text(&folder.path().join(RECORD))? == record)
+    }
+
     /// [`Self::write`] with other names of the files that belong to the truth.
     ///
     /// # Errors
@@ -501,9 +513,12 @@ mod tests {
         assert_eq!(fs::read(&frame).unwrap(), whole);
         assert_eq!(fs::read(&kept).unwrap(), b"kept", "what is there is not made again");
         let other = SyntheticSequence::new(&Scene { seed: 7, ..short() }).unwrap();
+        let again = SyntheticSequence::new(&short()).unwrap();
+        assert!(again.is_written(&output).unwrap() && !other.is_written(&output).unwrap());
         let error = other.write(&output, true, None, &|_| Ok(())).unwrap_err().to_string();
         assert!(error.contains("scene.toml has other settings"), "{error}");
         let empty = tempfile::tempdir().unwrap();
+        assert!(!other.is_written(&OutputFolder::open(empty.path()).unwrap()).unwrap());
         let error = other.write(&OutputFolder::open(empty.path()).unwrap(), true, None, &|_| Ok(())).unwrap_err();
         assert!(format!("{error:#}").contains("expected a folder that was begun"), "{error:#}");
     }

@@ -59,6 +59,7 @@ impl Plan {
         let mut features = feature_settings(sequence)?;
         let usual = settings.usual_objective(!features.segment.is_empty());
         let objective = settings.objective.resolve_over(usual, sequence.objective.as_ref(), &name)?;
+        objective.check_segments(!features.segment.is_empty()).with_context(|| name.clone())?;
         features.likelihoods = objective.weighs_evidence();
         check_background(sequence, &range)?;
         let Some(start_path) = settings.start.clone().or_else(|| sequence.start.clone()) else {

@@ -13,8 +13,8 @@ use super::journal::checksum;
 use super::plan::Plan;
 use super::{Backend, FeaturesOn, Passes, RealtimeSettings, TrackSettings, Width};
 use crate::body::{MeshSource, Model};
-use crate::evaluate::Objective;
 use crate::evaluate::device::GraphicsSettings;
+use crate::evaluate::{EdgeTerm, Objective};
 use crate::files::{Limit, OutputFolder, read_toml, table_of};
 use crate::sequence::{Ignored, Sequence, Source, Turn, Video, View};
 
@@ -124,12 +124,12 @@ struct Run {
 
 impl Run {
     fn of(sequence: &Sequence, settings: &TrackSettings, plan: &Plan) -> Self {
-        let Objective { kind, beta, w1, w2 } = plan.objective;
+        let Objective { kind, beta, w1, w2, .. } = plan.objective;
         let search = &settings.search;
         let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
         let command = format!(
             "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-             --refine {} --predict {}{}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2} --backend {}{} --model {} --overlay-every {}{}{start}{}{}{}",
+             --refine {} --predict {}{}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2}{} --backend {}{} --model {} --overlay-every {}{}{start}{}{}{}",
             sequence.path.display(),
             plan.range.start,
             plan.range.end,
@@ -144,6 +144,7 @@ impl Run {
             more_passes(settings).map(|passes| format!(" --passes {passes}")).unwrap_or_default(),
             yes_or_no(settings.recover),
             kind.name(),
+            edge_term(plan).map(|edges| format!(" --edges {edges}")).unwrap_or_default(),
             plan.backend.evaluator.name(),
             drawing_flags(settings),
             settings.model.name(),
@@ -172,6 +173,12 @@ fn learnt_width(settings: &TrackSettings) -> Option<&'static str> {
 fn more_passes(settings: &TrackSettings) -> Option<&'static str> {
     let passes = settings.passes();
     (passes != Passes::Forward).then(|| passes.name())
+}
+
+/// What the edge term is made of where that is not all edges together, as it was before there was a choice.
+fn edge_term(plan: &Plan) -> Option<&'static str> {
+    let edges = plan.objective.edges;
+    (edges != EdgeTerm::Whole).then(|| edges.name())
 }
 
 /// Whether graphics draws in another way than the usual one, which runs had before there was a choice.
@@ -225,6 +232,8 @@ struct Settings<'a> {
     beta: f32,
     w1: f32,
     w2: f32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    edges: Option<&'static str>,
     backend: &'static str,
     /// How graphics draws, where that is not as usual.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -250,7 +259,7 @@ struct Realtime {
 impl<'a> Settings<'a> {
     fn of(sequence: &'a Sequence, settings: &TrackSettings, plan: &Plan) -> Result<Self> {
         let search = &settings.search;
-        let Objective { kind, beta, w1, w2 } = plan.objective;
+        let Objective { kind, beta, w1, w2, .. } = plan.objective;
         let realtime = |realtime: &RealtimeSettings| Realtime {
             rate: realtime.rate,
             r#loop: realtime.repeat.to_string(),
@@ -274,6 +283,7 @@ impl<'a> Settings<'a> {
             beta,
             w1,
             w2,
+            edges: edge_term(plan),
             backend: plan.backend.evaluator.name(),
             graphics: is_drawn_otherwise(settings).then(|| settings.drawing.graphics.name()),
             model: settings.model.name(),

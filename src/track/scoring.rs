@@ -9,7 +9,7 @@ use image::{ExtendedColorType, ImageEncoder};
 
 use super::Drawing;
 use crate::body::{Body, Model, PoseTable};
-use crate::evaluate::{Components, Evaluator, Objective, Reference, SegmentSums};
+use crate::evaluate::{Components, EdgeTerm, Evaluator, Objective, Reference, SegmentSums};
 use crate::features::Observation;
 use crate::files::{OutputFolder, file_stem};
 use crate::geometry::Camera;
@@ -135,7 +135,7 @@ pub fn score_poses(
     output.write("components.csv", |writer| write_components(writer, frame, evaluator, &rows))?;
     output.write("fitness.csv", |writer| write_fitness(writer, &scores.fitness))?;
     if evaluator.segments().is_some() {
-        output.write("segments.csv", |writer| write_segments(writer, frame, evaluator, &rows))?;
+        output.write("segments.csv", |writer| write_segments(writer, frame, evaluator, &rows, objective.edges))?;
     }
     if evaluator.best_evidence().is_some() {
         output.write("evidence.csv", |writer| write_evidence(writer, frame, evaluator, &rows))?;
@@ -211,12 +211,24 @@ fn write_components(
     Ok(writer.flush()?)
 }
 
-fn write_segments(out: &mut dyn Write, frame: &ScoredFrame, evaluator: &mut dyn Evaluator, rows: &[f32]) -> Result<()> {
+/// Areas and overlaps, and the edges where the objective weighs them by segments.
+fn write_segments(
+    out: &mut dyn Write,
+    frame: &ScoredFrame,
+    evaluator: &mut dyn Evaluator,
+    rows: &[f32],
+    edges: EdgeTerm,
+) -> Result<()> {
     let (views, dofs) = (frame.cameras.len(), frame.body.dof_count());
     let Some(segments) = evaluator.segments().cloned() else { return Ok(()) };
     let segments = segments.as_slice();
     let mut writer = csv::Writer::from_writer(out);
-    writer.write_record(["pose", "view", "segment", "area_obs", "area_model", "overlap"])?;
+    let counted = match edges {
+        EdgeTerm::Whole => 3,
+        EdgeTerm::Segments => 5,
+    };
+    let names = ["area_obs", "area_model", "overlap", "edges", "proximity"];
+    writer.write_record(["pose", "view", "segment"].iter().chain(&names[..counted]))?;
     let mut sums = Vec::new();
     for (index, batch) in rows.chunks(BATCH * dofs).enumerate() {
         sums.clear();
@@ -225,10 +237,10 @@ fn write_segments(out: &mut dyn Write, frame: &ScoredFrame, evaluator: &mut dyn 
         for (at, found) in sums.iter().enumerate() {
             let (image, segment) = (at / segments.len(), &segments[at % segments.len()].name);
             let pose = (index * BATCH + image / views).to_string();
-            let SegmentSums { area_obs, area_model, overlap } = *found;
-            let numbers = [area_obs, area_model, overlap].map(|number| number.to_string());
+            let SegmentSums { area_obs, area_model, overlap, edges, proximity } = *found;
+            let numbers = [area_obs, area_model, overlap, edges, proximity].map(|number| number.to_string());
             let cells = [pose.as_str(), &frame.cameras[image % views].name, segment];
-            writer.write_record(cells.into_iter().chain(numbers.iter().map(String::as_str)))?;
+            writer.write_record(cells.into_iter().chain(numbers[..counted].iter().map(String::as_str)))?;
         }
     }
     Ok(writer.flush()?)

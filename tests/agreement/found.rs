@@ -1,7 +1,9 @@
 //! What a backend says of poses, held to what the reference says.
 
 use pantin::body::Body;
-use pantin::evaluate::{Components, Evaluator, EvidenceSum, Objective, ObjectiveKind, Reference, SegmentSums};
+use pantin::evaluate::{
+    Components, EdgeTerm, Evaluator, EvidenceSum, Objective, ObjectiveKind, Reference, SegmentSums,
+};
 use pantin::features::Observation;
 use pantin::geometry::Camera;
 
@@ -88,9 +90,10 @@ pub(crate) fn objectives(seen: &[Observation]) -> Vec<Objective> {
     if seen[0].evidence.is_some() {
         return vec![evidence, Objective { w1: 0.875, w2: 1.0, ..evidence }];
     }
-    let uneven = scene::of_silhouettes().map(|kind| Objective { kind, beta: 0.4, w1: 0.7, w2: 0.3 });
+    let uneven = scene::of_silhouettes().map(|kind| Objective { beta: 0.4, w1: 0.7, w2: 0.3, ..Objective::of(kind) });
     if seen[0].segmentation.is_some() {
-        return uneven.collect();
+        let by_segments = |objective| Objective { edges: EdgeTerm::Segments, ..objective };
+        return uneven.flat_map(|objective| [objective, by_segments(objective)]).collect();
     }
     uneven.chain(scene::of_silhouettes().map(|kind| Objective { kind, ..Objective::default() })).collect()
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pantin::evaluate::cpu::Cpu;
 use pantin::evaluate::device::{Compute, Graphics, GraphicsSettings};
-use pantin::evaluate::{Components, Evaluator, Objective, Reference, SegmentSums};
+use pantin::evaluate::{Components, EdgeTerm, Evaluator, Objective, Reference, SegmentSums};
 use pantin::features::{Observation, Segment, Segmentation, Segments};
 use pantin::gpu::DeviceSettings;
 
@@ -122,17 +122,56 @@ fn one_segment_of_everything_is_the_whole_silhouette() {
     let mut cpu = Cpu::new(body, cameras).unwrap();
     let found = found(&mut cpu, &seen, &poses);
     for (whole, segment) in found.components.iter().zip(&found.segments) {
-        let Components { area_obs, area_model, overlap, .. } = *whole;
-        assert_eq!(*segment, SegmentSums { area_obs, area_model, overlap });
+        let Components { area_obs, area_model, overlap, edges, proximity } = *whole;
+        assert_eq!(*segment, SegmentSums { area_obs, area_model, overlap, edges, proximity });
     }
-    for kind in scene::of_silhouettes() {
-        let objective = Objective { kind, beta: 0.4, w1: 0.7, w2: 0.3 };
+    for (kind, edges) in scene::of_silhouettes().flat_map(|kind| EdgeTerm::ALL.map(|edges| (kind, edges))) {
+        let objective = Objective { kind, beta: 0.4, w1: 0.7, w2: 0.3, edges };
         let mut fitness = vec![-1.0; 50];
         cpu.fitness(&poses, &objective, &mut fitness).unwrap();
         for (value, row) in fitness.iter().zip(found.components.chunks_exact(4)) {
-            assert_eq!(*value, objective.fitness(row), "{}", kind.name());
+            assert_eq!(*value, objective.fitness(row), "{}, {edges}", kind.name());
         }
     }
+}
+
+#[test]
+fn edges_of_a_segment_are_its_own_and_a_changed_one_is_caught() {
+    let (Stage { body, cameras }, segments) = (&*USUAL, three());
+    let mut random = Random(35);
+    let seen = seen(&USUAL, &segments, &mut random);
+    let poses = poses(body, 20, &mut random);
+    let mut cpu = Cpu::new(body, cameras).unwrap();
+    let expected = found(&mut Reference::new(body, cameras), &seen, &poses);
+    assert!(found(&mut cpu, &seen, &poses).segments == expected.segments);
+    let met = expected.segments.iter().filter(|sums| sums.edges > 0 && sums.proximity > 0).count();
+    assert!(met * 3 > expected.segments.len(), "only {met} of {} segments have edges", expected.segments.len());
+    // What the one part in no segment shows is in none of them.
+    let of_segments = |image: usize| expected.segments[3 * image..][..3].iter().map(|sums| sums.edges).sum::<u32>();
+    let mut whole = expected.components.iter().map(|sums| sums.edges).enumerate();
+    assert!(whole.clone().all(|(image, whole)| whole >= of_segments(image)));
+    assert!(whole.any(|(image, whole)| whole > of_segments(image)), "one part has none");
+
+    // One bit of the proximity under an edge of the first pose that its second segment shows.
+    let candidate = Reference::new(body, cameras).draw(&poses[..body.dof_count()], 0);
+    let is_second_edge = |byte: &u8| byte & 0x80 != 0 && segments.number(byte & 0x7f) == 2;
+    let at = candidate.bytes.iter().position(is_second_edge).unwrap();
+    let mut sabotaged = seen.clone();
+    sabotaged[0].bytes[at] ^= 1;
+    let other = found(&mut cpu, &sabotaged, &poses);
+    let [was, is] = [expected.segments[1], other.segments[1]];
+    assert_eq!((was.proximity.abs_diff(is.proximity), SegmentSums { proximity: was.proximity, ..is }), (1, was));
+    assert_eq!((expected.segments[0], expected.segments[2]), (other.segments[0], other.segments[2]));
+
+    // The edge term of the segments is another one than that of all edges.
+    cpu.observe(&seen).unwrap();
+    let mut by = |edges| {
+        let mut fitness = vec![-1.0; 20];
+        cpu.fitness(&poses, &Objective { edges, ..Objective::default() }, &mut fitness).unwrap();
+        fitness
+    };
+    let apart = by(EdgeTerm::Whole).iter().zip(by(EdgeTerm::Segments)).filter(|(a, b)| (*a - b).abs() > 1e-4).count();
+    assert!(apart > 5, "of 20 poses only {apart} are worth something else");
 }
 
 #[test]

@@ -112,3 +112,79 @@ fn parts_are_taken_by_name_in_every_command() {
     let seen = checks.iter().filter(|check| check["check"] == "silhouettes" && check["value"] == 100.0);
     assert_eq!(seen.count(), 3, "{report:#}");
 }
+
+/// The fitness by hand from what segments.csv and components.csv have of the first pose.
+fn fitness_by_hand(folder: &Path) -> f64 {
+    let table = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
+    let (components, segments) = (table("components.csv"), table("segments.csv"));
+    assert_eq!(segments.lines().next().unwrap(), "pose,view,segment,area_obs,area_model,overlap,edges,proximity");
+    let sums = |rows: &str, name: &str, first: usize| {
+        let mut sums = [0.0; 5];
+        for row in rows.lines().filter(|row| row.starts_with("0,") && row.contains(name)) {
+            for (sum, cell) in sums.iter_mut().zip(row.split(',').skip(first)) {
+                *sum += cell.parse::<f64>().unwrap();
+            }
+        }
+        sums
+    };
+    let (mut f1, mut f2) = (0.0, 0.0);
+    for (name, weight) in [("head", 0.4), ("shirt", 0.6)] {
+        let [area_obs, area_model, overlap, edges, proximity] = sums(&segments, name, 3);
+        assert!(edges > 20.0 && proximity > 0.0, "{segments}");
+        f1 += weight * (overlap / area_obs + overlap / area_model) / 2.0;
+        f2 += weight * proximity / (127.0 * edges);
+    }
+    let [.., edges, proximity] = sums(&components, "", 2);
+    assert!((f2 - proximity / (127.0 * edges)).abs() > 1e-3, "all edges together would do too");
+    (f1 * f2).sqrt()
+}
+
+#[test]
+fn edges_go_by_segments_where_that_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    write_sequence(folder);
+    let evaluate = ["evaluate", "--sequence", ".", "--frame", "0", "--poses", "start.csv"];
+    let fitness = |name: &str, more: &[&str]| -> f64 {
+        pantin(folder, &[&evaluate[..], more, &["-o", name]].concat());
+        let table = fs::read_to_string(folder.join(name).join("fitness.csv")).unwrap();
+        table.lines().nth(1).unwrap().split_once(',').unwrap().1.parse().unwrap()
+    };
+    let whole = fitness("whole", &[]);
+    let by_segments = fitness("by_segments", &["--edges", "segments"]);
+    let expected = fitness_by_hand(&folder.join("by_segments"));
+    assert!((by_segments - expected).abs() < 1e-5, "{by_segments} is not {expected}");
+    assert!((by_segments - whole).abs() > 1e-4, "{whole} either way");
+    let header = fs::read_to_string(folder.join("whole/segments.csv")).unwrap();
+    assert!(header.starts_with("pose,view,segment,area_obs,area_model,overlap\n"), "{header}");
+
+    // The sequence's own table, from which a flag leads back; run.toml says what was taken where it is not as usual.
+    let manifest = fs::read_to_string(folder.join("sequence.toml")).unwrap();
+    fs::write(folder.join("sequence.toml"), format!("{manifest}\n[objective]\nedges = \"segments\"\n")).unwrap();
+    assert_eq!(fitness("of_the_table", &[]), by_segments);
+    assert_eq!(fitness("and_back", &["--edges", "whole"]), whole);
+    let track = ["track", ".", "--backend", "cpu", "--overlay-every", "0", "--particles", "8", "--iterations", "1"];
+    let record = |name: &str, more: &[&str]| {
+        pantin(folder, &[&track[..], more, &["-o", name]].concat());
+        fs::read_to_string(folder.join(name).join("run.toml")).unwrap()
+    };
+    let found = record("tracked", &[]);
+    assert!(found.contains("edges = \"segments\"") && found.contains(" --edges segments --backend"), "{found}");
+    let found = record("tracked_whole", &["--edges", "whole"]);
+    assert!(!found.contains("edges = \"whole\"") && !found.contains("--edges"), "{found}");
+
+    // What takes no segments, or has none, says so.
+    let refused = |command: &[&str], name: &str, reason: &str| {
+        let more = ["-o", name, "--edges", "segments"];
+        let (status, _, messages) = support::pantin_in(folder, &[command, &more].concat());
+        assert!(status != 0 && messages.contains(reason), "{messages}");
+    };
+    let by = |objective| [&track[..], &["--objective", objective]].concat();
+    refused(&by("evidence"), "beside_evidence", "do not count in the objective evidence");
+    let (without, _) = manifest.split_once("[[features.segment]]").unwrap();
+    fs::write(folder.join("sequence.toml"), without).unwrap();
+    let reason = "no [[features.segment]] tells body parts apart";
+    refused(&by("sp"), "without", reason);
+    refused(&evaluate, "none", reason);
+    assert!(!folder.join("none").exists());
+}

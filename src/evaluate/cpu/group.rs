@@ -5,8 +5,9 @@ use crate::evaluate::components::Components;
 use crate::evaluate::projection::Projector;
 use crate::evaluate::segments::SegmentSums;
 
+use super::cell::{Cell, SegmentedCell};
 use super::front::{Front, QuadChunk};
-use super::kernel::{Canvas, Cell, SegmentedCell};
+use super::kernel::Canvas;
 use super::planes::Planes;
 use super::simd::{Simd, Task};
 
@@ -59,12 +60,12 @@ impl Task for FlatGroup<'_> {
                         sums.evidence[image] = evidence;
                         components
                     }
-                    (Besides::Segments, Some(canvas)) => {
+                    (Besides::Segments | Besides::SegmentEdges, Some(canvas)) => {
                         let segments = planes.segment_areas.len();
-                        let sums = &mut sums.segments[image * segments..][..segments];
-                        canvas.compare_segments(simd, &scratch.quads, planes, sums)
+                        let (quads, sums) = (&scratch.quads, &mut sums.segments[image * segments..][..segments]);
+                        canvas.compare_segments(simd, quads, planes, (sums, besides == Besides::SegmentEdges))
                     }
-                    (Besides::Nothing | Besides::Segments, _) => scratch.canvas.compare(simd, &scratch.quads, planes),
+                    _ => scratch.canvas.compare(simd, &scratch.quads, planes),
                 };
             }
         }

@@ -6,38 +6,13 @@
 use std::ops::Range;
 
 use crate::evaluate::{Components, SegmentSums};
-use crate::features::{Evidence, Segments};
+use crate::features::Evidence;
 
+use super::cell::{Cell, Pixels, SegmentedCell};
 use super::front::{LANES, QuadChunk};
 use super::outline::OutlineChunk;
 use super::planes::{CELL_COLUMNS, CELL_ROWS, Planes};
 use super::simd::{Lanes, Simd};
-
-/// Fills and visible borders of the part of the picture that one cell covers.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Cell {
-    fill: Lanes,
-    edge: Lanes,
-}
-
-/// A [`Cell`] with, for every segment, the pixels at which a part of it is the nearest.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct SegmentedCell {
-    cell: Cell,
-    segments: [Lanes; Segments::MOST],
-}
-
-/// What is kept of the pixels that one cell covers.
-pub(super) trait Pixels: Clone + Default {
-    fn cell(&mut self) -> &mut Cell;
-
-    /// Adds a part's border where no fill is yet, then its fill; the part is of the segment of this number, 0 none. Where the part
-    /// shows: nothing that is nearer has been drawn there.
-    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words, number: u8) -> S::Words;
-
-    /// Removes the pixels outside of `inside`.
-    fn keep<S: Simd>(&mut self, simd: S, inside: S::Words);
-}
 
 /// What is summed of the pixels that parts show, part by part.
 trait Tally<S: Simd> {
@@ -412,52 +387,6 @@ fn ones_right_of<S: Simd>(simd: S, column: S::Words, origin: S::Words) -> S::Wor
 /// A column right of every part's last, that [`Simd::sub_to_zero`] still takes.
 const NOWHERE: u32 = 0xffff;
 
-impl Pixels for Cell {
-    #[inline(always)]
-    fn cell(&mut self) -> &mut Cell {
-        self
-    }
-
-    #[inline(always)]
-    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words, _number: u8) -> S::Words {
-        let (hidden, edge) = (simd.load(&self.fill), simd.load(&self.edge));
-        simd.store(simd.or(edge, simd.and_not(border, hidden)), &mut self.edge);
-        simd.store(simd.or(hidden, fill), &mut self.fill);
-        simd.and_not(simd.or(border, fill), simd.or(hidden, edge))
-    }
-
-    #[inline(always)]
-    fn keep<S: Simd>(&mut self, simd: S, inside: S::Words) {
-        simd.store(simd.and(simd.load(&self.fill), inside), &mut self.fill);
-        simd.store(simd.and(simd.load(&self.edge), inside), &mut self.edge);
-    }
-}
-
-impl Pixels for SegmentedCell {
-    #[inline(always)]
-    fn cell(&mut self) -> &mut Cell {
-        &mut self.cell
-    }
-
-    #[inline(always)]
-    fn add<S: Simd>(&mut self, simd: S, border: S::Words, fill: S::Words, number: u8) -> S::Words {
-        // The nearest part whose fill or border lies on a pixel is the one that is drawn there.
-        let shown = self.cell.add(simd, border, fill, number);
-        if let Some(segment) = usize::from(number).checked_sub(1).and_then(|at| self.segments.get_mut(at)) {
-            simd.store(simd.or(simd.load(segment), shown), segment);
-        }
-        shown
-    }
-
-    #[inline(always)]
-    fn keep<S: Simd>(&mut self, simd: S, inside: S::Words) {
-        self.cell.keep(simd, inside);
-        for segment in &mut self.segments {
-            simd.store(simd.and(simd.load(segment), inside), segment);
-        }
-    }
-}
-
 impl Canvas<Cell> {
     /// Takes the class of evidence of the lanes of all chunks.
     pub(super) fn set_classes(&mut self, classes: Vec<u8>) {
@@ -485,20 +414,25 @@ impl Canvas<Cell> {
 }
 
 impl Canvas<SegmentedCell> {
-    /// [`Self::compare`], and the sums of every segment.
+    /// [`Self::compare`], and the sums of every segment, its edges where `edges` says so.
     #[inline(always)]
     pub(super) fn compare_segments<S: Simd>(
         &mut self,
         simd: S,
         quads: &[QuadChunk],
         planes: &Planes,
-        segment_sums: &mut [SegmentSums],
+        (segment_sums, edges): (&mut [SegmentSums], bool),
     ) -> Components {
         for (sums, &area_obs) in segment_sums.iter_mut().zip(&planes.segment_areas) {
             *sums = SegmentSums { area_obs, ..SegmentSums::default() };
         }
         let mut sums = Components { area_obs: planes.area, ..Components::default() };
         if let Some((words, blocks)) = self.draw(simd, quads, planes, &mut ()) {
+            if edges {
+                for (segment, sums) in segment_sums.iter_mut().enumerate() {
+                    self.count_segment_edges(simd, planes, &words, &blocks, (segment, sums));
+                }
+            }
             self.count_segments(simd, planes, &words, &blocks, segment_sums);
             self.count(simd, planes, words, blocks, &mut sums);
         }
@@ -529,6 +463,37 @@ impl Canvas<SegmentedCell> {
             }
             sums.area_model = simd.total(area);
             sums.overlap = simd.total(overlap);
+        }
+    }
+
+    /// Counts the edges of a segment in the given cells, apart from its areas: whoever does not ask for them is to wait for nothing.
+    #[inline(always)]
+    fn count_segment_edges<S: Simd>(
+        &self,
+        simd: S,
+        planes: &Planes,
+        words: &Range<usize>,
+        blocks: &Range<usize>,
+        (segment, sums): (usize, &mut SegmentSums),
+    ) {
+        let mut edges = simd.no_bits();
+        let mut proximity = [simd.no_bits(); 7];
+        for block in blocks.clone() {
+            let cells = &self.cells[block * (planes.columns + 1)..][words.clone()];
+            let observed = &planes.cells[block * planes.columns..][words.clone()];
+            for (cell, seen) in cells.iter().zip(observed) {
+                let edge = simd.and(simd.load(&cell.segments[segment]), simd.load(&cell.cell.edge));
+                if !simd.is_zero(edge) {
+                    edges = simd.count(edges, edge);
+                    for (bit, sum) in proximity.iter_mut().enumerate() {
+                        *sum = simd.count(*sum, simd.and(edge, simd.load(&seen[bit])));
+                    }
+                }
+            }
+        }
+        sums.edges = simd.total(edges);
+        for (bit, sum) in proximity.into_iter().enumerate() {
+            sums.proximity += simd.total(sum) << bit;
         }
     }
 }

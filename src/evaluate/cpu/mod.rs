@@ -9,6 +9,7 @@
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+mod cell;
 mod flat;
 mod front;
 mod group;
@@ -283,7 +284,7 @@ impl Evaluator for Cpu {
                 objective.score(views, found.components, AreaSums::Whole, results);
             });
         };
-        self.run((poses, Besides::Segments), fitness, 1, |found, results| {
+        self.run((poses, Besides::of(objective)), fitness, 1, |found, results| {
             objective.score(views, found.components, AreaSums::Segments(&segments, found.segments), results);
         })
     }
@@ -294,7 +295,7 @@ impl Evaluator for Cpu {
 
     fn segment_sums(&mut self, poses: &[f32], sums: &mut [SegmentSums]) -> Result<()> {
         let a_pose = check_segment_batch(self, poses, sums.len())?;
-        let what = (poses, Besides::Segments);
+        let what = (poses, Besides::SegmentEdges);
         self.run(what, sums, a_pose, |found, results| results.copy_from_slice(found.segments))
     }
 

@@ -117,7 +117,7 @@ impl<R: Rasteriser> DeviceBackend<R> {
                 host.record_sums(&mut recorder, (scene, workspace), candidates)?;
                 match summed {
                     Summed::Nothing => (),
-                    Summed::Segments(segments) => segments.record_readback(&mut recorder)?,
+                    Summed::Segments(segments, _) => segments.record_readback(&mut recorder)?,
                     Summed::Evidence(evidence) => evidence.record_readback(&mut recorder)?,
                 }
             }
@@ -324,7 +324,7 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
         if sums.is_empty() {
             return Ok(());
         }
-        let counts = self.run(poses, Asked::Sums(Besides::Segments))?;
+        let counts = self.run(poses, Asked::Sums(Besides::SegmentEdges))?;
         self.read_segments(&counts, sums)
     }
 

@@ -175,19 +175,26 @@ impl Rasteriser for ComputeRasteriser {
         let ignores = scene.counted.is_some();
         let raster = match &self.mesh {
             None => match self.kernel {
-                RasterKernel::Rows => {
-                    raster_segments_comp::stage(raster_segments_comp::Constants { listed: false, ignores })
-                }
+                RasterKernel::Rows => raster_segments_comp::stage(raster_segments_comp::Constants {
+                    listed: false,
+                    ignores,
+                    segment_edges: false,
+                }),
                 RasterKernel::Spans { group, .. } => {
                     raster_spans_segments_comp::stage(raster_spans_segments_comp::Constants {
                         ignores,
+                        segment_edges: false,
                         local_size_x: group,
                     })
                 }
             },
-            Some(_) => raster_mesh_segments_comp::stage(raster_mesh_segments_comp::Constants { ignores }),
+            Some(_) => {
+                let constants = raster_mesh_segments_comp::Constants { ignores, segment_edges: false };
+                raster_mesh_segments_comp::stage(constants)
+            }
         };
-        scene.device.compile(&[raster, objective_segments_comp::stage()])
+        let objective = objective_segments_comp::Constants { segment_edges: false };
+        scene.device.compile(&[raster, objective_segments_comp::stage(objective)])
     }
 
     fn set_evidence(

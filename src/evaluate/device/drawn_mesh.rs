@@ -103,7 +103,7 @@ impl DrawnMesh {
         } = whole;
         match summed {
             Summed::Nothing => recorder.run(whole.dispatch(raster_mesh_comp::Constants { ignores }, push, groups)),
-            Summed::Segments(segments) => {
+            Summed::Segments(segments, segment_edges) => {
                 let bindings = raster_mesh_segments_comp::Bindings {
                     cameras,
                     all_seen,
@@ -118,7 +118,8 @@ impl DrawnMesh {
                     vertices,
                     edges,
                 };
-                recorder.run(bindings.dispatch(raster_mesh_segments_comp::Constants { ignores }, push, groups))
+                let constants = raster_mesh_segments_comp::Constants { ignores, segment_edges };
+                recorder.run(bindings.dispatch(constants, push, groups))
             }
             Summed::Evidence(evidence) => {
                 let bindings = raster_mesh_evidence_comp::Bindings {

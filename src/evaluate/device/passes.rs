@@ -89,7 +89,7 @@ pub(super) fn raster(
             let dispatch = whole.dispatch(raster_comp::Constants { listed, ignores }, scene.batch(share), groups);
             recorder.compute("raster", &[dispatch.by(raster_stage(&scene.device, listed, ignores).shader)])
         }
-        Summed::Segments(segments) => {
+        Summed::Segments(segments, segment_edges) => {
             let bindings = raster_segments_comp::Bindings {
                 cameras,
                 quads,
@@ -103,7 +103,7 @@ pub(super) fn raster(
                 counted,
             };
             recorder.run(bindings.dispatch(
-                raster_segments_comp::Constants { listed, ignores },
+                raster_segments_comp::Constants { listed, ignores, segment_edges },
                 scene.batch(share),
                 groups,
             ))
@@ -153,10 +153,10 @@ pub(super) fn objective(
     let (cameras, all_sums) = (&scene.cameras.buffer, &workspace.sums);
     match summed {
         Summed::Nothing => recorder.run(objective_comp::Bindings { cameras, all_sums, fitness }.dispatch(push, groups)),
-        Summed::Segments(segments) => {
+        Summed::Segments(segments, segment_edges) => {
             let (table, all_segment_sums) = (&segments.table.buffer, &segments.sums);
             let bindings = objective_segments_comp::Bindings { cameras, all_sums, fitness, table, all_segment_sums };
-            recorder.run(bindings.dispatch(push, groups))
+            recorder.run(bindings.dispatch(objective_segments_comp::Constants { segment_edges }, push, groups))
         }
         Summed::Evidence(own) => {
             let (table, all_evidence) = (&own.table.buffer, &own.sums);

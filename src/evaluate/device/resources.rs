@@ -42,7 +42,10 @@ impl Resources {
     pub(super) fn summed(&self, besides: Besides) -> Result<Summed<'_>> {
         Ok(match besides {
             Besides::Nothing => Summed::Nothing,
-            Besides::Segments => self.segments.as_ref().map_or(Summed::Nothing, Summed::Segments),
+            Besides::Segments | Besides::SegmentEdges => self
+                .segments
+                .as_ref()
+                .map_or(Summed::Nothing, |segments| Summed::Segments(segments, besides == Besides::SegmentEdges)),
             Besides::Evidence => Summed::Evidence(self.evidence.as_ref().ok_or_else(no_evidence)?),
         })
     }

@@ -45,7 +45,7 @@ impl DeviceSegments {
 
     fn buffers(scene: &DeviceScene, candidates: u32) -> Result<[Buffer; 2]> {
         let count = candidates as usize * scene.sizes.len() * Segments::MOST;
-        let sums = |name, memory| scene.device.buffer::<layout::SegmentSum>(name, count, memory);
+        let sums = |name, memory| scene.device.buffer::<layout::Sums>(name, count, memory);
         Ok([sums("segment sums", Memory::Device)?, sums("segment sums readback", Memory::Readback)?])
     }
 
@@ -101,17 +101,18 @@ impl DeviceSegments {
         recorder.copy("read segment sums", (&self.sums, 0), (&self.sums_out, 0), self.sums.size())
     }
 
-    /// The sums of a finished run, `[candidate][view][segment]` of the segments that there are; what the host itself counted stands
-    /// for the device's sums.
+    /// The sums of a finished run, `[candidate][view][segment]` of the segments that there are, edges and proximity where they were asked
+    /// for, else 0; what the host itself counted stands for the device's sums.
     pub(super) fn read(&self, counts: &HostCounts, sums: &mut [SegmentSums]) -> Result<()> {
         let count = self.segments.as_slice().len();
-        let mut found: Vec<layout::SegmentSum> = bytemuck::zeroed_vec(sums.len() / count * Segments::MOST);
+        let mut found: Vec<layout::Sums> = bytemuck::zeroed_vec(sums.len() / count * Segments::MOST);
         self.sums_out.read(0, &mut found)?;
         for (image, (row, found)) in sums.chunks_exact_mut(count).zip(found.chunks_exact(Segments::MOST)).enumerate() {
             for (segment, (sums, found)) in row.iter_mut().zip(found).enumerate() {
                 let place = image * Segments::MOST + segment;
                 let area_obs = self.areas[place % self.areas.len()];
-                *sums = SegmentSums { area_obs, area_model: found.area_model, overlap: found.overlap };
+                let layout::Sums { area_model, overlap, edges, proximity } = *found;
+                *sums = SegmentSums { area_obs, area_model, overlap, edges, proximity };
             }
             if counts.sums.get(image).is_some_and(Option::is_some) {
                 for (sums, found) in row.iter_mut().zip(&counts.segments[image * count..]) {

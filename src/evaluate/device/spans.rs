@@ -43,7 +43,7 @@ pub(super) fn raster(
         Summed::Nothing => {
             recorder.run(whole.dispatch(raster_spans_comp::Constants { ignores, local_size_x }, push, groups))
         }
-        Summed::Segments(segments) => {
+        Summed::Segments(segments, segment_edges) => {
             let bindings = raster_spans_segments_comp::Bindings {
                 cameras,
                 quads,
@@ -56,7 +56,7 @@ pub(super) fn raster(
                 counted,
             };
             recorder.run(bindings.dispatch(
-                raster_spans_segments_comp::Constants { ignores, local_size_x },
+                raster_spans_segments_comp::Constants { ignores, segment_edges, local_size_x },
                 push,
                 groups,
             ))

@@ -11,7 +11,8 @@ use crate::gpu::Recorder;
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Summed<'a> {
     Nothing,
-    Segments(&'a DeviceSegments),
+    /// Areas and overlaps of the segments, and, where it is true, their edges and proximity.
+    Segments(&'a DeviceSegments, bool),
     Evidence(&'a DeviceEvidence),
 }
 
@@ -20,7 +21,7 @@ pub(super) fn clear_sums(recorder: &mut Recorder, workspace: &Workspace, summed:
     recorder.fill("clear sums", &workspace.sums, 0)?;
     match summed {
         Summed::Nothing => Ok(()),
-        Summed::Segments(segments) => recorder.fill("clear segments", &segments.sums, 0),
+        Summed::Segments(segments, _) => recorder.fill("clear segments", &segments.sums, 0),
         Summed::Evidence(evidence) => recorder.fill("clear evidence", &evidence.sums, 0),
     }
 }

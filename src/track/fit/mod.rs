@@ -21,7 +21,7 @@ use super::{FrameRange, ObjectiveChoice};
 use crate::body::{Body, PoseTable, Proportions};
 use crate::evaluate::ObjectiveKind;
 use crate::features::SeenView;
-use crate::observe::{Advance, with_plates};
+use crate::observe::{Advance, feature_settings, with_plates};
 use crate::search::{SearchKind, SearchSettings};
 use crate::sequence::Sequence;
 
@@ -110,6 +110,7 @@ pub fn fit_with(sequence: &Sequence, settings: &FitSettings, progress: &mut Adva
     let name = sequence.path.display().to_string();
     ensure!(settings.samples > 0, "0 frames were asked for, expected at least 1");
     let objective = settings.objective.resolve_over(ObjectiveKind::Evidence, sequence.objective.as_ref(), &name)?;
+    objective.check_segments(!feature_settings(sequence)?.segment.is_empty()).with_context(|| name.clone())?;
     let weighs_evidence = objective.weighs_evidence();
     let plated = with_plates(sequence, progress)?;
     let remarks = [sequence.remarks(), plated.remarks()].concat();

@@ -112,7 +112,7 @@ impl View {
         }
     }
 
-    /// Segment by segment; `numbers` has that of every label.
+    /// Areas segment by segment; `numbers` has that of every label.
     #[inline(always)]
     pub(super) fn compare_segments(&self, canvas: &mut Canvas, numbers: &[u8; 128], sums: &mut [SegmentSums]) {
         for (sums, &area) in sums.iter_mut().zip(&self.segment_areas) {
@@ -126,6 +126,22 @@ impl View {
                 {
                     sums.area_model += 1;
                     sums.overlap += u32::from(numbers[label] == observed);
+                }
+            }
+        }
+    }
+
+    /// Adds the edges of each segment and their proximity, which are 0 before.
+    #[inline(always)]
+    pub(super) fn count_segment_edges(&self, canvas: &mut Canvas, numbers: &[u8; 128], sums: &mut [SegmentSums]) {
+        for (keys, bytes) in self.rows(&self.bytes, canvas) {
+            for (&key, &seen) in keys.iter().zip(bytes) {
+                if is_edge(key)
+                    && let Some(label) = label(key)
+                    && let Some(sums) = sums.get_mut(usize::from(numbers[label]).wrapping_sub(1))
+                {
+                    sums.edges += 1;
+                    sums.proximity += u32::from(seen & Observation::PROXIMITY);
                 }
             }
         }
@@ -153,6 +169,12 @@ fn label(key: u32) -> Option<usize> {
     (key != NOTHING).then_some((!key & 0x7f) as usize)
 }
 
+/// Whether a key is of an edge; nothing is none.
+#[inline(always)]
+fn is_edge(key: u32) -> bool {
+    (!key >> 7) & 1 == 1
+}
+
 impl Counts {
     #[inline(always)]
     fn add(&mut self, keys: &[u32; LANES], bytes: &[u8; LANES]) {
@@ -166,7 +188,7 @@ impl Counts {
         for lane in 0..LANES {
             let (key, seen) = (keys[lane], u32::from(bytes[lane]));
             let is_drawn = u32::from(key != NOTHING);
-            let is_edge = (!key >> 7) & 1;
+            let is_edge = u32::from(is_edge(key));
             self.drawn[lane] += is_drawn;
             self.overlap[lane] += is_drawn & (seen >> 7);
             self.edges[lane] += is_edge;

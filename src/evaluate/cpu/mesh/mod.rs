@@ -160,10 +160,13 @@ impl Task for MeshGroup<'_> {
                 sums.components[image] = view.compare(canvas);
                 match besides {
                     Besides::Nothing => (),
-                    Besides::Segments => {
+                    Besides::Segments | Besides::SegmentEdges => {
                         let segments = view.segment_areas.len();
                         let sums = &mut sums.segments[image * segments..][..segments];
                         view.compare_segments(canvas, &model.numbers, sums);
+                        if besides == Besides::SegmentEdges {
+                            view.count_segment_edges(canvas, &model.numbers, sums);
+                        }
                     }
                     Besides::Evidence => sums.evidence[image] = view.sum_evidence(canvas, &model.classes),
                 }

@@ -30,6 +30,8 @@ pub(super) struct ObservedSegments<'a> {
     pub(super) numbers: &'a Buffer,
     /// Codes of parts, labels or ranks, that a picture may hold.
     pub(super) codes: u32,
+    /// Whether edges and proximity are counted too.
+    pub(super) edges: bool,
 }
 
 impl Gathering {
@@ -62,8 +64,14 @@ impl Comparing {
         compare_texels_comp::Constants { edge_bit: self.packing.edge_bit(), ignores }
     }
 
-    fn segments_constants(self, codes: u32, segments: u32, ignores: bool) -> compare_texels_segments_comp::Constants {
-        compare_texels_segments_comp::Constants { edge_bit: self.packing.edge_bit(), ignores, codes, segments }
+    fn segments_constants(
+        self,
+        [codes, segments]: [u32; 2],
+        ignores: bool,
+        segment_edges: bool,
+    ) -> compare_texels_segments_comp::Constants {
+        let edge_bit = self.packing.edge_bit();
+        compare_texels_segments_comp::Constants { edge_bit, ignores, codes, segments, segment_edges }
     }
 
     /// What compares whole silhouettes.
@@ -74,7 +82,7 @@ impl Comparing {
 
     /// What compares a number of segments, told apart by so many codes.
     pub(super) fn segments_stage(self, codes: u32, segments: u32) -> ShaderStage {
-        let stage = compare_texels_segments_comp::stage(self.segments_constants(codes, segments, false));
+        let stage = compare_texels_segments_comp::stage(self.segments_constants([codes, segments], false, false));
         ShaderStage { shader: self.gathering.segments_shader(), ..stage }
     }
 
@@ -95,7 +103,7 @@ impl Comparing {
         let ignores = scene.counted.is_some();
         // Not read where everything counts.
         let counted = scene.counted.as_ref().map_or(pixels, |counted| &counted.pixels.buffer);
-        let Some(ObservedSegments { segments, numbers, codes }) = observed else {
+        let Some(ObservedSegments { segments, numbers, codes, edges }) = observed else {
             let bindings =
                 compare_texels_comp::Bindings { placements, tiles, cameras, pixels, all_sums, framebuffer, counted };
             let dispatch = bindings.dispatch(self.constants(ignores), push, groups).by(self.gathering.shader());
@@ -114,7 +122,8 @@ impl Comparing {
             all_segment_sums: &segments.sums,
             counted,
         };
-        let constants = self.segments_constants(codes, segments.segments().as_slice().len() as u32, ignores);
+        let count = segments.segments().as_slice().len() as u32;
+        let constants = self.segments_constants([codes, count], ignores, edges);
         let dispatch = bindings.dispatch(constants, push, groups).by(self.gathering.segments_shader());
         recorder.compute("compare_segments", &[dispatch])
     }

@@ -189,13 +189,13 @@ impl GraphicsRasteriser {
         let framebuffer = &self.target.framebuffer;
         // Batches add to it.
         match summed {
-            Summed::Segments(segments) if share.first == 0 => recorder.fill("clear segments", &segments.sums, 0)?,
+            Summed::Segments(segments, _) if share.first == 0 => recorder.fill("clear segments", &segments.sums, 0)?,
             Summed::Evidence(evidence) if share.first == 0 => recorder.fill("clear evidence", &evidence.sums, 0)?,
             _ => (),
         }
         self.drawn.record(recorder, scene, self.captured.as_ref(), framebuffer, share)?;
         let segments = match summed {
-            Summed::Segments(segments) => self.segments.as_ref().map(|own| (own, segments)),
+            Summed::Segments(segments, edges) => self.segments.as_ref().map(|own| (own, segments, edges)),
             _ => None,
         };
         let evidence = match summed {
@@ -204,7 +204,7 @@ impl GraphicsRasteriser {
         };
         match copy {
             None => {
-                let observed = segments.map(|(own, segments)| own.observed(segments));
+                let observed = segments.map(|(own, segments, edges)| own.observed(segments, edges));
                 self.comparing.record(recorder, scene, framebuffer, observed, share)?;
                 if let Some((own, evidence)) = evidence {
                     own.record(recorder, scene, (framebuffer, evidence), share)?;
@@ -212,7 +212,7 @@ impl GraphicsRasteriser {
             }
             Some(copy) => {
                 copy.record(recorder, framebuffer)?;
-                let orders = segments.map(|(own, _)| &own.orders).or(evidence.map(|(own, _)| &own.orders));
+                let orders = segments.map(|(own, ..)| &own.orders).or(evidence.map(|(own, _)| &own.orders));
                 orders.map_or(Ok(()), |orders| orders.record(recorder, scene, share))?;
             }
         }
@@ -343,8 +343,9 @@ impl Rasteriser for GraphicsRasteriser {
         counts.sums.extend(pictures.compare(&self.observations, self.settings.packing.edge_bit(), how));
         let parts = resources.scene.counts.parts as usize;
         match (summed, &self.segments, &self.evidence) {
-            (Summed::Segments(scored), Some(segments), _) => {
-                counts.segments.extend(segments.count(scored.segments(), parts, &pictures, &self.observations, how)?);
+            (Summed::Segments(scored, edges), Some(segments), _) => {
+                let scored = (&**scored.segments(), edges);
+                counts.segments.extend(segments.count(scored, parts, &pictures, &self.observations, how)?);
             }
             (Summed::Evidence(_), _, Some(evidence)) => {
                 counts.evidence.extend(evidence.sum(parts, &pictures, &self.observations)?);

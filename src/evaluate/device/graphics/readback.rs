@@ -104,11 +104,11 @@ impl Pictures<'_> {
     }
 
     /// The sums of the `segments` segments of every image, `[candidate][view][segment]`, without the observed areas; nothing for an
-    /// image that is not drawn here. `numbers` tells an image's bytes apart.
+    /// image that is not drawn here. `numbers` tells an image's bytes apart; edges are counted where their bit is given.
     pub(crate) fn compare_segments(
         &self,
         observations: &[Observation],
-        segments: usize,
+        (segments, edge_bit): (usize, Option<u32>),
         numbers: impl Fn(usize) -> ByteNumbers,
         how: HostComparison,
     ) -> Vec<SegmentSums> {
@@ -117,12 +117,22 @@ impl Pictures<'_> {
             let observation = &observations[image % self.layout.views.len()];
             let Some(seen) = &observation.segmentation else { continue };
             let Some(window) = self.window(image, seen.numbers(), observation) else { continue };
+            let numbers = numbers(image);
             let found = match how {
-                HostComparison::Scalar => count_segments(&window, &numbers(image)),
-                HostComparison::Simd => count_segments_simd(&window, &numbers(image), segments),
+                HostComparison::Scalar => count_segments(&window, &numbers),
+                HostComparison::Simd => count_segments_simd(&window, &numbers, segments),
             };
-            for (sums, [area_model, overlap]) in sums.iter_mut().zip(found) {
-                *sums = SegmentSums { area_obs: 0, area_model, overlap };
+            let packed = edge_bit.and_then(|bit| Some((self.window(image, &observation.bytes, observation)?, bit)));
+            let edges = match (packed, how) {
+                (None, _) => [[0; 2]; Segments::MOST],
+                (Some((window, edge_bit)), HostComparison::Scalar) => count_segment_edges(&window, &numbers, edge_bit),
+                (Some((window, edge_bit)), HostComparison::Simd) => {
+                    count_segment_edges_simd(&window, (&numbers, segments), edge_bit)
+                }
+            };
+            for (sums, ([area_model, overlap], [edges, proximity])) in sums.iter_mut().zip(found.into_iter().zip(edges))
+            {
+                *sums = SegmentSums { area_obs: 0, area_model, overlap, edges, proximity };
             }
         }
         all
@@ -289,6 +299,50 @@ fn count_segments_simd(window: &Window<'_, u8>, numbers: &ByteNumbers, segments:
     sums
 }
 
+/// Edge pixels of each segment and their proximity, a pixel after the other; behind the picture the packed bytes.
+fn count_segment_edges(window: &Window<'_, u8>, numbers: &ByteNumbers, edge_bit: u32) -> [[u32; 2]; Segments::MOST] {
+    let mut sums = [[0; 2]; Segments::MOST];
+    for y in 0..window.height {
+        for x in 0..window.width {
+            let drawn = (window.texels[y * window.pitch + x] >> window.shift) as u8;
+            if drawn >> edge_bit & 1 != 0
+                && let Some(segment) = usize::from(numbers[usize::from(drawn)]).checked_sub(1)
+            {
+                sums[segment][0] += 1;
+                sums[segment][1] += u32::from(window.seen[y * window.seen_pitch + x] & Observation::PROXIMITY);
+            }
+        }
+    }
+    sums
+}
+
+/// The same, the counts of a row without branches, for the compiler to take many pixels at a time.
+#[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn count_segment_edges_simd(
+    window: &Window<'_, u8>,
+    (numbers, segments): (&ByteNumbers, usize),
+    edge_bit: u32,
+) -> [[u32; 2]; Segments::MOST] {
+    let mut sums = [[0; 2]; Segments::MOST];
+    let mut shown = vec![0_u8; window.width];
+    for y in 0..window.height {
+        let texels = &window.texels[y * window.pitch..][..window.width];
+        let seen = &window.seen[y * window.seen_pitch..][..window.width];
+        for (shown, texel) in shown.iter_mut().zip(texels) {
+            let drawn = texel >> window.shift;
+            *shown = numbers[drawn as usize & 0xff] * (drawn >> edge_bit & 1) as u8;
+        }
+        for (number, sums) in (1..).zip(&mut sums[..segments]) {
+            for (&shown, &seen) in shown.iter().zip(seen) {
+                let own = u32::from(shown == number);
+                sums[0] += own;
+                sums[1] += own * u32::from(seen & Observation::PROXIMITY);
+            }
+        }
+    }
+    sums
+}
+
 /// The evidence of what is drawn, a pixel after the other.
 fn sum_codes(window: &Window<'_, u32>, classes: &ByteNumbers) -> i32 {
     let mut sum = 0;
@@ -334,11 +388,22 @@ mod tests {
                 assert_eq!(whole(&texels), expected);
                 let in_parts = count_segments(&window(&texels, &numbered, [width, height], shift), &numbers);
                 assert_eq!(parts(&texels), in_parts);
+                let borders = |texels: &[u32]| {
+                    count_segment_edges_simd(&window(texels, &seen, [width, height], shift), (&numbers, 5), edge_bit)
+                };
+                let at_borders =
+                    count_segment_edges(&window(&texels, &seen, [width, height], shift), &numbers, edge_bit);
+                assert_eq!(borders(&texels), at_borders);
+                // Every byte but that of nothing has a segment, so they share all edges.
+                let all = at_borders.iter().fold([0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]]);
+                assert_eq!(all, [expected[2], expected[3]]);
                 let place = 200 * (height - 1) + width - 1;
                 let before = texels[place];
                 texels[place] ^= if before >> shift & 0xff == 0 { 1 << shift } else { before & 0xff << shift };
                 assert_ne!(whole(&texels), expected);
                 assert_ne!(parts(&texels), in_parts);
+                texels[place] = before ^ 1 << (shift + edge_bit);
+                assert_ne!(borders(&texels), at_borders);
                 texels[place] = before;
             }
         }

@@ -21,6 +21,8 @@ use crate::gpu::{Recorder, StagedBuffer};
 pub(super) struct GraphicsSegments {
     /// Codes that a picture may hold: in few ones the comparison keeps what they mean in registers.
     codes: u32,
+    /// The bit of a byte that says edge.
+    edge_bit: u32,
     /// The number of every observed pixel, packed as the scene's bytes.
     numbers: StagedBuffer,
     pub(super) orders: PartOrders,
@@ -38,11 +40,14 @@ impl GraphicsSegments {
         let packing = comparing.packing;
         let codes = drawn.codes(scene, packing);
         let compare = comparing.segments_stage(codes, segments.as_slice().len() as u32);
-        let listed = raster_segments_comp::Constants { listed: true, ignores: scene.counted.is_some() };
-        device.compile(&[compare, raster_segments_comp::stage(listed), objective_segments_comp::stage()])?;
+        let ignores = scene.counted.is_some();
+        let listed = raster_segments_comp::Constants { listed: true, ignores, segment_edges: false };
+        let objective = objective_segments_comp::Constants { segment_edges: false };
+        device.compile(&[compare, raster_segments_comp::stage(listed), objective_segments_comp::stage(objective)])?;
         let words = scene.pixels.buffer.size() as usize / size_of::<u32>();
         Ok(Self {
             codes,
+            edge_bit: packing.edge_bit(),
             numbers: StagedBuffer::of(device, "observed segment numbers", &vec![0_u32; words])?,
             orders: PartOrders::new(scene, workspace, packing, on_host)?,
         })
@@ -63,16 +68,16 @@ impl GraphicsSegments {
         self.numbers.record_upload(recorder)
     }
 
-    /// What the device compares with.
-    pub(super) fn observed<'a>(&'a self, segments: &'a DeviceSegments) -> ObservedSegments<'a> {
-        ObservedSegments { segments, numbers: &self.numbers.buffer, codes: self.codes }
+    /// What the device compares with, and whether it counts edges too.
+    pub(super) fn observed<'a>(&'a self, segments: &'a DeviceSegments, edges: bool) -> ObservedSegments<'a> {
+        ObservedSegments { segments, numbers: &self.numbers.buffer, codes: self.codes, edges }
     }
 
-    /// What the host counts in the pictures of a finished batch of a body of `parts` parts, `[image][segment]`; anything of
-    /// images that are not drawn there.
+    /// What the host counts in the pictures of a finished batch of a body of `parts` parts, `[image][segment]`, edges where they are
+    /// asked for; anything of images that are not drawn there.
     pub(super) fn count(
         &self,
-        segments: &Segments,
+        (segments, edges): (&Segments, bool),
         parts: usize,
         pictures: &Pictures<'_>,
         observations: &[Observation],
@@ -80,6 +85,7 @@ impl GraphicsSegments {
     ) -> Result<Vec<SegmentSums>> {
         let labels = self.orders.read(pictures.count(), parts)?;
         let numbers = |image| labels.numbers(image, |label| segments.number(label));
-        Ok(pictures.compare_segments(observations, segments.as_slice().len(), numbers, how))
+        let counted = (segments.as_slice().len(), edges.then_some(self.edge_bit));
+        Ok(pictures.compare_segments(observations, counted, numbers, how))
     }
 }

@@ -27,7 +27,7 @@ use crate::evaluate::device::segments::DeviceSegments;
 use crate::evaluate::device::tests::{cameras, device, fetch, poses, recorded_fitness, set_up_with};
 use crate::evaluate::device_evaluator::DeviceEvaluator;
 use crate::evaluate::shaders::layout;
-use crate::evaluate::{Components, Evaluator, Objective, ObjectiveKind, Reference, SegmentSums};
+use crate::evaluate::{Components, EdgeTerm, Evaluator, Objective, ObjectiveKind, Reference, SegmentSums};
 use crate::features::{Observation, Segment, Segmentation, Segments};
 use crate::gpu::{DeviceSettings, Memory, Timing};
 
@@ -132,7 +132,7 @@ fn segments_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
                         let area = [0, 0, width, height];
                         recorder.write_image("texels", &framebuffer.colour, area, (&staging, 0)).unwrap();
                         recorder.fill("clear segments", &scored.sums, 0).unwrap();
-                        let observed = Some(compared.observed(&scored));
+                        let observed = Some(compared.observed(&scored, true));
                         comparing.record(&mut recorder, scene, &framebuffer, observed, share).unwrap();
                         compared.orders.record(&mut recorder, scene, share).unwrap();
                         scored.record_readback(&mut recorder).unwrap();
@@ -145,7 +145,7 @@ fn segments_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
                             .map(|sums| sums.unwrap_or(bytemuck::Zeroable::zeroed()))
                             .collect();
                         let expected = [HostComparison::Scalar, HostComparison::Simd]
-                            .map(|how| compared.count(&segments, parts, &drawn, &seen, how).unwrap());
+                            .map(|how| compared.count((&segments, true), parts, &drawn, &seen, how).unwrap());
                         assert_eq!(expected[0], expected[1]);
                         let mut found = vec![SegmentSums::default(); images * count];
                         scored.read(&HostCounts::default(), &mut found).unwrap();
@@ -201,10 +201,13 @@ fn noise(body: &Body, segments: &Arc<Segments>) -> Vec<Observation> {
 struct Found {
     components: Vec<Components>,
     sums: Vec<SegmentSums>,
+    /// By [`AOSP`], then by [`WHOLE_EDGES`].
     fitness: Vec<f32>,
 }
 
-const AOSP: Objective = Objective { kind: ObjectiveKind::Aosp, beta: 0.4, w1: 0.7, w2: 0.3 };
+/// By segments in both terms, and in the silhouette's alone.
+const AOSP: Objective = Objective { kind: ObjectiveKind::Aosp, beta: 0.4, w1: 0.7, w2: 0.3, edges: EdgeTerm::Segments };
+const WHOLE_EDGES: Objective = Objective { edges: EdgeTerm::Whole, ..AOSP };
 
 fn found(evaluator: &mut dyn Evaluator, poses: &[f32]) -> Found {
     let count = poses.len() / evaluator.dof_count();
@@ -213,11 +216,13 @@ fn found(evaluator: &mut dyn Evaluator, poses: &[f32]) -> Found {
     let mut found = Found {
         components: vec![Components::default(); images],
         sums: vec![SegmentSums::default(); images * segments],
-        fitness: vec![-1.0; count],
+        fitness: vec![-1.0; 2 * count],
     };
     evaluator.components(poses, &mut found.components).unwrap();
     evaluator.segment_sums(poses, &mut found.sums).unwrap();
-    evaluator.fitness(poses, &AOSP, &mut found.fitness).unwrap();
+    let (by_segments, whole) = found.fitness.split_at_mut(count);
+    evaluator.fitness(poses, &AOSP, by_segments).unwrap();
+    evaluator.fitness(poses, &WHOLE_EDGES, whole).unwrap();
     found
 }
 
@@ -361,9 +366,11 @@ fn a_search_can_record_segments_into_its_own_submission() {
     graphics.observe(&seen).unwrap();
     assert!(graphics.has_outgrown_its_recording());
     graphics.reserve(60).unwrap();
-    let found = recorded_fitness(&graphics, &AOSP, &poses, 60);
-    for (found, expected) in found.iter().zip(&expected.fitness) {
-        assert!((found - expected).abs() < 1e-5, "{found} is not {expected}");
+    for (objective, expected) in [AOSP, WHOLE_EDGES].iter().zip(expected.fitness.chunks_exact(60)) {
+        let found = recorded_fitness(&graphics, objective, &poses, 60);
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-5, "{found} is not {expected}");
+        }
     }
     drop((graphics, device));
     assert_eq!(log.messages(), Vec::<String>::new());
@@ -416,8 +423,12 @@ fn segments_of_a_mesh_stay_near_the_reference() {
             let what = format!("{mesh_name}, {}", graphics.variant());
             let (mut worst, mut most, mut others) = ([0.0_f64; 2], 0, 0);
             for (at, (f, e)) in found.sums.iter().zip(&expected.sums).enumerate() {
-                let drawn = expected.components[at / segments.as_slice().len()].area_model;
+                let whole = expected.components[at / segments.as_slice().len()];
+                let drawn = whole.area_model;
                 assert_eq!(f.area_obs, e.area_obs, "{what}");
+                let edges = f.edges.abs_diff(e.edges);
+                let is_near = edges <= tolerance.pixels || f64::from(edges) <= 0.03 * f64::from(whole.edges);
+                assert!(is_near, "{what}: {f:?} is not {e:?} in edges");
                 let pairs = [(f.area_model, e.area_model), (f.overlap, e.overlap)];
                 others += u32::from(f != e);
                 for (worst, (found, expected)) in worst.iter_mut().zip(pairs) {
