@@ -29,7 +29,6 @@ const FILES: [&str; 14] = [
 
 /// Removes what an earlier run left in the folder, so that a new one never stands beside old results; files that no run writes stay.
 pub(super) fn clear(output: &OutputFolder) -> Result<()> {
-    let remove = |path: &Path| fs::remove_file(path).with_context(|| format!("cannot replace {}", path.display()));
     for name in FILES.into_iter().chain(motion_files::FILES).chain([smoothed::NOTE]) {
         for path in [output.path().join(name), output.path().join(smoothed::FOLDER).join(name)] {
             if path.is_file() {
@@ -37,18 +36,24 @@ pub(super) fn clear(output: &OutputFolder) -> Result<()> {
             }
         }
     }
-    let drawn: [(&str, fn(&Path) -> bool); 2] = [(overlay::FOLDER, overlay::is_one), (labels::FOLDER, labels::is_one)];
-    for (name, is_one) in drawn {
-        let folder = output.path().join(name);
-        if folder.is_dir() {
-            let cannot = || format!("cannot read the folder {}", folder.display());
-            for entry in fs::read_dir(&folder).with_context(cannot)? {
-                let path = entry.with_context(cannot)?.path();
-                if is_one(&path) {
-                    remove(&path)?;
-                }
+    clear_drawn(&output.path().join(overlay::FOLDER), overlay::is_one)?;
+    clear_drawn(&output.path().join(labels::FOLDER), labels::is_one)
+}
+
+/// Removes the pictures that a run draws into a folder of its own.
+fn clear_drawn(folder: &Path, is_one: fn(&Path) -> bool) -> Result<()> {
+    let cannot = || format!("cannot read the folder {}", folder.display());
+    if folder.is_dir() {
+        for entry in fs::read_dir(folder).with_context(cannot)? {
+            let path = entry.with_context(cannot)?.path();
+            if is_one(&path) {
+                remove(&path)?;
             }
         }
     }
     Ok(())
+}
+
+fn remove(path: &Path) -> Result<()> {
+    fs::remove_file(path).with_context(|| format!("cannot replace {}", path.display()))
 }
