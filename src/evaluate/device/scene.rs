@@ -2,6 +2,7 @@
 
 use anyhow::{Result, ensure};
 
+use super::stage_groups::StageGroups;
 use crate::body::Body;
 use crate::evaluate::batch::{check_observations, check_scene};
 use crate::evaluate::bit_planes::{WORD_PIXELS, bit_planes};
@@ -62,6 +63,8 @@ pub(crate) struct DeviceScene {
     pub(crate) pixels: StagedBuffer,
     /// Which pixels count, once some did not.
     pub(super) counted: Option<Counted>,
+    /// How large workgroups of its stages are.
+    pub(super) groups: StageGroups,
     camera_rows: Vec<layout::Camera>,
 }
 
@@ -106,8 +109,18 @@ impl DeviceScene {
             pixels: StagedBuffer::of(device, "observed pixels", &vec![0_u32; pixels as usize])?,
             labels,
             counted: None,
+            groups: StageGroups::default(),
             camera_rows,
         })
+    }
+
+    /// With workgroups of these sizes.
+    ///
+    /// # Errors
+    /// When the body or the device does not take them.
+    pub(super) fn with_groups(self, groups: StageGroups) -> Result<Self> {
+        groups.check(self.counts.parts, self.device.capabilities().max_workgroup)?;
+        Ok(Self { groups, ..self })
     }
 
     /// Has room for the pixels that observations ignore, from now on; whether it had none.

@@ -20,6 +20,8 @@ pub(super) struct Comparing {
     pub(super) gathering: Gathering,
     /// Workgroups a tile, each of which takes every nth row.
     pub(super) bands: u32,
+    /// Invocations of a workgroup.
+    pub(super) group: u32,
 }
 
 /// What a framebuffer is compared with segment by segment.
@@ -59,11 +61,12 @@ impl Comparing {
     }
 
     fn constants(self, ignores: bool) -> compare_texels_comp::Constants {
-        compare_texels_comp::Constants { edge_bit: self.packing.edge_bit(), ignores }
+        compare_texels_comp::Constants { edge_bit: self.packing.edge_bit(), ignores, local_size_x: self.group }
     }
 
     fn segments_constants(self, codes: u32, segments: u32, ignores: bool) -> compare_texels_segments_comp::Constants {
-        compare_texels_segments_comp::Constants { edge_bit: self.packing.edge_bit(), ignores, codes, segments }
+        let edge_bit = self.packing.edge_bit();
+        compare_texels_segments_comp::Constants { edge_bit, ignores, codes, segments, local_size_x: self.group }
     }
 
     /// What compares whole silhouettes.

@@ -38,7 +38,8 @@ impl GraphicsSegments {
         let packing = comparing.packing;
         let codes = drawn.codes(scene, packing);
         let compare = comparing.segments_stage(codes, segments.as_slice().len() as u32);
-        let listed = raster_segments_comp::Constants { listed: true, ignores: scene.counted.is_some() };
+        let ignores = scene.counted.is_some();
+        let listed = raster_segments_comp::Constants { listed: true, ignores, ..Default::default() };
         device.compile(&[compare, raster_segments_comp::stage(listed), objective_segments_comp::stage()])?;
         let words = scene.pixels.buffer.size() as usize / size_of::<u32>();
         Ok(Self {
