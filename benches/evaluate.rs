@@ -14,7 +14,7 @@ use pantin::bench::{Contestant, Scene, pass_times, swarm};
 use pantin::body::Body;
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
 use pantin::evaluate::device::{
-    Comparison, Coverage, Gathering, GraphicsSettings, Packing, Projection, Tiling, open_device,
+    Comparison, Coverage, Gathering, GraphicsSettings, Packing, Primitives, Projection, Tiling, open_device,
 };
 use pantin::evaluate::{Components, EdgeTerm, Evaluator, Objective, Reference};
 use pantin::features::{Observation, Segment, Segmentation, Segments};
@@ -86,12 +86,17 @@ fn contestants(in_segments: bool) -> Vec<(String, Contestant)> {
             Contestant::Cpu(set) if !set.is_available() => continue,
             // In depth what differs most: the usual comparison, and coverage by the hardware.
             Contestant::Graphics(settings)
-                if settings.packing == Packing::Depth && ![depth, covered].contains(&settings) =>
+                if settings.packing == Packing::Depth
+                    && ![depth, covered].contains(&settings)
+                    && !contestant.is_wrong() =>
             {
                 continue;
             }
-            Contestant::Graphics(GraphicsSettings { coverage, projection, .. })
-                if in_segments && (coverage == hardware || projection == Projection::Feedback) =>
+            Contestant::Graphics(GraphicsSettings { coverage, projection, primitives, .. })
+                if in_segments
+                    && (coverage == hardware
+                        || projection == Projection::Feedback
+                        || primitives == Primitives::Geometry) =>
             {
                 continue;
             }
@@ -124,6 +129,10 @@ fn row<'a>(
             return None;
         }
     };
+    let few = &poses[..poses.len().min(24 * scene.pose.len())];
+    if let Some(wrong) = contestant.wrong_pixels(scene, device, few).unwrap() {
+        println!("{name} is wrong: {wrong}");
+    }
     let count = poses.len() / scene.pose.len();
     let mut found = vec![Components::default(); count * scene.cameras.len()];
     evaluator.components(poses, &mut found).unwrap();

@@ -13,7 +13,7 @@ use std::path::Path;
 use pantin::bench::{Contestant, Scene, pass_times, swarm};
 use pantin::body::{Body, Mesh, Model, Skinning};
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
-use pantin::evaluate::device::{GraphicsSettings, open_device};
+use pantin::evaluate::device::{GraphicsSettings, Packing, open_device};
 use pantin::evaluate::{Components, Evaluator, Objective};
 use table::{Table, in_a_line, is_measuring, is_wanted};
 
@@ -67,17 +67,32 @@ fn main() {
             let passes = pass_times(compute.as_mut(), poses, &objective, &mut vec![0.0; candidates]).unwrap();
             println!("{name}, compute: stages, ms: {}", in_a_line(&passes));
             rows.push((format!("{name}, compute"), compute));
-            let mut graphics = build(Contestant::Graphics(GraphicsSettings::default()));
-            let mut found = vec![Components::default(); images];
-            graphics.components(poses, &mut found).unwrap();
-            for (found, expected) in found.iter().zip(&expected) {
-                let off = found.area_model.abs_diff(expected.area_model);
-                assert!(off * 200 <= expected.area_model, "{name}: {found:?} is not {expected:?}");
+            let usual = GraphicsSettings { packing: Packing::Depth, ..GraphicsSettings::default() };
+            let mut drawn: Option<Vec<Components>> = None;
+            for contestant in Contestant::of_meshes() {
+                let Contestant::Graphics(settings) = contestant else { continue };
+                let way =
+                    if settings == usual { "graphics".to_string() } else { format!("graphics {}", settings.name()) };
+                let mut graphics = match contestant.build(&scene, Some(&mesh), &device) {
+                    Ok(graphics) => graphics,
+                    Err(error) => {
+                        println!("SKIPPED {name}, {way}: {error:#}");
+                        continue;
+                    }
+                };
+                let mut found = vec![Components::default(); images];
+                graphics.components(poses, &mut found).unwrap();
+                for (found, expected) in found.iter().zip(&expected) {
+                    let off = found.area_model.abs_diff(expected.area_model);
+                    assert!(off * 200 <= expected.area_model, "{name}, {way}: {found:?} is not {expected:?}");
+                }
+                // All ways of graphics draw the same pixels.
+                assert!(*drawn.get_or_insert_with(|| found.clone()) == found, "{name}, {way} draws others");
+                let passes = pass_times(graphics.as_mut(), poses, &objective, &mut vec![0.0; candidates]).unwrap();
+                let [width, height] = graphics.footprint().unwrap().tile;
+                println!("{name}, {way}: tiles of {width}x{height}; stages, ms: {}", in_a_line(&passes));
+                rows.push((format!("{name}, {way}"), graphics));
             }
-            let passes = pass_times(graphics.as_mut(), poses, &objective, &mut vec![0.0; candidates]).unwrap();
-            let [width, height] = graphics.footprint().unwrap().tile;
-            println!("{name}, graphics: tiles of {width}x{height}; stages, ms: {}", in_a_line(&passes));
-            rows.push((format!("{name}, graphics"), graphics));
         }
         for (name, mut evaluator) in rows {
             let mut fitness = vec![0.0; candidates];

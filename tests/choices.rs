@@ -9,7 +9,9 @@ use pantin::bench::{Preset, YardstickKind};
 use pantin::body::{Model, Skinning};
 use pantin::calibrate::{BoardKind, Held, Layout, LensModel};
 use pantin::evaluate::cpu::InstructionSet;
-use pantin::evaluate::device::{Coverage, Gathering, HostComparison, Packing, Projection, Tiling};
+use pantin::evaluate::device::{
+    Channels, Coverage, Gathering, HostComparison, Packing, Primitives, Projection, Tiling,
+};
 use pantin::evaluate::{EdgeTerm, ObjectiveKind};
 use pantin::features::{Adaptation, Cue, ForegroundKind, Magnitude, Metric, Normalisation, Operator, Shape};
 use pantin::files::Choice;
@@ -89,6 +91,8 @@ fn lists() -> Vec<List> {
         list::<HostComparison>(),
         list::<Tiling>(),
         list::<Projection>(),
+        list::<Primitives>(),
+        list::<Channels>(),
         list::<YardstickKind>(),
         list::<Scheme>(),
     ]

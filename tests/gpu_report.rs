@@ -1,4 +1,5 @@
-//! The section of docs/PERFORMANCE.md that results of `make gpu-report` fill: `make gpu-report FROM=results`.
+//! What docs/PERFORMANCE.md tells of measurements by commands: the section that results of `make gpu-report` fill (`make gpu-report
+//! FROM=results`), and the chart of workgroup sizes.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise")]
 
@@ -6,6 +7,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
+use pantin::bench::sweep::SweepReport;
 use serde_json::Value;
 
 const BEGIN: &str = "<!-- gpu-report: written by make gpu-report FROM=... -->\n";
@@ -21,7 +23,10 @@ fn section(folder: &Path) -> String {
     let mut text = String::new();
     let (devices, bench) = (json("devices.json"), json("bench.json"));
     let word = |value: &Value| value.as_str().unwrap_or("unknown").to_string();
-    let version = read("version.txt").split_whitespace().collect::<Vec<_>>().join(" ");
+    // In a file of its own in folders of older reports.
+    let version = if folder.join("version.txt").exists() { read("version.txt") } else { read("messages.txt") };
+    let version: Vec<&str> = version.lines().take(2).collect();
+    let version = version.join(" ");
     let device = if bench.is_null() { word(&devices["devices"][0]["name"]) } else { word(&bench["device"]) };
     writeln!(text, "Measured with {version} on {device}; processor: {}.\n", word(&bench["machine"])).unwrap();
     writeln!(text, "| line of the report | verdict | s |\n|---|---|---|").unwrap();
@@ -56,8 +61,9 @@ fn section(folder: &Path) -> String {
         }
     }
     // Folders of older reports have none.
-    let profile = if folder.join("profile.json").exists() { json("profile.json") } else { Value::Null };
-    passes(&mut text, &profile);
+    let newer = |name: &str| if folder.join(name).exists() { json(name) } else { Value::Null };
+    workgroups(&mut text, &newer("sweep.json"));
+    passes(&mut text, &newer("profile.json"));
     writeln!(text, "\n| track, start to end | frames | ms | ms a frame |\n|---|---|---|---|").unwrap();
     for line in read("track.txt").lines() {
         let columns: Vec<&str> = line.split('\t').collect();
@@ -68,6 +74,24 @@ fn section(folder: &Path) -> String {
         writeln!(text, "| {backend} | {frames} | {ms} | {each:.1} |").unwrap();
     }
     text
+}
+
+/// Of a sweep the fastest workgroups of every way, and those that are taken unasked; nothing where there is none.
+fn workgroups(text: &mut String, sweep: &Value) {
+    let Some(rows) = sweep["rows"].as_array() else { return };
+    let ms = |row: &Value| row["ms"].as_f64().unwrap_or(f64::NAN);
+    let is_alike = |a: &Value, b: &Value| a["stage"] == b["stage"] && a["way"] == b["way"];
+    writeln!(text, "\n| stage | way | workgroup | ms | taken unasked |\n|---|---|---|---|---|").unwrap();
+    for row in rows {
+        let is_usual = row["usual"].as_bool() == Some(true);
+        let is_fastest = rows.iter().all(|other| !is_alike(row, other) || ms(row) <= ms(other));
+        if is_usual || is_fastest {
+            let word = |key: &str| row[key].as_str().unwrap_or("unknown");
+            let told = if is_usual { "yes" } else { "" };
+            let workgroup = row["workgroup"].as_f64().unwrap_or(f64::NAN);
+            writeln!(text, "| {} | {} | {workgroup} | {:.4} | {told} |", word("stage"), word("way"), ms(row)).unwrap();
+        }
+    }
 }
 
 /// The passes of a profile; nothing where there is none.
@@ -132,7 +156,7 @@ fn results_fill_the_section() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     write("devices.json", r#"{ "devices": [{ "name": "Card" }] }"#);
-    write("version.txt", "pantin 0.1.0\nabc1234\n");
+    write("messages.txt", "pantin 0.1.0\nabc1234\nrunning 3 tests\n");
     write("lines.tsv", "devices\tpassed\t1\nagreement of gpu::\tout of time\t60\n");
     write("track.txt", "compute\t10\t250\n");
     write("bench.json", "");
@@ -158,7 +182,14 @@ fn results_fill_the_section() {
         "profile.json",
         &format!(r#"{{ "peaks": {peaks}, "profiles": [{{ {head}, "passes": [{copy}, {pass}] }}] }}"#),
     );
+    let row = |way: &str, workgroup: u32, usual: bool, ms: f64| {
+        format!(r#"{{ "stage": "raster", "way": "{way}", "workgroup": {workgroup}, "usual": {usual}, "ms": {ms} }}"#)
+    };
+    let rows = [row("3 words", 32, true, 0.5), row("3 words", 64, false, 0.25), row("3 words", 128, false, 0.75)];
+    write("sweep.json", &format!(r#"{{ "rows": [{}] }}"#, rows.join(", ")));
     let found = section(folder.path());
+    let fastest = "| raster | 3 words | 32 | 0.5000 | yes |\n| raster | 3 words | 64 | 0.2500 |  |\n\nPeaks";
+    assert!(found.contains(fastest), "{found}");
     assert!(
         found.contains("Peaks: 2000 G integer operations/s, 3000 G in floating point, 400 GB/s of memory"),
         "{found}"
@@ -172,4 +203,23 @@ fn results_fill_the_section() {
     let filled = with_section(&docs, &found);
     assert_eq!(with_section(&filled, &found), filled);
     assert!(filled.contains(expected) && filled.len() > docs.len() / 2);
+}
+
+/// docs/images/workgroups.svg is what `pantin bench --sweep --read docs/studies/results/workgroups.json --plot` draws.
+#[test]
+fn the_chart_of_workgroups_is_drawn_from_its_numbers() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let sweep = SweepReport::read(&root.join("docs/studies/results/workgroups.json")).unwrap();
+    let (chart, path) = (sweep.chart().unwrap(), root.join("docs/images/workgroups.svg"));
+    if std::env::var_os("PANTIN_WRITE_DOCS").is_some() {
+        fs::write(&path, &chart).unwrap();
+    }
+    assert!(
+        fs::read_to_string(&path).unwrap() == chart,
+        "PANTIN_WRITE_DOCS=1 cargo test --test gpu_report draws it anew"
+    );
+    // Other numbers are another chart.
+    let mut other = sweep.clone();
+    other.rows.iter_mut().for_each(|row| row.ms *= f64::from(row.workgroup));
+    assert!(other.chart().unwrap() != chart);
 }

@@ -4,27 +4,41 @@ pub const LARGEST_SIDE: u32 = 16384;
 /// Corners farther from the origin than this, in x or y, have no image.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const FARTHEST_PIXEL: f32 = 16384.0;
-/// Invocations of a workgroup of the projection; also the most parts that a body may have there.
+/// Most invocations of a workgroup of the projection, and how many are usual; also the most parts that a body may have there.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const PROJECT_GROUP: u32 = 128;
 /// Invocations of a workgroup that places images in the framebuffer.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const PLACE_GROUP: u32 = 64;
-/// Invocations of a workgroup of the comparison.
+/// Invocations of a workgroup of the comparison, and how many there may be; powers of two.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const COMPARE_GROUP: u32 = 128;
-/// How a candidate's pixel is a byte: the largest of 2 rank + edge, or the nearest label with bit 7 on edges.
+/// `MOST_COMPARE_GROUP` of `evaluate/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const MOST_COMPARE_GROUP: u32 = 256;
+/// How a candidate's pixel is a byte: the largest of 2 rank + edge, or the nearest label with bit 7 on edges; or, wrong where parts or
+/// candidates overlap, the largest label that passes the depth test, of all channels at once.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const PACK_MAX: u32 = 0;
 /// `PACK_DEPTH` of `evaluate/constants.glsl`.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const PACK_DEPTH: u32 = 1;
-/// Invocations of a workgroup that draws and compares an image, a row each; a power of two.
+/// `PACK_AT_ONCE` of `evaluate/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const PACK_AT_ONCE: u32 = 2;
+/// Invocations of a workgroup that draws and compares an image, a row each, and how many there may be; powers of two.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const RASTER_GROUP: u32 = 32;
-/// Words of a row that it draws at once: fewer compute the spans of wide parts more often, more make masks of nothing.
+/// `MOST_RASTER_GROUP` of `evaluate/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const MOST_RASTER_GROUP: u32 = 128;
+/// Words of a row that it draws at once, and how many there may be: fewer compute the spans of wide parts more often, more make masks of
+/// nothing.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const RASTER_WORDS: u32 = 3;
+/// `MOST_RASTER_WORDS` of `evaluate/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const MOST_RASTER_WORDS: u32 = 4;
 /// Most segments that observations tell apart.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const MOST_SEGMENTS: u32 = 8;
@@ -131,11 +145,12 @@ pub mod bind_comp {
 /// The stage `evaluate/compare_shared.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod compare_shared_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [17] '' is invalid: Initializer must be a const-expression).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/compare_shared.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<2131, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<2150, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/compare_shared.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -151,6 +166,7 @@ pub mod compare_shared_comp {
         constants: &[
             crate::gpu::SpecConstant { name: "EDGE_BIT", id: 0, default: 0 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 3, default: 0 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 4, default: 128 },
         ],
     };
     /// Specialisation constants.
@@ -160,13 +176,15 @@ pub mod compare_shared_comp {
         pub edge_bit: u32,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `local_size_x`, 128 by default.
+        pub local_size_x: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { edge_bit: 0, ignores: false, } }
+        fn default() -> Self { Self { edge_bit: 0, ignores: false, local_size_x: 128, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (3, u32::from(constants.ignores)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (3, u32::from(constants.ignores)), (4, constants.local_size_x), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -214,11 +232,12 @@ pub mod compare_shared_comp {
 /// The stage `evaluate/compare_shared_segments.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod compare_shared_segments_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [19] '' is invalid: Initializer must be a const-expression).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/compare_shared_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5318, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5341, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/compare_shared_segments.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -240,7 +259,8 @@ pub mod compare_shared_segments_comp {
             crate::gpu::SpecConstant { name: "CODES", id: 1, default: 128 },
             crate::gpu::SpecConstant { name: "SEGMENTS", id: 2, default: 8 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 3, default: 0 },
-            crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 4, default: 0 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 4, default: 128 },
+            crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 5, default: 0 },
         ],
     };
     /// Specialisation constants.
@@ -254,15 +274,17 @@ pub mod compare_shared_segments_comp {
         pub segments: u32,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `local_size_x`, 128 by default.
+        pub local_size_x: u32,
         /// `SEGMENT_EDGES`, false by default.
         pub segment_edges: bool,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, segment_edges: false, } }
+        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, local_size_x: 128, segment_edges: false, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), (4, u32::from(constants.segment_edges)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), (4, constants.local_size_x), (5, u32::from(constants.segment_edges)), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -322,11 +344,12 @@ pub mod compare_shared_segments_comp {
 /// The stage `evaluate/compare_subgroup.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod compare_subgroup_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [17] '' is invalid: Initializer must be a const-expression).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/compare_subgroup.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<2327, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<2341, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/compare_subgroup.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -342,6 +365,7 @@ pub mod compare_subgroup_comp {
         constants: &[
             crate::gpu::SpecConstant { name: "EDGE_BIT", id: 0, default: 0 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 3, default: 0 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 4, default: 128 },
             crate::gpu::SpecConstant { name: "FULL_SUBGROUP", id: 31, default: 0 },
         ],
     };
@@ -352,15 +376,17 @@ pub mod compare_subgroup_comp {
         pub edge_bit: u32,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `local_size_x`, 128 by default.
+        pub local_size_x: u32,
         /// `FULL_SUBGROUP`, 0 by default.
         pub full_subgroup: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { edge_bit: 0, ignores: false, full_subgroup: 0, } }
+        fn default() -> Self { Self { edge_bit: 0, ignores: false, local_size_x: 128, full_subgroup: 0, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (3, u32::from(constants.ignores)), (31, constants.full_subgroup), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (3, u32::from(constants.ignores)), (4, constants.local_size_x), (31, constants.full_subgroup), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -408,11 +434,12 @@ pub mod compare_subgroup_comp {
 /// The stage `evaluate/compare_subgroup_segments.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod compare_subgroup_segments_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [19] '' is invalid: Initializer must be a const-expression).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/compare_subgroup_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5643, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5661, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/compare_subgroup_segments.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -434,7 +461,8 @@ pub mod compare_subgroup_segments_comp {
             crate::gpu::SpecConstant { name: "CODES", id: 1, default: 128 },
             crate::gpu::SpecConstant { name: "SEGMENTS", id: 2, default: 8 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 3, default: 0 },
-            crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 4, default: 0 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 4, default: 128 },
+            crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 5, default: 0 },
             crate::gpu::SpecConstant { name: "FULL_SUBGROUP", id: 31, default: 0 },
         ],
     };
@@ -449,17 +477,19 @@ pub mod compare_subgroup_segments_comp {
         pub segments: u32,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `local_size_x`, 128 by default.
+        pub local_size_x: u32,
         /// `SEGMENT_EDGES`, false by default.
         pub segment_edges: bool,
         /// `FULL_SUBGROUP`, 0 by default.
         pub full_subgroup: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, segment_edges: false, full_subgroup: 0, } }
+        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, local_size_x: 128, segment_edges: false, full_subgroup: 0, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), (4, u32::from(constants.segment_edges)), (31, constants.full_subgroup), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), (4, constants.local_size_x), (5, u32::from(constants.segment_edges)), (31, constants.full_subgroup), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -519,11 +549,12 @@ pub mod compare_subgroup_segments_comp {
 /// The stage `evaluate/compare_texels.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod compare_texels_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [17] '' is invalid: Initializer must be a const-expression).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/compare_texels.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<3557, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<3566, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/compare_texels.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -539,6 +570,7 @@ pub mod compare_texels_comp {
         constants: &[
             crate::gpu::SpecConstant { name: "EDGE_BIT", id: 0, default: 0 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 3, default: 0 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 4, default: 128 },
         ],
     };
     /// Specialisation constants.
@@ -548,13 +580,15 @@ pub mod compare_texels_comp {
         pub edge_bit: u32,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `local_size_x`, 128 by default.
+        pub local_size_x: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { edge_bit: 0, ignores: false, } }
+        fn default() -> Self { Self { edge_bit: 0, ignores: false, local_size_x: 128, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (3, u32::from(constants.ignores)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (3, u32::from(constants.ignores)), (4, constants.local_size_x), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -602,11 +636,12 @@ pub mod compare_texels_comp {
 /// The stage `evaluate/compare_texels_segments.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod compare_texels_segments_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [19] '' is invalid: Initializer must be a const-expression).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/compare_texels_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<10606, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<10619, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/compare_texels_segments.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -628,7 +663,8 @@ pub mod compare_texels_segments_comp {
             crate::gpu::SpecConstant { name: "CODES", id: 1, default: 128 },
             crate::gpu::SpecConstant { name: "SEGMENTS", id: 2, default: 8 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 3, default: 0 },
-            crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 4, default: 0 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 4, default: 128 },
+            crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 5, default: 0 },
         ],
     };
     /// Specialisation constants.
@@ -642,15 +678,17 @@ pub mod compare_texels_segments_comp {
         pub segments: u32,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `local_size_x`, 128 by default.
+        pub local_size_x: u32,
         /// `SEGMENT_EDGES`, false by default.
         pub segment_edges: bool,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, segment_edges: false, } }
+        fn default() -> Self { Self { edge_bit: 0, codes: 128, segments: 8, ignores: false, local_size_x: 128, segment_edges: false, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), (4, u32::from(constants.segment_edges)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (2, constants.segments), (3, u32::from(constants.ignores)), (4, constants.local_size_x), (5, u32::from(constants.segment_edges)), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -707,6 +745,66 @@ pub mod compare_texels_segments_comp {
         }
     }
 }
+/// The stage `evaluate/draw_border.geom`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod draw_border_geom {
+    // Accesses are as declared: naga cannot read this stage (unsupported execution model %3).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/draw_border.geom",
+        kind: crate::gpu::ShaderKind::Geometry,
+        spirv: &crate::gpu::words::<1347, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/draw_border.geom.spv"))),
+        workgroup_size: [1, 1, 1],
+        push_size: 24,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Quads", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Placements", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Tiles", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "PACKING", id: 0, default: 0 },
+            crate::gpu::SpecConstant { name: "CHANNEL", id: 1, default: 0 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `PACKING`, 0 by default.
+        pub packing: u32,
+        /// `CHANNEL`, 0 by default.
+        pub channel: u32,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { packing: 0, channel: 0, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.packing), (1, constants.channel), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::Batch;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Quads`, read; set 0, binding 0.
+        pub quads: &'a crate::gpu::Buffer,
+        /// Storage buffer `Placements`, read; set 0, binding 1.
+        pub placements: &'a crate::gpu::Buffer,
+        /// Storage buffer `Tiles`, read; set 0, binding 2.
+        pub tiles: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 3] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.quads) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.placements) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.tiles) },
+            ]
+        }
+    }
+}
 /// The stage `evaluate/draw_border.vert`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod draw_border_vert {
@@ -714,7 +812,7 @@ pub mod draw_border_vert {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/draw_border.vert",
         kind: crate::gpu::ShaderKind::Vertex,
-        spirv: &crate::gpu::words::<1113, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<1274, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/draw_border.vert.spv"))),
         workgroup_size: [1, 1, 1],
         push_size: 24,
@@ -797,6 +895,66 @@ pub mod draw_exact_frag {
         crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.packing), ] }
     }
 }
+/// The stage `evaluate/draw_exact.geom`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod draw_exact_geom {
+    // Accesses are as declared: naga cannot read this stage (unsupported execution model %3).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/draw_exact.geom",
+        kind: crate::gpu::ShaderKind::Geometry,
+        spirv: &crate::gpu::words::<4652, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/draw_exact.geom.spv"))),
+        workgroup_size: [1, 1, 1],
+        push_size: 24,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Quads", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Placements", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Tiles", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "PACKING", id: 0, default: 0 },
+            crate::gpu::SpecConstant { name: "CHANNEL", id: 1, default: 0 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `PACKING`, 0 by default.
+        pub packing: u32,
+        /// `CHANNEL`, 0 by default.
+        pub channel: u32,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { packing: 0, channel: 0, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.packing), (1, constants.channel), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::Batch;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Quads`, read; set 0, binding 0.
+        pub quads: &'a crate::gpu::Buffer,
+        /// Storage buffer `Placements`, read; set 0, binding 1.
+        pub placements: &'a crate::gpu::Buffer,
+        /// Storage buffer `Tiles`, read; set 0, binding 2.
+        pub tiles: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 3] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.quads) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.placements) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.tiles) },
+            ]
+        }
+    }
+}
 /// The stage `evaluate/draw_exact.vert`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod draw_exact_vert {
@@ -805,8 +963,68 @@ pub mod draw_exact_vert {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/draw_exact.vert",
         kind: crate::gpu::ShaderKind::Vertex,
-        spirv: &crate::gpu::words::<4469, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<4542, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/draw_exact.vert.spv"))),
+        workgroup_size: [1, 1, 1],
+        push_size: 24,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Quads", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Placements", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Tiles", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "PACKING", id: 0, default: 0 },
+            crate::gpu::SpecConstant { name: "CHANNEL", id: 1, default: 0 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `PACKING`, 0 by default.
+        pub packing: u32,
+        /// `CHANNEL`, 0 by default.
+        pub channel: u32,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { packing: 0, channel: 0, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.packing), (1, constants.channel), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::Batch;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Quads`, read; set 0, binding 0.
+        pub quads: &'a crate::gpu::Buffer,
+        /// Storage buffer `Placements`, read; set 0, binding 1.
+        pub placements: &'a crate::gpu::Buffer,
+        /// Storage buffer `Tiles`, read; set 0, binding 2.
+        pub tiles: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 3] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.quads) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.placements) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.tiles) },
+            ]
+        }
+    }
+}
+/// The stage `evaluate/draw_fill.geom`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod draw_fill_geom {
+    // Accesses are as declared: naga cannot read this stage (unsupported execution model %3).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/draw_fill.geom",
+        kind: crate::gpu::ShaderKind::Geometry,
+        spirv: &crate::gpu::words::<1295, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/draw_fill.geom.spv"))),
         workgroup_size: [1, 1, 1],
         push_size: 24,
         bindings: &[
@@ -864,7 +1082,7 @@ pub mod draw_fill_vert {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/draw_fill.vert",
         kind: crate::gpu::ShaderKind::Vertex,
-        spirv: &crate::gpu::words::<1080, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<1236, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/draw_fill.vert.spv"))),
         workgroup_size: [1, 1, 1],
         push_size: 24,
@@ -947,14 +1165,36 @@ pub mod draw_plain_frag {
         crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.packing), ] }
     }
 }
+/// The stage `evaluate/draw_point.vert`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod draw_point_vert {
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/draw_point.vert",
+        kind: crate::gpu::ShaderKind::Vertex,
+        spirv: &crate::gpu::words::<209, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/draw_point.vert.spv"))),
+        workgroup_size: [1, 1, 1],
+        push_size: 0,
+        bindings: &[
+        ],
+        constants: &[
+        ],
+    };
+    /// What a pipeline is compiled from.
+    pub fn stage() -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
+    }
+}
 /// The stage `evaluate/evidence.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod evidence_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [19] '' is invalid: Initializer must be a const-expression).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/evidence.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4351, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<4364, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/evidence.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -971,6 +1211,7 @@ pub mod evidence_comp {
         constants: &[
             crate::gpu::SpecConstant { name: "EDGE_BIT", id: 0, default: 0 },
             crate::gpu::SpecConstant { name: "CODES", id: 1, default: 128 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 4, default: 128 },
         ],
     };
     /// Specialisation constants.
@@ -980,13 +1221,15 @@ pub mod evidence_comp {
         pub edge_bit: u32,
         /// `CODES`, 128 by default.
         pub codes: u32,
+        /// `local_size_x`, 128 by default.
+        pub local_size_x: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { edge_bit: 0, codes: 128, } }
+        fn default() -> Self { Self { edge_bit: 0, codes: 128, local_size_x: 128, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.edge_bit), (1, constants.codes), (4, constants.local_size_x), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -1034,6 +1277,67 @@ pub mod evidence_comp {
         }
     }
 }
+/// The stage `evaluate/mesh_edge.geom`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod mesh_edge_geom {
+    // Accesses are as declared: naga cannot read this stage (unsupported execution model %3).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/mesh_edge.geom",
+        kind: crate::gpu::ShaderKind::Geometry,
+        spirv: &crate::gpu::words::<3181, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/mesh_edge.geom.spv"))),
+        workgroup_size: [1, 1, 1],
+        push_size: 32,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Vertices", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllSeen", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Placements", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Tiles", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "CHANNEL", id: 1, default: 0 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `CHANNEL`, 0 by default.
+        pub channel: u32,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { channel: 0, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(1, constants.channel), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::MeshBatch;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Vertices`, read; set 0, binding 0.
+        pub vertices: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllSeen`, read; set 0, binding 1.
+        pub all_seen: &'a crate::gpu::Buffer,
+        /// Storage buffer `Placements`, read; set 0, binding 2.
+        pub placements: &'a crate::gpu::Buffer,
+        /// Storage buffer `Tiles`, read; set 0, binding 3.
+        pub tiles: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 4] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.vertices) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.all_seen) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.placements) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.tiles) },
+            ]
+        }
+    }
+}
 /// The stage `evaluate/mesh_edge.vert`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod mesh_edge_vert {
@@ -1041,7 +1345,7 @@ pub mod mesh_edge_vert {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/mesh_edge.vert",
         kind: crate::gpu::ShaderKind::Vertex,
-        spirv: &crate::gpu::words::<2296, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<2305, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/mesh_edge.vert.spv"))),
         workgroup_size: [1, 1, 1],
         push_size: 32,
@@ -1349,11 +1653,12 @@ pub mod objective_segments_comp {
 /// The stage `evaluate/order.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod order_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [15] '' is invalid: Initializer must be a const-expression).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/order.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<1554, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<1567, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/order.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -1364,11 +1669,21 @@ pub mod order_comp {
             crate::gpu::BindingLayout { name: "AllBounds", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
         ],
         constants: &[
+            crate::gpu::SpecConstant { name: "local_size_x", id: 0, default: 128 },
         ],
     };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `local_size_x`, 128 by default.
+        pub local_size_x: u32,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { local_size_x: 128, } }
+    }
     /// What a pipeline is compiled from.
-    pub fn stage() -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.local_size_x), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -1397,10 +1712,10 @@ pub mod order_comp {
     }
     impl<'a> Bindings<'a> {
         /// A run on them.
-        pub fn dispatch(self, push: Push, groups: crate::gpu::Groups<'a>)
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
             -> crate::gpu::Dispatch<'a> {
             let bindings = self.bound().to_vec();
-            crate::gpu::Dispatch { stage: stage(), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
         }
     }
 }
@@ -1593,11 +1908,12 @@ pub mod pose_comp {
 /// The stage `evaluate/project.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod project_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [48] '' is invalid: Initializer must be a const-expression).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/project.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<7210, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<7223, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/project.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -1609,11 +1925,21 @@ pub mod project_comp {
             crate::gpu::BindingLayout { name: "AllBounds", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
         ],
         constants: &[
+            crate::gpu::SpecConstant { name: "local_size_x", id: 0, default: 128 },
         ],
     };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `local_size_x`, 128 by default.
+        pub local_size_x: u32,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { local_size_x: 128, } }
+    }
     /// What a pipeline is compiled from.
-    pub fn stage() -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.local_size_x), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -1645,10 +1971,10 @@ pub mod project_comp {
     }
     impl<'a> Bindings<'a> {
         /// A run on them.
-        pub fn dispatch(self, push: Push, groups: crate::gpu::Groups<'a>)
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
             -> crate::gpu::Dispatch<'a> {
             let bindings = self.bound().to_vec();
-            crate::gpu::Dispatch { stage: stage(), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
         }
     }
 }
@@ -1702,11 +2028,12 @@ pub mod project_feedback_vert {
 /// The stage `evaluate/raster.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod raster_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [33] '' is invalid: Initializer must be a const-expression).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4770, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<4808, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -1722,6 +2049,8 @@ pub mod raster_comp {
         constants: &[
             crate::gpu::SpecConstant { name: "LISTED", id: 0, default: 0 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 2, default: 32 },
+            crate::gpu::SpecConstant { name: "WORDS", id: 3, default: 3 },
         ],
     };
     /// Specialisation constants.
@@ -1731,13 +2060,17 @@ pub mod raster_comp {
         pub listed: bool,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `local_size_x`, 32 by default.
+        pub local_size_x: u32,
+        /// `WORDS`, 3 by default.
+        pub words: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { listed: false, ignores: false, } }
+        fn default() -> Self { Self { listed: false, ignores: false, local_size_x: 32, words: 3, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (2, constants.local_size_x), (3, constants.words), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -1785,11 +2118,12 @@ pub mod raster_comp {
 /// The stage `evaluate/raster_evidence.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod raster_evidence_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [35] '' is invalid: Initializer must be a const-expression).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_evidence.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5276, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5318, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_evidence.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -1808,6 +2142,8 @@ pub mod raster_evidence_comp {
         constants: &[
             crate::gpu::SpecConstant { name: "LISTED", id: 0, default: 0 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 2, default: 32 },
+            crate::gpu::SpecConstant { name: "WORDS", id: 3, default: 3 },
         ],
     };
     /// Specialisation constants.
@@ -1817,13 +2153,17 @@ pub mod raster_evidence_comp {
         pub listed: bool,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `local_size_x`, 32 by default.
+        pub local_size_x: u32,
+        /// `WORDS`, 3 by default.
+        pub words: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { listed: false, ignores: false, } }
+        fn default() -> Self { Self { listed: false, ignores: false, local_size_x: 32, words: 3, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (2, constants.local_size_x), (3, constants.words), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -2174,11 +2514,12 @@ pub mod raster_mesh_segments_comp {
 /// The stage `evaluate/raster_segments.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod raster_segments_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [37] '' is invalid: Initializer must be a const-expression).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5674, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5712, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_segments.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -2197,6 +2538,8 @@ pub mod raster_segments_comp {
         constants: &[
             crate::gpu::SpecConstant { name: "LISTED", id: 0, default: 0 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 2, default: 32 },
+            crate::gpu::SpecConstant { name: "WORDS", id: 3, default: 3 },
             crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 4, default: 0 },
         ],
     };
@@ -2207,15 +2550,19 @@ pub mod raster_segments_comp {
         pub listed: bool,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `local_size_x`, 32 by default.
+        pub local_size_x: u32,
+        /// `WORDS`, 3 by default.
+        pub words: u32,
         /// `SEGMENT_EDGES`, false by default.
         pub segment_edges: bool,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { listed: false, ignores: false, segment_edges: false, } }
+        fn default() -> Self { Self { listed: false, ignores: false, local_size_x: 32, words: 3, segment_edges: false, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (4, u32::from(constants.segment_edges)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (2, constants.local_size_x), (3, constants.words), (4, u32::from(constants.segment_edges)), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -2272,11 +2619,12 @@ pub mod raster_segments_comp {
 /// The stage `evaluate/raster_shared.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod raster_shared_comp {
+    // Accesses are as declared: naga cannot read this stage (Constant [33] '' is invalid: Initializer must be a const-expression).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_shared.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4709, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<4760, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_shared.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -2292,6 +2640,8 @@ pub mod raster_shared_comp {
         constants: &[
             crate::gpu::SpecConstant { name: "LISTED", id: 0, default: 0 },
             crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 2, default: 32 },
+            crate::gpu::SpecConstant { name: "WORDS", id: 3, default: 3 },
         ],
     };
     /// Specialisation constants.
@@ -2301,13 +2651,17 @@ pub mod raster_shared_comp {
         pub listed: bool,
         /// `IGNORES`, false by default.
         pub ignores: bool,
+        /// `local_size_x`, 32 by default.
+        pub local_size_x: u32,
+        /// `WORDS`, 3 by default.
+        pub words: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { listed: false, ignores: false, } }
+        fn default() -> Self { Self { listed: false, ignores: false, local_size_x: 32, words: 3, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (2, constants.local_size_x), (3, constants.words), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -2626,7 +2980,7 @@ pub mod skin_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/skin.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4832, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<4867, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/skin.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 32,
@@ -2688,6 +3042,117 @@ pub mod skin_comp {
             -> crate::gpu::Dispatch<'a> {
             let bindings = self.bound().to_vec();
             crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
+/// The stage `evaluate/skin_feedback.vert`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod skin_feedback_vert {
+    // Accesses are as declared: naga cannot read this stage (unsupported capability TransformFeedback).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/skin_feedback.vert",
+        kind: crate::gpu::ShaderKind::Vertex,
+        spirv: &crate::gpu::words::<4351, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/skin_feedback.vert.spv"))),
+        workgroup_size: [1, 1, 1],
+        push_size: 32,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Vertices", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Skin", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Cameras", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "IS_SMOOTH", id: 0, default: 1 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `IS_SMOOTH`, 1 by default.
+        pub is_smooth: u32,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { is_smooth: 1, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.is_smooth), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::MeshBatch;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Vertices`, read; set 0, binding 0.
+        pub vertices: &'a crate::gpu::Buffer,
+        /// Storage buffer `Skin`, read; set 0, binding 1.
+        pub skin: &'a crate::gpu::Buffer,
+        /// Storage buffer `Cameras`, read; set 0, binding 2.
+        pub cameras: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 3] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.vertices) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.skin) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.cameras) },
+            ]
+        }
+    }
+}
+/// The stage `evaluate/touched.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod touched_comp {
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/touched.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<918, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/touched.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 32,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "AllSeen", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Cameras", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "AllBounds", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+        ],
+        constants: &[
+        ],
+    };
+    /// What a pipeline is compiled from.
+    pub fn stage() -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::MeshBatch;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `AllSeen`, read; set 0, binding 0.
+        pub all_seen: &'a crate::gpu::Buffer,
+        /// Storage buffer `Cameras`, read; set 0, binding 1.
+        pub cameras: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllBounds`, read and written; set 0, binding 4.
+        pub all_bounds: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 3] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.all_seen) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.cameras) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.all_bounds) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
         }
     }
 }
@@ -3052,4 +3517,4 @@ pub mod layout {
 /// Every stage of the folder, for tests that try them all.
 #[cfg(test)]
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
-pub static SHADERS: &[&crate::gpu::Shader] = &[&bind_comp::SHADER, &compare_shared_comp::SHADER, &compare_shared_segments_comp::SHADER, &compare_subgroup_comp::SHADER, &compare_subgroup_segments_comp::SHADER, &compare_texels_comp::SHADER, &compare_texels_segments_comp::SHADER, &draw_border_vert::SHADER, &draw_exact_frag::SHADER, &draw_exact_vert::SHADER, &draw_fill_vert::SHADER, &draw_plain_frag::SHADER, &evidence_comp::SHADER, &mesh_edge_vert::SHADER, &mesh_fill_vert::SHADER, &objective_comp::SHADER, &objective_evidence_comp::SHADER, &objective_segments_comp::SHADER, &order_comp::SHADER, &outline_comp::SHADER, &place_comp::SHADER, &pose_comp::SHADER, &project_comp::SHADER, &project_feedback_vert::SHADER, &raster_comp::SHADER, &raster_evidence_comp::SHADER, &raster_mesh_comp::SHADER, &raster_mesh_evidence_comp::SHADER, &raster_mesh_segments_comp::SHADER, &raster_segments_comp::SHADER, &raster_shared_comp::SHADER, &raster_spans_comp::SHADER, &raster_spans_evidence_comp::SHADER, &raster_spans_segments_comp::SHADER, &skin_comp::SHADER];
+pub static SHADERS: &[&crate::gpu::Shader] = &[&bind_comp::SHADER, &compare_shared_comp::SHADER, &compare_shared_segments_comp::SHADER, &compare_subgroup_comp::SHADER, &compare_subgroup_segments_comp::SHADER, &compare_texels_comp::SHADER, &compare_texels_segments_comp::SHADER, &draw_border_geom::SHADER, &draw_border_vert::SHADER, &draw_exact_frag::SHADER, &draw_exact_geom::SHADER, &draw_exact_vert::SHADER, &draw_fill_geom::SHADER, &draw_fill_vert::SHADER, &draw_plain_frag::SHADER, &draw_point_vert::SHADER, &evidence_comp::SHADER, &mesh_edge_geom::SHADER, &mesh_edge_vert::SHADER, &mesh_fill_vert::SHADER, &objective_comp::SHADER, &objective_evidence_comp::SHADER, &objective_segments_comp::SHADER, &order_comp::SHADER, &outline_comp::SHADER, &place_comp::SHADER, &pose_comp::SHADER, &project_comp::SHADER, &project_feedback_vert::SHADER, &raster_comp::SHADER, &raster_evidence_comp::SHADER, &raster_mesh_comp::SHADER, &raster_mesh_evidence_comp::SHADER, &raster_mesh_segments_comp::SHADER, &raster_segments_comp::SHADER, &raster_shared_comp::SHADER, &raster_spans_comp::SHADER, &raster_spans_evidence_comp::SHADER, &raster_spans_segments_comp::SHADER, &skin_comp::SHADER, &skin_feedback_vert::SHADER, &touched_comp::SHADER];

@@ -9,6 +9,8 @@
 #include "evaluate/batch.glsl"
 #include "evaluate/tiles.glsl"
 
+layout(local_size_x = COMPARE_GROUP, local_size_x_id = 4) in;
+
 layout(std430, set = 0, binding = 0) readonly buffer Placements { Placement placements[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Tiles {
     vec2 to_clip;
@@ -30,7 +32,7 @@ layout(std430, set = 0, binding = 10) readonly buffer Counted { uint counted[]; 
 
 #ifdef SEGMENTED
 // Whether edges and proximity are counted by segments too, not areas alone.
-layout(constant_id = 4) const bool SEGMENT_EDGES = false;
+layout(constant_id = 5) const bool SEGMENT_EDGES = false;
 
 layout(std430, set = 0, binding = 6) readonly buffer SegmentTable {
     float weights[MOST_SEGMENTS];
@@ -144,7 +146,8 @@ uint own_rows(Tile tile) {
     return (tile.height + bands - 1u - gl_WorkGroupID.y) / bands;
 }
 
-// The way of an invocation through a tile: every COMPARE_GROUPth place of the rows that its workgroup takes.
+// The way of an invocation through a tile: as many places on as the workgroup has invocations, in the
+// rows that its workgroup takes.
 struct Walk {
     uint x;
     uint row; // of those that the workgroup takes
@@ -159,8 +162,8 @@ Walk walk_from(uint unit, uint width) {
     walk.width = max(width, 1u);
     walk.x = unit % walk.width;
     walk.row = unit / walk.width;
-    walk.step_x = COMPARE_GROUP % walk.width;
-    walk.step_rows = COMPARE_GROUP / walk.width;
+    walk.step_x = gl_WorkGroupSize.x % walk.width;
+    walk.step_rows = gl_WorkGroupSize.x / walk.width;
     return walk;
 }
 
@@ -199,7 +202,7 @@ void load_numbers(Tile tile) {
     uint edge_bit = EDGE_BIT;
     if (gl_LocalInvocationID.x < CANDIDATES_A_TILE * 4u) code_bits[gl_LocalInvocationID.x] = 0u;
     barrier();
-    for (uint i = gl_LocalInvocationID.x; i < CANDIDATES_A_TILE * codes; i += COMPARE_GROUP) {
+    for (uint i = gl_LocalInvocationID.x; i < CANDIDATES_A_TILE * codes; i += gl_WorkGroupSize.x) {
         uint channel = i / codes;
         uint code = i % codes;
         uint number = 0u;

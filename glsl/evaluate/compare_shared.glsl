@@ -6,18 +6,17 @@
 
 #include "evaluate/compare_channel.glsl"
 
-layout(local_size_x = COMPARE_GROUP) in;
-
 // One longer than needed: at the length of SegmentTable's numbers the compiler takes their type for it, whose explicit layout shared
 // memory must not have.
-shared uint words[COMPARE_GROUP + 1u];
-shared uvec4 totals[COMPARE_GROUP];
+shared uint words[MOST_COMPARE_GROUP + 1u];
+shared uvec4 totals[MOST_COMPARE_GROUP];
 
 // For the first four invocations alone.
 uvec4 over_channel(uvec4 counted) {
     uint unit = gl_LocalInvocationID.x;
+    uint group = gl_WorkGroupSize.x;
     totals[unit] = counted;
-    for (uint half_way = COMPARE_GROUP / 2u; half_way >= 4u; half_way >>= 1) {
+    for (uint half_way = group / 2u; half_way >= 4u; half_way >>= 1) {
         barrier();
         if (unit < half_way) totals[unit] += totals[unit + half_way];
     }
@@ -34,7 +33,7 @@ void main() {
     uint unit = gl_LocalInvocationID.x;
     uint channel = unit & 3u;
     uint texels = rows * tile.width;
-    uint steps = (texels + COMPARE_GROUP - 1u) / COMPARE_GROUP;
+    uint steps = (texels + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     Walk walk = walk_from(unit, tile.width);
 #ifdef SEGMENTED
     load_numbers(tile);

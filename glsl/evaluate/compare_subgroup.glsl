@@ -7,8 +7,6 @@
 
 #include "evaluate/compare_channel.glsl"
 
-layout(local_size_x = COMPARE_GROUP) in;
-
 // Invocations of every subgroup, all of which are full, where the pipeline holds them to that; else 0.
 layout(constant_id = 31) const uint FULL_SUBGROUP = 0u;
 
@@ -46,7 +44,7 @@ void main() {
     uint unit = first + gl_SubgroupInvocationID;
     uint channel = gl_SubgroupInvocationID & 3u;
     uint texels = rows * tile.width;
-    uint steps = (texels + COMPARE_GROUP - 1u) / COMPARE_GROUP;
+    uint steps = (texels + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     Walk walk = walk_from(unit, tile.width);
 #ifdef SEGMENTED
     load_numbers(tile);

@@ -6,8 +6,6 @@
 
 #include "evaluate/compare.glsl"
 
-layout(local_size_x = COMPARE_GROUP) in;
-
 // Of each channel four sums, and with segments eight fours.
 shared uint shared_totals[16];
 #ifdef SEGMENTED
@@ -77,7 +75,7 @@ void main() {
     Total total1 = nothing();
     Total total2 = nothing();
     Total total3 = nothing();
-    for (uint word = unit; word < words; word += COMPARE_GROUP) {
+    for (uint word = unit; word < words; word += gl_WorkGroupSize.x) {
         uint y = row_of(walk);
         ivec2 at = tile.origin + ivec2(4u * walk.x, y);
         uint t0 = texelFetch(framebuffer, at, 0).x;

@@ -8,20 +8,26 @@ const uint LARGEST_SIDE = 16384u;
 // Corners farther from the origin than this, in x or y, have no image.
 const float FARTHEST_PIXEL = 16384.0;
 
-// Invocations of a workgroup of the projection; also the most parts that a body may have there.
+// Most invocations of a workgroup of the projection, and how many are usual; also the most parts that a body may have there.
 const uint PROJECT_GROUP = 128u;
 // Invocations of a workgroup that places images in the framebuffer.
 const uint PLACE_GROUP = 64u;
-// Invocations of a workgroup of the comparison.
+// Invocations of a workgroup of the comparison, and how many there may be; powers of two.
 const uint COMPARE_GROUP = 128u;
-// How a candidate's pixel is a byte: the largest of 2 rank + edge, or the nearest label with bit 7 on edges.
+const uint MOST_COMPARE_GROUP = 256u;
+// How a candidate's pixel is a byte: the largest of 2 rank + edge, or the nearest label with bit 7 on edges; or, wrong where parts or
+// candidates overlap, the largest label that passes the depth test, of all channels at once.
 const uint PACK_MAX = 0u;
 const uint PACK_DEPTH = 1u;
+const uint PACK_AT_ONCE = 2u;
 
-// Invocations of a workgroup that draws and compares an image, a row each; a power of two.
+// Invocations of a workgroup that draws and compares an image, a row each, and how many there may be; powers of two.
 const uint RASTER_GROUP = 32u;
-// Words of a row that it draws at once: fewer compute the spans of wide parts more often, more make masks of nothing.
+const uint MOST_RASTER_GROUP = 128u;
+// Words of a row that it draws at once, and how many there may be: fewer compute the spans of wide parts more often, more make masks of
+// nothing.
 const uint RASTER_WORDS = 3u;
+const uint MOST_RASTER_WORDS = 4u;
 
 // Most segments that observations tell apart.
 const uint MOST_SEGMENTS = 8u;

@@ -16,8 +16,6 @@ void main() {
     gl_Position = NOWHERE;
     writes = uvec3(0u);
     if (!part.is_drawn) return;
-    uint at = part.image * batch.parts + place;
-    ivec2 rounded = ((ivec2(quads[at].x[corner], quads[at].y[corner]) + 128) >> 8) + part.placement.shift;
     writes = uvec3(part.placement.low, part.placement.high, part.base + part.edge);
-    gl_Position = to_clip_space(vec2(rounded), part.depth);
+    gl_Position = border_corner(part, corner);
 }

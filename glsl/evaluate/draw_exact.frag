@@ -51,7 +51,7 @@ void main() {
     bool is_written = inside && (is_filled || is_edge);
     uint packing = PACKING;
     // Where the largest value stays, nothing is nought.
-    if (packing == PACK_DEPTH && !is_written) discard;
+    if (packing != PACK_MAX && !is_written) discard;
     uint word = is_written ? writes.z + (is_edge ? writes.w : 0u) : 0u;
     colour = unpackUnorm4x8(word);
 }

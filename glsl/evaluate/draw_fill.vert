@@ -16,8 +16,6 @@ void main() {
     gl_Position = NOWHERE;
     writes = uvec3(0u);
     if (!part.is_drawn) return;
-    uint at = part.image * batch.parts + place;
-    ivec2 snapped = ivec2(quads[at].x[corner], quads[at].y[corner]) + 256 * part.placement.shift;
     writes = uvec3(part.placement.low, part.placement.high, part.base);
-    gl_Position = to_clip_space(vec2(snapped) * (1.0 / 256.0), part.depth);
+    gl_Position = fill_corner(part, corner);
 }

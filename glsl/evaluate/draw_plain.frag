@@ -17,6 +17,6 @@ void main() {
     uvec2 high = uvec2(writes.y & 0xffffu, writes.y >> 16);
     bool inside = own.x >= low.x && own.y >= low.y && own.x < high.x && own.y < high.y;
     uint packing = PACKING;
-    if (packing == PACK_DEPTH && !inside) discard;
+    if (packing != PACK_MAX && !inside) discard;
     colour = unpackUnorm4x8(inside ? writes.z : 0u);
 }

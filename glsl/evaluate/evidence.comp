@@ -8,8 +8,6 @@
 #define EVIDENCE
 #include "evaluate/compare.glsl"
 
-layout(local_size_x = COMPARE_GROUP) in;
-
 // The codes of four pixels, a word a pixel, placed as `pixels`.
 layout(std430, set = 0, binding = 8) readonly buffer EvidencePixels { uvec4 evidence_pixels[]; };
 // [candidate][view]
@@ -39,7 +37,7 @@ void main() {
     Source source2 = source_of(tile, 2u);
     Source source3 = source_of(tile, 3u);
     ivec4 sum = ivec4(0);
-    for (uint word = unit; word < words; word += COMPARE_GROUP) {
+    for (uint word = unit; word < words; word += gl_WorkGroupSize.x) {
         uint y = row_of(walk);
         ivec2 at = tile.origin + ivec2(4u * walk.x, y);
         uvec4 texels = uvec4(

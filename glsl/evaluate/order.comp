@@ -5,13 +5,13 @@
 
 #include "evaluate/order.glsl"
 
-layout(local_size_x = PROJECT_GROUP) in;
+layout(local_size_x = PROJECT_GROUP, local_size_x_id = 0) in;
 
 layout(std430, set = 0, binding = 0) readonly buffer Cameras { Camera cameras[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Captured { Quad captured[]; };
 
 void main() {
-    Own own = own_part();
+    Own own = own_part(gl_WorkGroupSize.x);
     Quad quad;
     if (own.is_active) quad = captured[own.image * batch.parts + own.part];
     write_in_order(own, quad, cameras[own.image % batch.views].size);

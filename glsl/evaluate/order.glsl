@@ -25,9 +25,10 @@ struct Own {
     bool is_active;
 };
 
-Own own_part() {
+// In a workgroup of `group` invocations: its size is not known before the stage has said it.
+Own own_part(uint group) {
     Own own;
-    uint images_a_group = PROJECT_GROUP / batch.parts;
+    uint images_a_group = group / batch.parts;
     own.slot = gl_LocalInvocationID.x / batch.parts;
     own.part = gl_LocalInvocationID.x % batch.parts;
     own.image = gl_WorkGroupID.x * images_a_group + own.slot;

@@ -6,10 +6,10 @@
 #include "evaluate/order.glsl"
 #include "evaluate/project_part.glsl"
 
-layout(local_size_x = PROJECT_GROUP) in;
+layout(local_size_x = PROJECT_GROUP, local_size_x_id = 0) in;
 
 void main() {
-    Own own = own_part();
+    Own own = own_part(gl_WorkGroupSize.x);
     Quad quad;
     if (own.is_active) quad = project_part(own.image, own.part);
     write_in_order(own, quad, cameras[own.image % batch.views].size);

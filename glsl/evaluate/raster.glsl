@@ -8,10 +8,12 @@
 #include "evaluate/raster_counts.glsl"
 #include "evaluate/spans.glsl"
 
-layout(local_size_x = RASTER_GROUP) in;
+layout(local_size_x = RASTER_GROUP, local_size_x_id = 2) in;
 
 // Whether the images are those of the list, not all of the batch.
 layout(constant_id = 0) const bool LISTED = false;
+// Words of a row that are drawn at once, at most MOST_RASTER_WORDS.
+layout(constant_id = 3) const uint WORDS = RASTER_WORDS;
 
 layout(std430, set = 0, binding = 1) readonly buffer Quads { Quad quads[]; };
 // Three words of a dispatch, then image numbers.
@@ -19,8 +21,8 @@ layout(std430, set = 0, binding = 4) readonly buffer List { uint list[]; };
 
 // Parts that are kept at once.
 const uint TILE = 32u;
-// Chunks of the widest picture.
-const uint MOST_CHUNKS = (LARGEST_SIDE + 32u * RASTER_WORDS - 1u) / (32u * RASTER_WORDS);
+// Chunks of the widest picture, of a word each.
+const uint MOST_CHUNKS = (LARGEST_SIDE + 31u) / 32u;
 
 // Corners of the parts of the tile, 1/256 pixel.
 shared ivec4 part_x[TILE];
@@ -36,8 +38,9 @@ shared uint part_numbers[TILE];
 shared uint chunk_parts[MOST_CHUNKS];
 
 void load_tile(uint image, uint tile, ivec2 size, uint chunks) {
+    uint words = WORDS;
     barrier();
-    for (uint slot = gl_LocalInvocationID.x; slot < TILE; slot += RASTER_GROUP) {
+    for (uint slot = gl_LocalInvocationID.x; slot < TILE; slot += gl_WorkGroupSize.x) {
         uint part = tile * TILE + slot;
         uint rows = 0u;
         uint columns = 0u;
@@ -61,12 +64,12 @@ void load_tile(uint image, uint tile, ivec2 size, uint chunks) {
         part_columns[slot] = columns;
     }
     barrier();
-    for (uint chunk = gl_LocalInvocationID.x; chunk < chunks; chunk += RASTER_GROUP) {
-        uint begin = chunk * 32u * RASTER_WORDS;
+    for (uint chunk = gl_LocalInvocationID.x; chunk < chunks; chunk += gl_WorkGroupSize.x) {
+        uint begin = chunk * 32u * words;
         uint bits = 0u;
         for (uint part = 0u; part < TILE; part++) {
             uint columns = part_columns[part];
-            bool reaches = (columns & 0xffffu) < begin + 32u * RASTER_WORDS && (columns >> 16) > begin;
+            bool reaches = (columns & 0xffffu) < begin + 32u * words && (columns >> 16) > begin;
             bits |= reaches ? 1u << part : 0u;
         }
         chunk_parts[chunk] = bits;
@@ -76,33 +79,35 @@ void load_tile(uint image, uint tile, ivec2 size, uint chunks) {
 
 // Sums of the invocation's rows: area of the model, overlap, edges, proximity.
 uvec4 rasterise(uint image) {
+    uint words = WORDS;
     Camera camera = cameras[image % batch.views];
     ivec2 size = ivec2(camera.size);
     Bounds box = bounds[image];
     uvec4 sum = uvec4(0u);
     // Nothing to draw: the same for all invocations.
     if (box.low.x >= box.high.x || box.low.y >= box.high.y) return sum;
-    uint chunks = (camera.words + RASTER_WORDS - 1u) / RASTER_WORDS;
+    uint chunks = (camera.words + words - 1u) / words;
     uint tiles = (batch.parts + TILE - 1u) / TILE;
-    uint first_chunk = uint(box.low.x) / (32u * RASTER_WORDS);
-    uint end_chunk = (uint(box.high.x) + 32u * RASTER_WORDS - 1u) / (32u * RASTER_WORDS);
+    uint first_chunk = uint(box.low.x) / (32u * words);
+    uint end_chunk = (uint(box.high.x) + 32u * words - 1u) / (32u * words);
     bool loaded = false;
-    for (int block = box.low.y; block < box.high.y; block += int(RASTER_GROUP)) {
+    uint group_rows = gl_WorkGroupSize.x;
+    for (int block = box.low.y; block < box.high.y; block += int(group_rows)) {
         int y = block + int(gl_LocalInvocationID.x);
         uint row_parts = 0u;
         bool row_known = false;
         for (uint chunk = first_chunk; chunk < end_chunk; chunk++) {
-            int origin = int(chunk * 32u * RASTER_WORDS);
-            uint filled[RASTER_WORDS];
-            uint edges[RASTER_WORDS];
-            for (uint word = 0u; word < RASTER_WORDS; word++) {
+            int origin = int(chunk * 32u * words);
+            uint filled[MOST_RASTER_WORDS];
+            uint edges[MOST_RASTER_WORDS];
+            for (uint word = 0u; word < words; word++) {
                 filled[word] = 0u;
                 edges[word] = 0u;
             }
 #ifdef SEGMENTED
             // The segment number of every pixel, a bit plane a component.
-            uvec4 shown[RASTER_WORDS];
-            for (uint word = 0u; word < RASTER_WORDS; word++) shown[word] = uvec4(0u);
+            uvec4 shown[MOST_RASTER_WORDS];
+            for (uint word = 0u; word < words; word++) shown[word] = uvec4(0u);
 #endif
             for (uint tile = 0u; tile < tiles; tile++) {
                 if (!loaded || tiles > 1u) {
@@ -133,7 +138,7 @@ uvec4 rasterise(uint image) {
                     ivec4 from;
                     ivec4 to;
                     line_spans(lines_between((x + 128) >> 8, (y_corners + 128) >> 8), y, from, to);
-                    for (uint word = 0u; word < RASTER_WORDS; word++) {
+                    for (uint word = 0u; word < words; word++) {
                         int start = origin + int(32u * word);
                         uint lines = span_bits(from.x - start, to.x - start) | span_bits(from.y - start, to.y - start) |
                             span_bits(from.z - start, to.z - start) | span_bits(from.w - start, to.w - start);
@@ -146,7 +151,7 @@ uvec4 rasterise(uint image) {
                         // Parts come from the nearest on: what one shows is its own for good.
                         uint own = (lines | inner) & ~(filled[word] | edges[word]) & below(size.x - start);
                         if (own != 0u) {
-                            uint group = camera.first_plane_word + uint(y) * camera.words + chunk * RASTER_WORDS + word;
+                            uint group = camera.first_plane_word + uint(y) * camera.words + chunk * words + word;
                             count_codes(group, part_numbers[part], own);
                         }
 #endif
@@ -155,8 +160,8 @@ uvec4 rasterise(uint image) {
                     }
                 }
             }
-            for (uint word = 0u; word < RASTER_WORDS; word++) {
-                uint group = camera.first_plane_word + uint(y) * camera.words + chunk * RASTER_WORDS + word;
+            for (uint word = 0u; word < words; word++) {
+                uint group = camera.first_plane_word + uint(y) * camera.words + chunk * words + word;
                 uint inside = counting(size.x - origin - int(32u * word), group);
                 uint drawn = (filled[word] | edges[word]) & inside;
 #ifdef SEGMENTED

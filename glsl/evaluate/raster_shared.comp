@@ -5,13 +5,14 @@
 
 #include "evaluate/raster.glsl"
 
-shared uvec4 partial[RASTER_GROUP];
+shared uvec4 partial[MOST_RASTER_GROUP];
 
 void main() {
     uint image = own_image();
     uint own = gl_LocalInvocationID.x;
+    uint group = gl_WorkGroupSize.x;
     partial[own] = rasterise(image);
-    for (uint half_of = RASTER_GROUP / 2u; half_of > 0u; half_of >>= 1) {
+    for (uint half_of = group / 2u; half_of > 0u; half_of >>= 1) {
         barrier();
         if (own < half_of) partial[own] += partial[own + half_of];
     }

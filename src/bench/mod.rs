@@ -10,11 +10,12 @@ mod report;
 mod rounds;
 mod scene;
 mod shaders;
+pub mod sweep;
 mod table;
 mod thesis;
 mod yardstick;
 
-pub use contestants::{Contestant, Missing};
+pub use contestants::{Contestant, Missing, WrongPixels};
 pub use preset::{Preset, run};
 pub use report::{BenchReport, Row};
 pub use rounds::{Round, Times, interleaved, medians, pass_times};

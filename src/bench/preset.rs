@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 
-use super::contestants::{Contestant, Missing};
+use super::contestants::{Contestant, Missing, WrongPixels};
 use super::report::{BenchReport, Row, machine};
 use super::rounds::{Round, Times, interleaved, pass_times};
 use super::scene::{Scene, swarm};
@@ -101,19 +101,29 @@ fn empty(preset: Preset) -> BenchReport {
     }
 }
 
-/// Everybody who can do a task here, each with how far its fitness may lie from the first one's; who cannot is listed in the report, once.
+/// Somebody who can do a task.
+struct Present {
+    evaluator: Box<dyn Evaluator>,
+    /// How far its fitness may lie from the first one's.
+    tolerance: f32,
+    wrong: Option<WrongPixels>,
+}
+
+/// Everybody who can do a task here; who cannot is listed in the report, once.
 fn evaluators(
     task: &Task,
     scene: &Scene,
     device: &Result<Device, String>,
     report: &mut BenchReport,
-) -> Result<Vec<(Box<dyn Evaluator>, f32)>> {
+) -> Result<Vec<Present>> {
     let mesh = task.model.mesh(&scene.body)?;
     let all = if mesh.is_some() { Contestant::of_meshes() } else { Contestant::of_flat() };
     let mut present = Vec::new();
     for contestant in all {
-        match contestant.build(scene, mesh.as_ref(), device) {
-            Ok(evaluator) => present.push((evaluator, contestant.tolerance())),
+        let wrong = || contestant.wrong_pixels(scene, device, &swarm(&scene.body, &scene.pose, COMPARED));
+        let built = contestant.build(scene, mesh.as_ref(), device).and_then(|evaluator| Ok((evaluator, wrong()?)));
+        match built {
+            Ok((evaluator, wrong)) => present.push(Present { evaluator, tolerance: contestant.tolerance(), wrong }),
             Err(error) => {
                 let missing = refusal(task, contestant.backend(), contestant.variant(), &error);
                 if !report.unavailable.contains(&missing) {
@@ -129,20 +139,15 @@ fn evaluators(
 struct Entry {
     evaluator: Box<dyn Evaluator>,
     fitness: Vec<f32>,
+    wrong: Option<WrongPixels>,
 }
 
-fn measure(
-    preset: Preset,
-    task: &Task,
-    scene: &Scene,
-    evaluators: Vec<(Box<dyn Evaluator>, f32)>,
-    report: &mut BenchReport,
-) {
+fn measure(preset: Preset, task: &Task, scene: &Scene, evaluators: Vec<Present>, report: &mut BenchReport) {
     let poses = swarm(&scene.body, &scene.pose, task.particles);
     let objective = Objective::default();
     let mut entries: Vec<Entry> = Vec::new();
     let mut expected: Option<(&'static str, Vec<f32>)> = None;
-    for (mut evaluator, tolerance) in evaluators {
+    for Present { mut evaluator, tolerance, wrong } in evaluators {
         let mut fitness = vec![0.0; task.particles];
         // A few candidates tell: the first evaluator is a slow one.
         let few = task.particles.min(COMPARED);
@@ -161,7 +166,7 @@ fn measure(
                 // Once in the size that is measured: rooms are made and their memory is touched for the first time.
                 let warm = evaluator.fitness(&poses[..fitness.len() * scene.pose.len()], &objective, &mut fitness);
                 match warm {
-                    Ok(()) => entries.push(Entry { evaluator, fitness }),
+                    Ok(()) => entries.push(Entry { evaluator, fitness, wrong }),
                     Err(error) => report.unavailable.push(refusal(task, evaluator.name(), evaluator.variant(), &error)),
                 }
             }
@@ -179,7 +184,7 @@ fn measure(
     let times = interleaved(&mut rounds, 200, preset.share());
     drop(rounds);
     for (mut entry, times) in entries.into_iter().zip(times) {
-        let Entry { evaluator, fitness } = &mut entry;
+        let Entry { evaluator, fitness, .. } = &mut entry;
         let poses = &poses[..fitness.len() * scene.pose.len()];
         let done = times.and_then(|times| Ok((times, pass_times(evaluator.as_mut(), poses, &objective, fitness)?)));
         match done {
@@ -233,6 +238,7 @@ fn row(task: &Task, scene: &Scene, entry: &Entry, times: Times, stages: Vec<(Str
         poses_per_s,
         images_per_s,
         pixels_per_s: images_per_s * f64::from(width) * f64::from(height),
+        wrong: entry.wrong,
     }
 }
 
@@ -279,7 +285,7 @@ mod tests {
         // The last of them is made to look at something else.
         let mut blind = scene.observations.clone();
         blind.iter_mut().for_each(|seen| seen.bytes.fill(0));
-        all.last_mut().unwrap().0.observe(&blind).unwrap();
+        all.last_mut().unwrap().evaluator.observe(&blind).unwrap();
         let expected = all.len() - 1;
         measure(Preset::Quick, &task, &scene, all, &mut report);
         assert_eq!((report.rows.len(), report.unavailable.len()), (expected, 1), "{:?}", report.unavailable);

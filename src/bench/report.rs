@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use super::contestants::Missing;
+use super::contestants::{Missing, WrongPixels};
 
 /// One evaluator on one task.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -40,6 +40,9 @@ pub struct Row {
     pub images_per_s: f64,
     /// Pixels of those pictures a second, all of each, drawn or not.
     pub pixels_per_s: f64,
+    /// What it draws wrong, where it is known to and measured all the same.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wrong: Option<WrongPixels>,
 }
 
 fn as_map<S: Serializer>(stages: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {

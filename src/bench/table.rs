@@ -83,12 +83,15 @@ fn line(f: &mut Formatter<'_>, row: &Row) -> fmt::Result {
         let stages: Vec<String> = row.stages.iter().map(|(name, ms)| format!("{name} {ms:.3}")).collect();
         writeln!(f, "  of which {}", stages.join(", "))?;
     }
+    if let Some(wrong) = &row.wrong {
+        writeln!(f, "  WRONG: {wrong}")?;
+    }
     Ok(())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::contestants::Missing;
+    use super::super::contestants::{Missing, WrongPixels};
     use super::*;
 
     fn row(model: &str, size: [u32; 2], particles: usize) -> Row {
@@ -109,20 +112,20 @@ mod tests {
             poses_per_s: 256e3,
             images_per_s: 1.024e6,
             pixels_per_s: 3.1e11,
+            wrong: None,
         }
     }
 
     #[test]
     fn the_thesis_stands_beside_and_the_missing_below() {
+        let wrong =
+            WrongPixels { pictures: 4, drawn: 1000, wrong: 125, edges: 50, hidden: 20, with_falling_labels: 250 };
+        let wrong = Row { wrong: Some(wrong), ..row("flat", [480, 270], 512) };
         let report = BenchReport {
             preset: "thesis".into(),
             machine: "a machine".into(),
             device: None,
-            rows: vec![
-                row("flat", [640, 480], 512),
-                row("flat", [480, 270], 512),
-                row("elliptic-514", [640, 480], 304),
-            ],
+            rows: vec![row("flat", [640, 480], 512), wrong, row("elliptic-514", [640, 480], 304)],
             unavailable: vec![Missing {
                 backend: "graphics".into(),
                 variant: "shared".into(),
@@ -137,6 +140,8 @@ mod tests {
         assert_eq!(beside, [true, false, true], "{text}");
         assert!(text.contains("177") && text.contains("8.23") && text.contains("389.6"), "{text}");
         assert!(text.contains("of which pose 0.250, raster 1.500"), "{text}");
+        let told = "WRONG: 125 of 1000 pixels (12.5 %) wrong in 4 pictures, 20 of 50 edge pixels (40.0 %) hidden; with labels that fall from part to part 250 (25.0 %) wrong";
+        assert_eq!(text.matches(told).count(), 1, "{text}");
         assert!(text.contains("graphics shared (flat): there is no Vulkan on this machine"), "{text}");
     }
 }

@@ -3,7 +3,7 @@
 use anyhow::{Result, bail};
 
 use crate::body::Model;
-use crate::evaluate::device::{Comparison, Coverage, GraphicsSettings, Packing, Projection};
+use crate::evaluate::device::{Comparison, Coverage, GraphicsSettings, Packing, Primitives, Projection};
 use crate::track::{Backend, Drawing};
 
 /// Who scores poses, and how.
@@ -22,12 +22,15 @@ pub(super) struct DrawingFlags {
     /// With --backend graphics: how the framebuffer is compared [default: texels].
     #[arg(long, value_name = "NAME")]
     gather: Option<Comparison>,
-    /// With --backend graphics: what projects the parts [default: compute].
+    /// With --backend graphics: what projects parts or vertices [default: compute].
     #[arg(long, value_name = "NAME")]
     projection: Option<Projection>,
     /// With --backend graphics: who decides which pixels a part covers [default: exact; of a mesh hardware].
     #[arg(long, value_name = "NAME")]
     coverage: Option<Coverage>,
+    /// With --backend graphics: what makes the primitives that are drawn [default: vertices].
+    #[arg(long, value_name = "NAME")]
+    primitives: Option<Primitives>,
 }
 
 impl DrawingFlags {
@@ -42,6 +45,7 @@ impl DrawingFlags {
             comparison: self.gather.unwrap_or(usual.comparison),
             projection: self.projection.unwrap_or(usual.projection),
             coverage: self.coverage.unwrap_or(usual.coverage),
+            primitives: self.primitives.unwrap_or(usual.primitives),
             ..usual
         };
         let given = [
@@ -49,6 +53,7 @@ impl DrawingFlags {
             ("--gather", self.gather.map(Comparison::name)),
             ("--projection", self.projection.map(Projection::name)),
             ("--coverage", self.coverage.map(Coverage::name)),
+            ("--primitives", self.primitives.map(Primitives::name)),
         ];
         let first = given.iter().find_map(|(flag, name)| Some((flag, (*name)?)));
         if let (Some((flag, name)), true) = (first, self.backend != Backend::Graphics) {
@@ -58,7 +63,7 @@ impl DrawingFlags {
             );
         }
         // Meshes need a depth at every pixel, and the device's own triangles.
-        let of_flat = [Packing::Max.name(), Projection::Feedback.name(), Coverage::Exact.name()];
+        let of_flat = [Packing::Max.name(), Coverage::Exact.name()];
         let refused = given.iter().find(|(_, name)| name.is_some_and(|name| of_flat.contains(&name)));
         if let (Some((flag, Some(name))), true) = (refused, model != Model::Flat) {
             bail!("{flag} {name} is for the flat model, and the model is {model}: leave it out");

@@ -223,7 +223,11 @@ const TABLE: &[Row] = &[
         present: |c| c.transform_feedback,
         without: "no transform feedback: vertices are projected by a compute stage",
     },
-    Row { required: false, present: |c| c.geometry_shader, without: "no geometry stage" },
+    Row {
+        required: false,
+        present: |c| c.geometry_shader,
+        without: "no geometry stage: vertices alone make what is drawn",
+    },
     Row {
         required: false,
         present: |c| c.timestamps,

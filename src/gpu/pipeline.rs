@@ -69,6 +69,9 @@ pub enum Topology {
     Lines,
     /// Every three vertices a triangle.
     Triangles,
+    /// Every six vertices a triangle and its neighbours, for a geometry stage: a corner, the third vertex of the neighbour across the
+    /// side that begins there, the next corner.
+    TrianglesWithNeighbours,
 }
 
 /// How a fragment meets what is there.
@@ -118,11 +121,12 @@ impl Pipeline {
     /// Compiles a compute stage.
     pub(super) fn compute(device: &Arc<DeviceShared>, stage: &ShaderStage) -> Result<Self> {
         let shader = stage.shader;
-        let group: u32 = shader.workgroup_size.iter().product();
+        let size = stage.workgroup_size();
+        let group: u32 = size.iter().product();
         let most = device.facts.capabilities.max_workgroup;
         ensure!(shader.kind == ShaderKind::Compute, "{} is not a compute stage", shader.name);
         ensure!(group <= most, "{} wants workgroups of {group}, and this device allows {most}", shader.name);
-        let pinned = pinned_subgroup(shader, &device.facts.capabilities);
+        let pinned = pinned_subgroup(shader, size, &device.facts.capabilities);
         let mut stage = stage.clone();
         // A stage that asks is told how many invocations each of its subgroups has.
         let asked = shader.constants.iter().find(|constant| constant.name == FULL_SUBGROUP);
@@ -153,6 +157,7 @@ impl Pipeline {
                 Topology::Points => vk::PrimitiveTopology::POINT_LIST,
                 Topology::Lines => vk::PrimitiveTopology::LINE_LIST,
                 Topology::Triangles => vk::PrimitiveTopology::TRIANGLE_LIST,
+                Topology::TrianglesWithNeighbours => vk::PrimitiveTopology::TRIANGLE_LIST_WITH_ADJACENCY,
             });
             let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
             let raster = vk::PipelineRasterizationStateCreateInfo::default()
@@ -423,12 +428,11 @@ const FULL_SUBGROUP: &str = "FULL_SUBGROUP";
 
 /// The subgroup size that a compute stage is held to, with all of its subgroups full: the device's own where the workgroup is a
 /// whole number of such, else the largest that fits. None for stages that use no subgroups, and where the device does not let one.
-fn pinned_subgroup(shader: &Shader, capabilities: &Capabilities) -> Option<u32> {
+fn pinned_subgroup(shader: &Shader, workgroup: [u32; 3], capabilities: &Capabilities) -> Option<u32> {
     let [least, most] = capabilities.subgroup_sizes?;
-    let groups: u32 = shader.workgroup_size.iter().product();
-    let fits = |size: &u32| {
-        shader.workgroup_size[0].is_multiple_of(*size) && groups <= size.saturating_mul(capabilities.max_subgroups)
-    };
+    let groups: u32 = workgroup.iter().product();
+    let fits =
+        |size: &u32| workgroup[0].is_multiple_of(*size) && groups <= size.saturating_mul(capabilities.max_subgroups);
     let sizes = (0..32).map(|power| 1 << power).filter(|size| (least..=most).contains(size));
     let largest = sizes.filter(fits).max();
     let own = Some(capabilities.subgroup_size).filter(|size| (least..=most).contains(size)).filter(fits);
@@ -517,7 +521,7 @@ mod tests {
                 max_subgroups: most,
                 ..*device.capabilities()
             };
-            pinned_subgroup(&shader, &capabilities)
+            pinned_subgroup(&shader, shader.workgroup_size, &capabilities)
         };
         let code: &'static [u32] = code.leak();
         assert_eq!(size(128, 32, Some([32, 32]), 32, code), Some(32));

@@ -201,7 +201,7 @@ impl Recorder {
         let sets = self.descriptor_sets(&pipeline, &resources)?;
         self.bind_sets(&pipeline, &sets, &dispatch.push);
         let raw = &self.device.shared.raw;
-        match (dispatch.groups, dispatch.groups.count(dispatch.stage.shader.workgroup_size)) {
+        match (dispatch.groups, dispatch.groups.count(dispatch.stage.workgroup_size())) {
             (_, Some([x, y, z])) => {
                 let limit = self.device.capabilities().max_groups;
                 ensure!(

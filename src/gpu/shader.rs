@@ -56,6 +56,19 @@ pub struct ShaderStage {
     pub constants: Vec<(u32, u32)>,
 }
 
+impl ShaderStage {
+    /// Invocations of a workgroup in x, y, z, with the values of the constants that they are.
+    pub fn workgroup_size(&self) -> [u32; 3] {
+        let mut size = self.shader.workgroup_size;
+        for (place, name) in size.iter_mut().zip(["local_size_x", "local_size_y", "local_size_z"]) {
+            let id = self.shader.constants.iter().find(|constant| constant.name == name).map(|constant| constant.id);
+            let value = self.constants.iter().find(|(given, _)| Some(*given) == id);
+            *place = value.map_or(*place, |(_, value)| *value);
+        }
+        size
+    }
+}
+
 impl PartialEq for ShaderStage {
     /// A shader is known by its path.
     fn eq(&self, other: &Self) -> bool {

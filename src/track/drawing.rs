@@ -10,7 +10,7 @@ use super::auto::{fastest, is_device_worth_measuring};
 use crate::bench::swarm;
 use crate::body::{Body, Mesh};
 use crate::evaluate::cpu::Cpu;
-use crate::evaluate::device::{Compute, Graphics, GraphicsSettings, Projection, Shared, Tiling, open_devices};
+use crate::evaluate::device::{Compute, Graphics, GraphicsSettings, Shared, open_devices};
 use crate::evaluate::{Evaluator, Reference};
 use crate::files::unknown;
 use crate::geometry::Camera;
@@ -69,7 +69,7 @@ impl Drawing {
     /// When there is none: the nearest one and all are named.
     pub fn named(name: &str) -> Result<Self> {
         let Some(way) = name.strip_prefix("graphics-") else { return Ok(Backend::from_name(name)?.into()) };
-        let ways = || GraphicsSettings::all().filter(|way| way.tiling == Tiling::default());
+        let ways = || GraphicsSettings::all().filter(GraphicsSettings::is_for_tracking);
         let found = ways().find(|known| known.name() == way);
         let names = || ways().map(|way| way.name()).collect::<Vec<_>>();
         let graphics = found.ok_or_else(|| unknown("way of the backend graphics", way, &names()))?;
@@ -84,7 +84,7 @@ impl Drawing {
         let Self { backend, graphics } = self;
         ensure!(
             backend == Backend::Graphics || graphics == GraphicsSettings::default(),
-            "packing, gather, projection and coverage say how the backend graphics draws, and the backend is {backend}: expected \
+            "packing, gather, projection, coverage and primitives say how the backend graphics draws, and the backend is {backend}: expected \
              --backend graphics"
         );
         ensure!(
@@ -196,11 +196,14 @@ impl Asked<'_> {
                 (Box::new(graphics), how)
             }
             (Backend::Graphics, Some(mesh)) => {
-                ensure!(
-                    settings.projection == Projection::default(),
-                    "transform feedback projects the flat model alone, and the model is a mesh: leave out --projection"
-                );
-                (Box::new(Graphics::of_mesh(device, body, mesh.clone(), cameras, settings)?), String::new())
+                let graphics = Graphics::of_mesh(device, body, mesh.clone(), cameras, settings)?;
+                let how = match settings.of_mesh() {
+                    // As before there was a choice.
+                    asked if asked == GraphicsSettings::default().of_mesh() => String::new(),
+                    asked if asked == graphics.settings() => format!(" ({})", graphics.variant()),
+                    asked => format!(" ({}, since it cannot do {})", graphics.variant(), asked.name()),
+                };
+                (Box::new(graphics), how)
             }
             (_, None) => {
                 let mut compute = Compute::on(device, body, cameras)?;
@@ -253,7 +256,7 @@ fn without_vulkan(backend: Backend, error: &anyhow::Error) -> anyhow::Error {
 mod tests {
     use super::*;
     use crate::body::Model;
-    use crate::evaluate::device::{Comparison, Coverage, HostComparison, Packing};
+    use crate::evaluate::device::{Comparison, Coverage, HostComparison, Packing, Projection};
 
     #[test]
     fn a_way_to_draw_is_a_name_in_files() {

@@ -203,6 +203,7 @@ fn drawing_flags(settings: &TrackSettings) -> String {
         ("gather", found.comparison.name(), usual.comparison.name()),
         ("projection", found.projection.name(), usual.projection.name()),
         ("coverage", found.coverage.name(), usual.coverage.name()),
+        ("primitives", found.primitives.name(), usual.primitives.name()),
     ];
     ways.iter()
         .filter(|(_, name, usual)| name != usual)

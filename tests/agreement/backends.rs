@@ -108,14 +108,15 @@ fn compute_agrees() {
             Box::new(Compute::on(&device, body, cameras).unwrap())
         };
         hold(kind, &format!("compute, {name}"), &make);
-        // All strips by a workgroup, and some workgroups to share them, whole subgroups and not.
-        let group_and_workgroups = match name {
-            "as it is" => Some((64, 1)),
-            "few groups" => Some((20, 40)),
+        // All strips by a workgroup, and some workgroups to share them, whole subgroups and not; other rows and words at once.
+        let kernel = match name {
+            "as it is" => Some(RasterKernel::Spans { group: 64, workgroups: 1 }),
+            "few groups" => Some(RasterKernel::Spans { group: 20, workgroups: 40 }),
+            "little memory" => Some(RasterKernel::Rows { group: 64, words: 4 }),
+            "no subgroups" => Some(RasterKernel::Rows { group: 16, words: 2 }),
             _ => None,
         };
-        if let Some((group, workgroups)) = group_and_workgroups {
-            let kernel = RasterKernel::Spans { group, workgroups };
+        if let Some(kernel) = kernel {
             let make = |Stage { body, cameras }: &Stage| -> Box<dyn Evaluator> {
                 Box::new(Compute::with_kernel(&device, body, cameras, kernel).unwrap())
             };

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Says whether pantin is right on this machine's Vulkan device, and how fast: every stage against the processor first, then the
-# benchmarks, then a track with a trace. Needs Linux on x86-64 with glibc 2.35 or later, a Vulkan driver and its loader.
+# benchmarks, then a track with a trace, then workgroup sizes and a profile. Needs Linux on x86-64 with glibc 2.35 or later, a Vulkan driver and its loader.
 #
 #   sh run.sh [RESULTS [TIMES]]      PANTIN_DEVICE chooses among several devices
 #
@@ -49,12 +49,14 @@ line() {
     [ $code = 0 ]
 }
 
-: >"$results/messages.txt"
+# Begins with the version.
+cat "$here/version" >"$results/messages.txt"
 : >"$results/devices.json"
 : >"$results/bench.json"
+: >"$results/sweep.json"
 : >"$results/profile.json"
 : >"$results/track.txt"
-cat "$here/version" >"$results/version.txt"
+rm -f "$results"/version.txt
 line devices 30 "$results/devices.json" "$work/pantin" devices --json
 
 # Agreement. Left out is what needs the sources or the validation layer.
@@ -85,6 +87,7 @@ for backend in cpu compute graphics; do
     fi
 done
 
+line 'bench sweep' 40 "$results/sweep.json" "$work/pantin" bench --sweep --json
 # Last, since counting on a software device takes minutes.
 line 'bench profile' 60 "$results/profile.json" "$work/pantin" bench --profile --json
 [ ! -f "$work/compute/trace.json" ] || cp "$work/compute/trace.json" "$results/trace.json"

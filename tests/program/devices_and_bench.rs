@@ -185,3 +185,37 @@ fn a_profile_is_compared_with_nothing_else() {
     assert_eq!(failed.status.code(), Some(2));
     assert!(stderr(&failed).contains("--profile"), "{}", stderr(&failed));
 }
+
+#[test]
+fn a_sweep_s_numbers_are_kept_and_drawn_without_a_device() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
+    let (kept, csv, plot) = (file("sweep.json"), file("sweep.csv"), file("sweep.svg"));
+    let row = |workgroup: u32, ms: f64| {
+        format!(
+            r#"{{ "stage": "raster", "way": "3 words", "workgroup": {workgroup}, "usual": {}, "ms": {ms}, "ms_min": 1.0, "ms_max": 9.0 }}"#,
+            workgroup == 32
+        )
+    };
+    let head = r#""machine": "m", "device": "d", "particles": 512, "views": 4, "width": 640, "height": 480"#;
+    let text = format!(r#"{{ {head}, "rows": [{}, {}], "unavailable": [] }}"#, row(32, 4.0), row(64, 2.0));
+    std::fs::write(&kept, text).unwrap();
+    let read = ["bench", "--sweep", "--read", &kept];
+    let table = stdout(&pantin(&[&read[..], &["--csv", &csv, "--plot", &plot]].concat(), &NO_DRIVER));
+    assert!(table.contains("32*") && table.contains("2.00"), "{table}");
+    let lines = std::fs::read_to_string(&csv).unwrap();
+    assert_eq!(lines.lines().last(), Some("raster,3 words,64,false,2,1,9"));
+    assert!(std::fs::read_to_string(&plot).unwrap().contains("invocations of a workgroup"));
+    let found = object(&pantin(&[&read[..], &["--json"]].concat(), &NO_DRIVER));
+    assert_eq!(keys(&found), ["device", "height", "machine", "particles", "rows", "unavailable", "views", "width"]);
+    // Nothing is written over, and nothing else is taken for a sweep.
+    let failed = pantin(&[&read[..], &["--csv", &csv]].concat(), &NO_DRIVER);
+    assert!(stderr(&failed).contains("sweep.csv exists already"), "{}", stderr(&failed));
+    let failed = pantin(&["bench", "--sweep", "--read", &csv], &NO_DRIVER);
+    assert!(stderr(&failed).contains("sweep.csv: expected the JSON of pantin bench --sweep"), "{}", stderr(&failed));
+    let failed = pantin(&["bench", "--sweep"], &NO_DRIVER);
+    assert_eq!(failed.status.code(), Some(1));
+    assert!(stderr(&failed).contains("Vulkan"), "{}", stderr(&failed));
+    let failed = pantin(&["bench", "--plot", &plot], &NO_DRIVER);
+    assert_eq!(failed.status.code(), Some(2));
+}

@@ -218,6 +218,16 @@ fn ways_to_draw_and_devices_change_nothing() {
     let (found, told) = files("graphics", &[&graphics[..], &["--projection", "feedback"]].concat());
     assert!(found[0] == expected[0]);
     assert!(told.contains("depth-readback-simd"), "{told}");
+    let ways = ["--backend", "graphics", "--primitives", "geometry", "--projection", "feedback"];
+    let (found, told) = files("points", &ways);
+    assert!(found[0] == expected[0]);
+    // As far as the device can.
+    assert!(told.contains("(max-texels"), "{told}");
+    let of_mesh = ["--model", "square"];
+    let (mesh, told) = files("mesh", &[&of_mesh[..], &["--backend", "graphics"]].concat());
+    assert!(mesh[0] != expected[0] && !told.contains("depth-hardware"), "{told}");
+    let (found, told) = files("mesh points", &[&of_mesh[..], &ways].concat());
+    assert!(found[0] == mesh[0] && told.contains("(depth-hardware-texels"), "{told}");
     let (found, told) = files("shared", &["--backend", "compute", "--devices", "0,0"]);
     assert!(found[0] == expected[0]);
     assert!(told.contains("on the Vulkan devices") && told.contains("which share the poses"), "{told}");

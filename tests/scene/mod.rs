@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use pantin::body::Body;
-use pantin::evaluate::device::{Comparison, GraphicsSettings, HostComparison, Packing, Projection, Tiling};
+use pantin::evaluate::device::{Comparison, GraphicsSettings, HostComparison, Packing, Primitives, Projection, Tiling};
 use pantin::evaluate::{Components, Evaluator, Objective, ObjectiveKind};
 use pantin::features::{BitImage, Observation};
 use pantin::geometry::{BrownConrady, Camera, Lens, Tsai};
@@ -139,5 +139,7 @@ pub(crate) fn graphics_settings() -> impl Iterator<Item = GraphicsSettings> {
     comparisons.chain([
         GraphicsSettings { packing: Packing::Depth, projection: Projection::Feedback, ..usual },
         GraphicsSettings { tiling: Tiling::Pictures, ..usual },
+        GraphicsSettings { primitives: Primitives::Geometry, ..usual },
+        GraphicsSettings { packing: Packing::Depth, primitives: Primitives::Geometry, ..usual },
     ])
 }

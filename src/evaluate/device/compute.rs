@@ -1,19 +1,20 @@
 //! The backend that draws in compute: every candidate compared row by row in registers, in the reference's integers, with no
 //! framebuffer.
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 
 use super::backend::DeviceBackend;
 use super::drawn_mesh::{DrawnMesh, MESH_TILE};
 use super::evidence::DeviceEvidence;
 use super::open::open_compute_device;
-use super::passes::{self, Images, RASTER_TILE, raster_stage};
+use super::passes::{self, Images, project_stage, raster_stage};
 use super::raster_kernel::RasterKernel;
 use super::rasteriser::Rasteriser;
 use super::resources::Resources;
 use super::scene::{DeviceScene, Share};
 use super::segments::DeviceSegments;
 use super::spans;
+use super::stage_groups::StageGroups;
 use super::summed::Summed;
 use super::tuning::fastest_kernel;
 use super::workspace::Workspace;
@@ -22,7 +23,7 @@ use crate::evaluate::MeshProjector;
 use crate::evaluate::evaluator::Footprint;
 use crate::evaluate::mesh_projection::bound_to_its_body;
 use crate::evaluate::shaders::{
-    objective_comp, objective_evidence_comp, objective_segments_comp, pose_comp, project_comp, raster_evidence_comp,
+    objective_comp, objective_evidence_comp, objective_segments_comp, pose_comp, raster_comp, raster_evidence_comp,
     raster_mesh_evidence_comp, raster_mesh_segments_comp, raster_segments_comp, raster_spans_comp,
     raster_spans_evidence_comp, raster_spans_segments_comp,
 };
@@ -56,12 +57,17 @@ impl Compute {
     /// # Errors
     /// When a picture has no pixel or is too large, the body has no or too many parts, or the device fails.
     pub fn on(device: &Device, body: &Body, cameras: &[Camera]) -> Result<Self> {
-        Self::with(DeviceScene::new(device, body, cameras)?, |scene| {
-            let kernel = spans::drawable(scene, RasterKernel::Rows);
+        Self::with_groups(device, body, cameras, StageGroups::default())
+    }
+
+    /// As [`Self::on`], by workgroups of other sizes.
+    pub(crate) fn with_groups(device: &Device, body: &Body, cameras: &[Camera], groups: StageGroups) -> Result<Self> {
+        Self::with(DeviceScene::new(device, body, cameras)?.with_groups(groups)?, |scene| {
+            let kernel = spans::drawable(scene, RasterKernel::ROWS);
             device.compile(&[
                 flat_stage(device, kernel),
                 pose_comp::stage(),
-                project_comp::stage(),
+                project_stage(scene),
                 objective_comp::stage(),
             ])?;
             Ok(ComputeRasteriser { has_subgroups: device.capabilities().subgroup_arithmetic, kernel, mesh: None })
@@ -98,11 +104,8 @@ impl Compute {
 
     fn set_kernel(&mut self, kernel: RasterKernel) -> Result<()> {
         let scene = &self.resources.scene;
+        kernel.check(scene.device.capabilities().max_workgroup)?;
         let kernel = spans::drawable(scene, kernel);
-        if let RasterKernel::Spans { group, .. } = kernel {
-            let most = scene.device.capabilities().max_workgroup;
-            ensure!((1..=most).contains(&group), "{kernel}: this device has workgroups of 1 to {most} invocations");
-        }
         scene.device.compile(&[flat_stage(&scene.device, kernel)])?;
         self.rasteriser.kernel = kernel;
         self.forget_runs();
@@ -118,7 +121,7 @@ impl Compute {
             let mesh = DrawnMesh::new(scene, &MeshProjector::new(body, mesh, cameras)?)?;
             device.compile(&[pose_comp::stage(), objective_comp::stage()])?;
             let mesh = Some(Box::new(mesh));
-            Ok(ComputeRasteriser { has_subgroups: false, kernel: RasterKernel::Rows, mesh })
+            Ok(ComputeRasteriser { has_subgroups: false, kernel: RasterKernel::ROWS, mesh })
         })
     }
 }
@@ -126,7 +129,10 @@ impl Compute {
 /// The stage that draws and compares whole silhouettes so.
 fn flat_stage(device: &Device, kernel: RasterKernel) -> ShaderStage {
     match kernel {
-        RasterKernel::Rows => raster_stage(device, false, false),
+        RasterKernel::Rows { group, words } => {
+            let constants = raster_comp::Constants { listed: false, ignores: false, local_size_x: group, words };
+            raster_stage(device, constants)
+        }
         RasterKernel::Spans { group, .. } => {
             raster_spans_comp::stage(raster_spans_comp::Constants { ignores: false, local_size_x: group })
         }
@@ -139,19 +145,14 @@ impl Rasteriser for ComputeRasteriser {
     fn variant(&self) -> &'static str {
         match (self.kernel, self.has_subgroups) {
             (RasterKernel::Spans { .. }, _) => "spans",
-            (RasterKernel::Rows, true) => "subgroup",
-            (RasterKernel::Rows, false) => "shared",
+            (RasterKernel::Rows { .. }, true) => "subgroup",
+            (RasterKernel::Rows { .. }, false) => "shared",
         }
     }
 
     fn footprint(&self) -> Footprint {
         // Bits in registers, or keys in shared memory: no pixel of a candidate is written to memory.
-        let tile = match (&self.mesh, self.kernel) {
-            (Some(_), _) => MESH_TILE,
-            (None, RasterKernel::Rows) => RASTER_TILE,
-            // 32 pixels an invocation, in one row of a strip or more.
-            (None, RasterKernel::Spans { group, .. }) => [32 * group, 1],
-        };
+        let tile = if self.mesh.is_some() { MESH_TILE } else { self.kernel.tile() };
         Footprint { tile, bytes_per_pixel: 0.0 }
     }
 
@@ -175,10 +176,12 @@ impl Rasteriser for ComputeRasteriser {
         let ignores = scene.counted.is_some();
         let raster = match &self.mesh {
             None => match self.kernel {
-                RasterKernel::Rows => raster_segments_comp::stage(raster_segments_comp::Constants {
+                RasterKernel::Rows { group, words } => raster_segments_comp::stage(raster_segments_comp::Constants {
                     listed: false,
                     ignores,
                     segment_edges: false,
+                    local_size_x: group,
+                    words,
                 }),
                 RasterKernel::Spans { group, .. } => {
                     raster_spans_segments_comp::stage(raster_spans_segments_comp::Constants {
@@ -209,9 +212,12 @@ impl Rasteriser for ComputeRasteriser {
         let ignores = scene.counted.is_some();
         let raster = match &self.mesh {
             None => match self.kernel {
-                RasterKernel::Rows => {
-                    raster_evidence_comp::stage(raster_evidence_comp::Constants { listed: false, ignores })
-                }
+                RasterKernel::Rows { group, words } => raster_evidence_comp::stage(raster_evidence_comp::Constants {
+                    listed: false,
+                    ignores,
+                    local_size_x: group,
+                    words,
+                }),
                 RasterKernel::Spans { group, .. } => {
                     raster_spans_evidence_comp::stage(raster_spans_evidence_comp::Constants {
                         ignores,
@@ -241,7 +247,9 @@ impl Rasteriser for ComputeRasteriser {
         }
         passes::project(recorder, scene, workspace, share)?;
         match self.kernel {
-            RasterKernel::Rows => passes::raster(recorder, (scene, workspace), summed, Images::All, share),
+            RasterKernel::Rows { group, words } => {
+                passes::raster(recorder, (scene, workspace), summed, Images::All([group, words]), share)
+            }
             RasterKernel::Spans { .. } => spans::raster(recorder, (scene, workspace), summed, self.kernel, share),
         }
     }

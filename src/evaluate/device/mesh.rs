@@ -7,7 +7,7 @@ use super::workspace::Workspace;
 use crate::body::Skinning;
 use crate::evaluate::MeshProjector;
 use crate::evaluate::shaders::{bind_comp, layout, skin_comp};
-use crate::gpu::{Buffer, Device, Groups, Memory, OutOfMemory, Recorder, ShaderStage, StagedBuffer};
+use crate::gpu::{Buffer, Device, Dispatch, Groups, Memory, OutOfMemory, Recorder, ShaderStage, StagedBuffer};
 
 /// A mesh on the device; the device sees it when the passes of [`Self::record_upload`] have run.
 #[derive(Debug)]
@@ -151,6 +151,24 @@ pub(super) fn skin(
     share: Share,
 ) -> Result<()> {
     let push = mesh_batch(scene.counts, mesh, share);
+    let skin = skin_comp::Bindings {
+        vertices: &mesh.vertices.buffer,
+        skin: &own.skin,
+        cameras: &scene.cameras.buffer,
+        all_seen: &own.seen,
+        all_bounds: &workspace.bounds,
+    };
+    let vertices = Groups::Over([mesh.vertex_count, share.candidates, 1]);
+    let bind = bind((scene, mesh), (workspace, own), share);
+    recorder.compute("skin", &[bind, skin.dispatch(skin_constants(mesh.skinning), push, vertices)])
+}
+
+/// What is done once a bone: `workspace.world` to `own.skin`; and bounds of nothing in `workspace.bounds`.
+pub(super) fn bind<'a>(
+    (scene, mesh): (&'a DeviceScene, &'a DeviceMesh),
+    (workspace, own): (&'a Workspace, &'a MeshWorkspace),
+    share: Share,
+) -> Dispatch<'a> {
     // Bounds are started by the same invocations.
     let starts = share.candidates * scene.counts.bones.max(scene.counts.views);
     let bind = bind_comp::Bindings {
@@ -160,19 +178,5 @@ pub(super) fn skin(
         skin: &own.skin,
         all_bounds: &workspace.bounds,
     };
-    let skin = skin_comp::Bindings {
-        vertices: &mesh.vertices.buffer,
-        skin: &own.skin,
-        cameras: &scene.cameras.buffer,
-        all_seen: &own.seen,
-        all_bounds: &workspace.bounds,
-    };
-    let vertices = Groups::Over([mesh.vertex_count, share.candidates, 1]);
-    recorder.compute(
-        "skin",
-        &[
-            bind.dispatch(push, Groups::Over([starts, 1, 1])),
-            skin.dispatch(skin_constants(mesh.skinning), push, vertices),
-        ],
-    )
+    bind.dispatch(mesh_batch(scene.counts, mesh, share), Groups::Over([starts, 1, 1]))
 }

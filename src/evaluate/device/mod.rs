@@ -27,6 +27,7 @@ mod scene;
 mod segments;
 mod shared;
 mod spans;
+mod stage_groups;
 mod summed;
 #[cfg(test)]
 mod tests;
@@ -36,10 +37,12 @@ mod workspace;
 pub use backend::DeviceBackend;
 pub use compute::Compute;
 pub use graphics::{
-    Comparison, Coverage, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Projection, Tiling,
+    Channels, Comparison, Coverage, Gathering, Graphics, GraphicsSettings, HostComparison, Packing, Primitives,
+    Projection, Tiling,
 };
 pub(crate) use open::open_devices;
 pub use open::{device_settings, open_device, open_instance};
 pub use raster_kernel::RasterKernel;
 pub use shared::Shared;
+pub(crate) use stage_groups::StageGroups;
 pub use tuning::kept_kernels;

@@ -7,19 +7,16 @@ use super::summed::Summed;
 use super::workspace::Workspace;
 use crate::evaluate::objective::Objective;
 use crate::evaluate::shaders::{
-    PROJECT_GROUP, RASTER_GROUP, RASTER_WORDS, layout, objective_comp, objective_evidence_comp,
-    objective_segments_comp, pose_comp, project_comp, raster_comp, raster_evidence_comp, raster_segments_comp,
-    raster_shared_comp,
+    RASTER_GROUP, RASTER_WORDS, layout, objective_comp, objective_evidence_comp, objective_segments_comp, pose_comp,
+    project_comp, raster_comp, raster_evidence_comp, raster_segments_comp, raster_shared_comp,
 };
 use crate::gpu::{Buffer, Device, Groups, Recorder, ShaderStage};
-
-/// Columns and rows that a workgroup of [`raster`] works on at once: words of bits of a row, a row an invocation.
-pub(super) const RASTER_TILE: [u32; 2] = [32 * RASTER_WORDS, RASTER_GROUP];
 
 /// Which images of a share are drawn.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Images<'a> {
-    All,
+    /// All, by workgroups of so many invocations and so many words at once.
+    All([u32; 2]),
     /// Those of a list: how many there are, 1, 1, and their numbers, (candidate - first) * views + view.
     Listed(&'a Buffer),
 }
@@ -40,18 +37,24 @@ pub(super) fn project(recorder: &mut Recorder, scene: &DeviceScene, workspace: &
         quads: &workspace.quads,
         all_bounds: &workspace.bounds,
     };
-    recorder.run(bindings.dispatch(scene.batch(share), image_groups(scene, share)))
+    let constants = project_comp::Constants { local_size_x: scene.groups.project };
+    recorder.run(bindings.dispatch(constants, scene.batch(share), image_groups(scene, share)))
 }
 
 /// The workgroups of a stage that takes whole images, a part an invocation.
 pub(super) fn image_groups(scene: &DeviceScene, share: Share) -> Groups<'static> {
     let images = share.candidates * scene.counts.views;
-    Groups::Count([images.div_ceil(PROJECT_GROUP / scene.counts.parts), 1, 1])
+    Groups::Count([images.div_ceil(scene.groups.project / scene.counts.parts), 1, 1])
+}
+
+/// What projects, by the workgroups of a scene.
+pub(super) fn project_stage(scene: &DeviceScene) -> ShaderStage {
+    project_comp::stage(project_comp::Constants { local_size_x: scene.groups.project })
 }
 
 /// The stage that draws and compares whole silhouettes without a framebuffer, with sums over subgroups where the device has them.
-pub(super) fn raster_stage(device: &Device, listed: bool, ignores: bool) -> ShaderStage {
-    let stage = raster_comp::stage(raster_comp::Constants { listed, ignores });
+pub(super) fn raster_stage(device: &Device, constants: raster_comp::Constants) -> ShaderStage {
+    let stage = raster_comp::stage(constants);
     if device.capabilities().subgroup_arithmetic {
         stage
     } else {
@@ -68,10 +71,12 @@ pub(super) fn raster(
     images: Images<'_>,
     share: Share,
 ) -> Result<()> {
-    let (listed, list, groups) = match images {
+    let (listed, [local_size_x, words], list, groups) = match images {
         // The list is not read.
-        Images::All => (false, &scene.cameras.buffer, Groups::Count([share.candidates * scene.counts.views, 1, 1])),
-        Images::Listed(list) => (true, list, Groups::Indirect(list, 0)),
+        Images::All(size) => {
+            (false, size, &scene.cameras.buffer, Groups::Count([share.candidates * scene.counts.views, 1, 1]))
+        }
+        Images::Listed(list) => (true, [RASTER_GROUP, RASTER_WORDS], list, Groups::Indirect(list, 0)),
     };
     let ignores = scene.counted.is_some();
     let whole = raster_comp::Bindings {
@@ -86,8 +91,9 @@ pub(super) fn raster(
     let raster_comp::Bindings { cameras, quads, all_bounds, planes, list, all_sums, counted } = whole;
     match summed {
         Summed::Nothing => {
-            let dispatch = whole.dispatch(raster_comp::Constants { listed, ignores }, scene.batch(share), groups);
-            recorder.compute("raster", &[dispatch.by(raster_stage(&scene.device, listed, ignores).shader)])
+            let constants = raster_comp::Constants { listed, ignores, local_size_x, words };
+            let dispatch = whole.dispatch(constants, scene.batch(share), groups);
+            recorder.compute("raster", &[dispatch.by(raster_stage(&scene.device, constants).shader)])
         }
         Summed::Segments(segments, segment_edges) => {
             let bindings = raster_segments_comp::Bindings {
@@ -103,7 +109,7 @@ pub(super) fn raster(
                 counted,
             };
             recorder.run(bindings.dispatch(
-                raster_segments_comp::Constants { listed, ignores, segment_edges },
+                raster_segments_comp::Constants { listed, ignores, segment_edges, local_size_x, words },
                 scene.batch(share),
                 groups,
             ))
@@ -122,7 +128,7 @@ pub(super) fn raster(
                 counted,
             };
             recorder.run(bindings.dispatch(
-                raster_evidence_comp::Constants { listed, ignores },
+                raster_evidence_comp::Constants { listed, ignores, local_size_x, words },
                 scene.batch(share),
                 groups,
             ))

@@ -14,7 +14,7 @@ use super::summed::Summed;
 use super::tests::{cameras, device, fetch, set_up_with};
 use super::workspace::Workspace;
 use crate::body::Body;
-use crate::evaluate::shaders::layout;
+use crate::evaluate::shaders::{RASTER_GROUP, RASTER_WORDS, layout, raster_comp};
 use crate::evaluate::{PartQuad, compare, draw_quads};
 use crate::features::Observation;
 use crate::geometry::Camera;
@@ -189,10 +189,11 @@ fn check(name: &str, settings: &DeviceSettings, parts: usize, candidates: usize)
     let seen = observations(&mut random, &scene);
     scene.observe(&seen).unwrap();
     put(&device, &workspace, &scene, &images);
-    let shader = raster_stage(&device, false, false).shader;
+    let shader = raster_stage(&device, raster_comp::Constants::default()).shader;
     assert_eq!(shader.label(), if device.capabilities().subgroup_arithmetic { "raster" } else { "raster_shared" });
     let mut recorder = device.recorder(Timing::Off).unwrap();
-    raster(&mut recorder, (&scene, &workspace), Summed::Nothing, Images::All, share).unwrap();
+    let usual = [RASTER_GROUP, RASTER_WORDS];
+    raster(&mut recorder, (&scene, &workspace), Summed::Nothing, Images::All(usual), share).unwrap();
     recorder.finish().unwrap().run().unwrap();
     let expected = expected(&images, &seen);
     let sums = found(&fetch::<layout::Sums>(&device, &workspace.sums, images.len()));
@@ -203,11 +204,21 @@ fn check(name: &str, settings: &DeviceSettings, parts: usize, candidates: usize)
         assert_eq!(expected, found, "image {image} of {size:?}: {:?}", images[image]);
     }
 
-    for kernel in RasterKernel::all(128) {
-        let RasterKernel::Spans { .. } = kernel else { continue };
+    let odd = [[8, 1], [16, 3], [128, 1], [128, 4]].map(|[group, words]| RasterKernel::Rows { group, words });
+    for kernel in RasterKernel::all(128).into_iter().chain(odd) {
+        kernel.check(device.capabilities().max_workgroup).unwrap();
         let mut recorder = device.recorder(Timing::Off).unwrap();
         recorder.fill("spoil", &workspace.sums, 0xffff_ffff).unwrap();
-        spans::raster(&mut recorder, (&scene, &workspace), Summed::Nothing, kernel, share).unwrap();
+        let scene_and_room = (&scene, &workspace);
+        match kernel {
+            RasterKernel::Rows { group, words } => {
+                let images = Images::All([group, words]);
+                raster(&mut recorder, scene_and_room, Summed::Nothing, images, share).unwrap();
+            }
+            RasterKernel::Spans { .. } => {
+                spans::raster(&mut recorder, scene_and_room, Summed::Nothing, kernel, share).unwrap();
+            }
+        }
         recorder.finish().unwrap().run().unwrap();
         let sums = found(&fetch::<layout::Sums>(&device, &workspace.sums, images.len()));
         for (image, (expected, found)) in expected.iter().zip(&sums).enumerate() {
@@ -259,7 +270,7 @@ fn a_picture_too_large_for_a_workgroup_is_shared() {
         spans::drawable(&scene, RasterKernel::Spans { group: 128, workgroups: 3 }).to_string(),
         "spans first (3 x 128 an image)"
     );
-    let kernel = spans::drawable(&scene, RasterKernel::Rows);
+    let kernel = spans::drawable(&scene, RasterKernel::ROWS);
     assert!(matches!(kernel, RasterKernel::Spans { .. }), "{kernel}");
     let corner = 6200 * 256;
     let everywhere = PartQuad {

@@ -2,6 +2,7 @@
 
 use anyhow::{Result, ensure};
 
+use super::stage_groups::StageGroups;
 use crate::body::Body;
 use crate::evaluate::batch::{check_observations, check_scene};
 use crate::evaluate::bit_planes::{WORD_PIXELS, bit_planes};
@@ -64,6 +65,8 @@ pub(crate) struct DeviceScene {
     pub(super) counted: Option<Counted>,
     /// Whether the observations are handed over on the device, and not uploaded.
     is_handed: bool,
+    /// How large workgroups of its stages are.
+    pub(super) groups: StageGroups,
     camera_rows: Vec<layout::Camera>,
 }
 
@@ -109,8 +112,18 @@ impl DeviceScene {
             labels,
             counted: None,
             is_handed: false,
+            groups: StageGroups::default(),
             camera_rows,
         })
+    }
+
+    /// With workgroups of these sizes.
+    ///
+    /// # Errors
+    /// When the body or the device does not take them.
+    pub(super) fn with_groups(self, groups: StageGroups) -> Result<Self> {
+        groups.check(self.counts.parts, self.device.capabilities().max_workgroup)?;
+        Ok(Self { groups, ..self })
     }
 
     /// Has room for the pixels that observations ignore, from now on; whether it had none.

@@ -40,15 +40,12 @@ struct Choice {
 }
 
 impl Choice {
-    /// Row by row, unless another way takes less than 0.95 of its time: so that two runs on one machine choose alike.
+    /// The usual way, unless another one takes less than 0.95 of its time: so that two runs on one machine choose alike.
     fn fastest(&self, most: u32) -> RasterKernel {
-        let own = self.measured.iter().find(|each| each.kernel == RasterKernel::Rows).map_or(f64::INFINITY, |it| it.ms);
-        let allowed = self.measured.iter().filter(|each| match each.kernel {
-            RasterKernel::Rows => false,
-            RasterKernel::Spans { group, workgroups } => group > 0 && group <= most && workgroups > 0,
-        });
+        let own = self.measured.iter().find(|each| each.kernel == RasterKernel::ROWS).map_or(f64::INFINITY, |it| it.ms);
+        let allowed = self.measured.iter().filter(|each| each.kernel.check(most).is_ok());
         let best = allowed.min_by(|a, b| a.ms.total_cmp(&b.ms));
-        best.filter(|best| best.ms < 0.95 * own).map_or(RasterKernel::Rows, |best| best.kernel)
+        best.filter(|best| best.ms < 0.95 * own).map_or(RasterKernel::ROWS, |best| best.kernel)
     }
 }
 
@@ -81,14 +78,14 @@ impl Choices {
     }
 }
 
-/// The fastest way for a scene, as it is kept, or as it is measured now on poses like those to come and then kept. Row by row where
+/// The fastest way for a scene, as it is kept, or as it is measured now on poses like those to come and then kept. The usual one where
 /// the device keeps nothing, and where the poses show nothing.
 ///
 /// # Errors
 /// When the device fails.
 pub(super) fn fastest_kernel(scene: &DeviceScene, poses: &[f32]) -> Result<RasterKernel> {
     let [kind, ending] = FILE;
-    let Some(path) = scene.device.kept_file(kind, ending) else { return Ok(RasterKernel::Rows) };
+    let Some(path) = scene.device.kept_file(kind, ending) else { return Ok(RasterKernel::ROWS) };
     let most = scene.device.capabilities().max_workgroup;
     let (parts, views) = (scene.counts.parts, scene.counts.views);
     let size = scene.sizes.iter().copied().max_by_key(|[width, height]| width * height).unwrap_or_default();
@@ -99,7 +96,7 @@ pub(super) fn fastest_kernel(scene: &DeviceScene, poses: &[f32]) -> Result<Raste
     }
     let (candidates, measured) = measure(scene, poses, &RasterKernel::all(most))?;
     if measured.is_empty() {
-        return Ok(RasterKernel::Rows);
+        return Ok(RasterKernel::ROWS);
     }
     let choice = Choice { parts, views, size, candidates, measured };
     let fastest = choice.fastest(most);
@@ -152,7 +149,9 @@ fn measure(scene: &DeviceScene, poses: &[f32], kernels: &[RasterKernel]) -> Resu
 
     let draw = |recorder: &mut Recorder, kernel: RasterKernel| -> Result<()> {
         match kernel {
-            RasterKernel::Rows => passes::raster(recorder, (scene, &workspace), Summed::Nothing, Images::All, share),
+            RasterKernel::Rows { group, words } => {
+                passes::raster(recorder, (scene, &workspace), Summed::Nothing, Images::All([group, words]), share)
+            }
             RasterKernel::Spans { .. } => spans::raster(recorder, (scene, &workspace), Summed::Nothing, kernel, share),
         }
     };
@@ -213,14 +212,17 @@ mod tests {
             candidates: 64,
             measured: times.iter().map(|&(kernel, ms)| measured(kernel, ms)).collect(),
         };
-        assert_eq!(of(&[(RasterKernel::Rows, 1.0), (spans(64), 0.96)]).fastest(128), RasterKernel::Rows);
-        let choice = of(&[(RasterKernel::Rows, 1.0), (spans(64), 0.9), (spans(128), 0.8), (spans(256), 0.1)]);
+        assert_eq!(of(&[(RasterKernel::ROWS, 1.0), (spans(64), 0.96)]).fastest(128), RasterKernel::ROWS);
+        let choice = of(&[(RasterKernel::ROWS, 1.0), (spans(64), 0.9), (spans(128), 0.8), (spans(256), 0.1)]);
         assert_eq!(choice.fastest(128), spans(128));
         assert_eq!(choice.fastest(64), spans(64));
-        assert_eq!(choice.fastest(32), RasterKernel::Rows);
+        assert_eq!(choice.fastest(32), RasterKernel::ROWS);
         // What no program of ours writes.
-        assert_eq!(of(&[(spans(0), 0.1)]).fastest(128), RasterKernel::Rows);
-        assert_eq!(of(&[]).fastest(128), RasterKernel::Rows);
+        assert_eq!(of(&[(spans(0), 0.1)]).fastest(128), RasterKernel::ROWS);
+        assert_eq!(of(&[]).fastest(128), RasterKernel::ROWS);
+        let rows = |words| RasterKernel::Rows { group: 64, words };
+        let more = [(RasterKernel::ROWS, 1.0), (rows(4), 0.7), (rows(2), 0.8), (rows(9), 0.1), (spans(64), 0.9)];
+        assert_eq!(of(&more).fastest(128), rows(4));
     }
 
     #[test]
@@ -235,7 +237,7 @@ mod tests {
 
         // Nothing is drawn, nothing is learnt.
         compute.tune(&vec![f32::NAN; pose.len()]).unwrap();
-        assert_eq!((compute.kernel(), path.exists()), (RasterKernel::Rows, false));
+        assert_eq!((compute.kernel(), path.exists()), (RasterKernel::ROWS, false));
 
         compute.tune(&pose.repeat(8)).unwrap();
         let kept = Choices::read(&path);
@@ -256,7 +258,11 @@ mod tests {
         assert_eq!((compute.kernel(), compute.variant()), (spans, "spans"));
         assert_eq!(Choices::read(&path), changed);
 
-        // What is no file of ours is measured anew.
+        // Files of before there were ways to draw row by row say less, and are measured anew; so is what is no file of ours.
+        let old = fs::read_to_string(&path).unwrap().replace("group = 32\nwords = 3\n", "");
+        fs::write(&path, &old).unwrap();
+        assert!(old.contains("kernel = \"rows\"\nms"), "{old}");
+        assert_eq!(Choices::read(&path), Choices::default());
         fs::write(&path, "choice = 3").unwrap();
         compute.tune(&pose).unwrap();
         assert_eq!(Choices::read(&path).choice.len(), 1);
@@ -269,11 +275,20 @@ mod tests {
         let Some((device, _)) = device("workgroups_that_no_device_has_are_refused", DeviceSettings::default()) else {
             return;
         };
-        for group in [0, 1 << 20] {
-            let kernel = RasterKernel::Spans { group, workgroups: 1 };
+        let spans = |group, workgroups| RasterKernel::Spans { group, workgroups };
+        let rows = |group, words| RasterKernel::Rows { group, words };
+        for (kernel, told) in [
+            (spans(0, 1), "this device has workgroups of 1 to"),
+            (spans(1 << 20, 1), "this device has workgroups of 1 to"),
+            (spans(64, 0), "expected at least one"),
+            (rows(48, 3), "a workgroup has 48 rows, expected a power of two from 8 to 128"),
+            (rows(4, 3), "a workgroup has 4 rows, expected a power of two from 8 to 128"),
+            (rows(32, 5), "5 words at once, expected 1 to 4"),
+            (rows(32, 0), "0 words at once, expected 1 to 4"),
+        ] {
             let body = Body::adult(1750.0).unwrap();
             let error = Compute::with_kernel(&device, &body, &cameras(), kernel).unwrap_err().to_string();
-            assert!(error.contains("this device has workgroups of 1 to"), "{error}");
+            assert!(error.contains(told), "{error}");
         }
     }
 }

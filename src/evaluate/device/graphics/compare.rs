@@ -20,6 +20,8 @@ pub(super) struct Comparing {
     pub(super) gathering: Gathering,
     /// Workgroups a tile, each of which takes every nth row.
     pub(super) bands: u32,
+    /// Invocations of a workgroup.
+    pub(super) group: u32,
 }
 
 /// What a framebuffer is compared with segment by segment.
@@ -61,7 +63,7 @@ impl Comparing {
     }
 
     fn constants(self, ignores: bool) -> compare_texels_comp::Constants {
-        compare_texels_comp::Constants { edge_bit: self.packing.edge_bit(), ignores }
+        compare_texels_comp::Constants { edge_bit: self.packing.edge_bit(), ignores, local_size_x: self.group }
     }
 
     fn segments_constants(
@@ -71,7 +73,14 @@ impl Comparing {
         segment_edges: bool,
     ) -> compare_texels_segments_comp::Constants {
         let edge_bit = self.packing.edge_bit();
-        compare_texels_segments_comp::Constants { edge_bit, ignores, codes, segments, segment_edges }
+        compare_texels_segments_comp::Constants {
+            edge_bit,
+            ignores,
+            codes,
+            segments,
+            segment_edges,
+            local_size_x: self.group,
+        }
     }
 
     /// What compares whole silhouettes.

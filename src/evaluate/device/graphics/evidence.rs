@@ -42,6 +42,7 @@ impl GraphicsEvidence {
         let listed = raster_evidence_comp::stage(raster_evidence_comp::Constants {
             listed: true,
             ignores: scene.counted.is_some(),
+            ..raster_evidence_comp::Constants::default()
         });
         device.compile(&[
             evidence_comp::stage(constants(comparing, codes)),
@@ -117,5 +118,5 @@ impl GraphicsEvidence {
 }
 
 fn constants(comparing: Comparing, codes: u32) -> evidence_comp::Constants {
-    evidence_comp::Constants { edge_bit: comparing.packing.edge_bit(), codes }
+    evidence_comp::Constants { edge_bit: comparing.packing.edge_bit(), codes, local_size_x: comparing.group }
 }

@@ -15,8 +15,11 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 use super::Graphics;
 use super::drawn::Drawn;
 use super::framebuffer::Framebuffer;
+use super::passes::skin_by_feedback;
 use super::readback::FramebufferCopy;
-use super::settings::{Comparison, Gathering, GraphicsSettings, HostComparison, Packing, Tiling};
+use super::settings::{
+    Comparison, Gathering, GraphicsSettings, HostComparison, Packing, Primitives, Projection, Tiling,
+};
 use super::tiles::TileLayout;
 use crate::body::{Body, FrustumBase, Mesh, Skinning};
 use crate::evaluate::device::mesh::{DeviceMesh, MeshWorkspace, skin};
@@ -57,7 +60,7 @@ pub(super) fn cameras() -> Vec<Camera> {
         .collect()
 }
 
-fn ladder(body: &Body) -> Vec<(String, Mesh)> {
+pub(super) fn ladder(body: &Body) -> Vec<(String, Mesh)> {
     let elliptic = FrustumBase::LADDER.map(|vertices| FrustumBase::Elliptic { vertices });
     [FrustumBase::Square]
         .into_iter()
@@ -99,7 +102,7 @@ fn bent(body: &Body) -> Mesh {
 }
 
 /// A device with the poses of a mesh's candidates on it.
-struct Scene {
+pub(super) struct Scene {
     device: Device,
     model: DeviceScene,
     workspace: Workspace,
@@ -107,7 +110,7 @@ struct Scene {
 }
 
 impl Scene {
-    fn new(device: &Device, cameras: &[Camera], body: &Body, poses: &[f32]) -> Self {
+    pub(super) fn new(device: &Device, cameras: &[Camera], body: &Body, poses: &[f32]) -> Self {
         let model = DeviceScene::new(device, body, cameras).unwrap();
         let candidates = (poses.len() / body.dof_count()) as u32;
         let workspace = Workspace::new(device, model.counts, candidates).unwrap();
@@ -122,9 +125,18 @@ impl Scene {
     }
 
     /// Every picture, `[candidate][view]`, in tiles as large as the pictures, and the framebuffer itself.
-    fn pictures(&self, projector: &MeshProjector) -> (Vec<CandidateImage>, Vec<u32>, [u32; 2]) {
+    pub(super) fn pictures(&self, projector: &MeshProjector) -> (Vec<CandidateImage>, Vec<u32>, [u32; 2]) {
+        self.pictures_by(projector, &GraphicsSettings::default())
+    }
+
+    /// The same in a way of its own.
+    pub(super) fn pictures_by(
+        &self,
+        projector: &MeshProjector,
+        settings: &GraphicsSettings,
+    ) -> (Vec<CandidateImage>, Vec<u32>, [u32; 2]) {
         let Self { device, model, workspace, share } = self;
-        let mut drawn = Drawn::mesh(device, model, projector).unwrap();
+        let mut drawn = Drawn::mesh(model, projector, settings).unwrap();
         drawn.reserve(model, share.candidates).unwrap();
         assert!(drawn.most() >= share.candidates);
         let tiles = TileLayout::new(&model.sizes, share.candidates, device.capabilities().max_image, u64::MAX).unwrap();
@@ -134,7 +146,7 @@ impl Scene {
         let mut recorder = device.recorder(Timing::Off).unwrap();
         drawn.record_upload(&mut recorder).unwrap();
         passes::pose(&mut recorder, model, workspace, *share).unwrap();
-        drawn.record(&mut recorder, (model, workspace), None, &framebuffer, *share).unwrap();
+        drawn.record(&mut recorder, (model, workspace), &framebuffer, *share).unwrap();
         copy.record(&mut recorder, &framebuffer).unwrap();
         let [width, height] = framebuffer.layout.size;
         let texels = device.buffer::<u32>("texels", (width * height) as usize, Memory::Readback).unwrap();
@@ -164,13 +176,18 @@ fn vertices_are_the_reference_s() {
     for code in [None, Some(rough as Change)] {
         let settings = DeviceSettings { code, ..DeviceSettings::default() };
         let Some((device, log)) = device("vertices_are_the_reference_s", settings) else { return };
-        check_vertices(&device);
+        check_vertices(&device, Projection::Compute);
+        if device.capabilities().transform_feedback {
+            check_vertices(&device, Projection::Feedback);
+        } else {
+            println!("SKIPPED transform feedback: this device has none");
+        }
         drop(device);
         assert_eq!(log.messages(), Vec::<String>::new());
     }
 }
 
-fn check_vertices(device: &Device) {
+fn check_vertices(device: &Device, projection: Projection) {
     let (body, cameras) = (Body::adult(1750.0).unwrap(), cameras());
     let poses = poses(&body, 30);
     let mut meshes = vec![("frusta".to_string(), Mesh::of_body(&body).unwrap()), ("bent".to_string(), bent(&body))];
@@ -184,7 +201,13 @@ fn check_vertices(device: &Device) {
         let mut recorder = device.recorder(Timing::Off).unwrap();
         mesh.record_upload(&mut recorder).unwrap();
         passes::pose(&mut recorder, model, workspace, *share).unwrap();
-        skin(&mut recorder, (model, &mesh), (workspace, &room), *share).unwrap();
+        recorder.fill("clear", &room.seen, 0xdead_beef).unwrap();
+        recorder.fill("clear", &workspace.bounds, 0xdead_beef).unwrap();
+        let record = match projection {
+            Projection::Compute => skin,
+            Projection::Feedback => skin_by_feedback,
+        };
+        record(&mut recorder, (model, &mesh), (workspace, &room), *share).unwrap();
         recorder.finish().unwrap().run().unwrap();
         let (views, vertices) = (cameras.len(), mesh.vertex_count as usize);
         let images = share.candidates as usize * views;
@@ -366,7 +389,7 @@ fn save(folder: &Path, name: &str, found: &CandidateImage, expected: &CandidateI
 }
 
 /// Pictures of one candidate in four bytes: how many pixels differ in being drawn, in being an edge, in their label.
-fn differences(a: &CandidateImage, b: &CandidateImage) -> [usize; 3] {
+pub(super) fn differences(a: &CandidateImage, b: &CandidateImage) -> [usize; 3] {
     let count = |differs: fn(u8, u8) -> bool| a.bytes.iter().zip(&b.bytes).filter(|(a, b)| differs(**a, **b)).count();
     [count(|a, b| (a == 0) != (b == 0)), count(|a, b| (a ^ b) & 0x80 != 0), count(|a, b| (a ^ b) & 0x7f != 0)]
 }
@@ -475,18 +498,25 @@ fn the_backend_follows_the_reference_whatever_the_settings_and_limits() {
     reference.observe(&seen).unwrap();
     let close: Vec<f32> = (0..13_i8).flat_map(|i| standing(&body, f32::from(i) * 9.0 - 60.0, 25.0)).collect();
     let wild = poses(&body, 12);
-    for (lower, comparison, tiling) in [
-        (None, Comparison::Device(Gathering::Texels), Tiling::Regions),
-        (None, Comparison::Device(Gathering::Subgroup), Tiling::Pictures),
-        (None, Comparison::Host(HostComparison::Simd), Tiling::Regions),
-        (Some(small), Comparison::Device(Gathering::Subgroup), Tiling::Regions),
+    let (compute, feedback) = (Projection::Compute, Projection::Feedback);
+    let (vertices, geometry) = (Primitives::Vertices, Primitives::Geometry);
+    for (lower, comparison, tiling, projection, primitives) in [
+        (None, Comparison::Device(Gathering::Texels), Tiling::Regions, compute, vertices),
+        (None, Comparison::Device(Gathering::Subgroup), Tiling::Pictures, compute, geometry),
+        (None, Comparison::Host(HostComparison::Simd), Tiling::Regions, feedback, vertices),
+        (None, Comparison::Device(Gathering::Texels), Tiling::Regions, feedback, geometry),
+        (Some(small), Comparison::Device(Gathering::Subgroup), Tiling::Regions, feedback, geometry),
     ] {
-        let what = format!("{comparison:?}, {tiling:?}, lowered {}", lower.is_some());
+        let what = format!("{comparison:?}, {tiling:?}, {projection:?}, {primitives:?}, lowered {}", lower.is_some());
         let settings = DeviceSettings { lower, ..DeviceSettings::default() };
         let Some((device, log)) = device(test, settings) else { return };
-        let settings = GraphicsSettings { comparison, tiling, ..GraphicsSettings::default() };
+        let settings = GraphicsSettings { comparison, tiling, projection, primitives, ..GraphicsSettings::default() };
         let mut graphics = Graphics::of_mesh(&device, &body, mesh.clone(), &cameras, settings).unwrap();
         assert_eq!(graphics.settings().packing, Packing::Depth);
+        let found = (graphics.settings().projection, graphics.settings().primitives);
+        let asked = settings.on(device.capabilities());
+        assert_eq!(found, (asked.projection, asked.primitives));
+        assert!(lower.is_none() || found == (compute, vertices), "{found:?}");
         graphics.observe(&seen).unwrap();
         // Close ones shrink the tiles, wild ones outgrow them.
         check_backend(&mut graphics, &mut reference, &close, &what);

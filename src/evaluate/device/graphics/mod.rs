@@ -12,6 +12,7 @@ mod framebuffer;
 mod mesh_tests;
 mod outlines;
 mod passes;
+mod pictures;
 mod rasteriser;
 mod readback;
 mod segments;
@@ -22,6 +23,11 @@ mod target;
 #[cfg(test)]
 mod tests;
 mod tiles;
+#[cfg(test)]
+mod ways_tests;
 
 pub use rasteriser::Graphics;
-pub use settings::{Comparison, Coverage, Gathering, GraphicsSettings, HostComparison, Packing, Projection, Tiling};
+pub use settings::{
+    Channels, Comparison, Coverage, Gathering, GraphicsSettings, HostComparison, Packing, Primitives, Projection,
+    Tiling,
+};

@@ -5,10 +5,9 @@ use anyhow::{Result, ensure};
 use super::compare::Comparing;
 use super::drawn::Drawn;
 use super::evidence::GraphicsEvidence;
-use super::passes::{feedback_pipeline, feedback_room};
 use super::readback::FramebufferCopy;
 use super::segments::GraphicsSegments;
-use super::settings::{Comparison, Coverage, Gathering, GraphicsSettings, HostComparison, Packing, Projection, Tiling};
+use super::settings::{Comparison, Gathering, GraphicsSettings, Packing, Tiling};
 use super::target::Target;
 use super::tiles::{first_tiles, fitted_tiles};
 use crate::body::{Body, Mesh};
@@ -16,20 +15,20 @@ use crate::evaluate::device::backend::DeviceBackend;
 use crate::evaluate::device::evidence::DeviceEvidence;
 use crate::evaluate::device::host_buffers::HostCounts;
 use crate::evaluate::device::open::open_device;
-use crate::evaluate::device::passes;
 use crate::evaluate::device::rasteriser::Rasteriser;
 use crate::evaluate::device::resources::Resources;
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::segments::DeviceSegments;
+use crate::evaluate::device::stage_groups::StageGroups;
 use crate::evaluate::device::summed::Summed;
 use crate::evaluate::device::workspace::Workspace;
 use crate::evaluate::evaluator::Footprint;
 use crate::evaluate::mesh_projection::{MeshProjector, bound_to_its_body};
 use crate::evaluate::raster::CandidateImage;
-use crate::evaluate::shaders::{layout, objective_comp, order_comp, place_comp, pose_comp};
+use crate::evaluate::shaders::{layout, objective_comp, place_comp, pose_comp};
 use crate::features::{Observation, SeenView};
 use crate::geometry::Camera;
-use crate::gpu::{Buffer, Device, DeviceKind, Memory, Recorder, Timing};
+use crate::gpu::{Device, DeviceKind, Recorder};
 
 /// The evaluator that draws with the graphics pipeline of a Vulkan device.
 pub type Graphics = DeviceBackend<GraphicsRasteriser>;
@@ -44,8 +43,6 @@ pub struct GraphicsRasteriser {
     segments: Option<GraphicsSegments>,
     /// What evidence is looked up in, where the newest observations carry it.
     evidence: Option<GraphicsEvidence>,
-    /// Where transform feedback projects to, if it does.
-    captured: Option<Buffer>,
     target: Target,
     /// Tile sizes of the views, pixels: those of the framebuffer, and those that are better.
     tiles: Vec<[u32; 2]>,
@@ -67,21 +64,31 @@ impl Graphics {
         Self::on(&open_device()?, body, cameras, GraphicsSettings::default())
     }
 
-    /// On a device. Subgroup shuffles that it does not have become an exchange through shared memory, transform feedback a compute
-    /// stage, blending by the largest value depths and write masks.
+    /// On a device. What it does not have of the settings is replaced: subgroup shuffles by an exchange through shared memory, transform
+    /// feedback by a compute stage, a geometry stage by vertices alone, blending by the largest value by depths and write masks.
     ///
     /// # Errors
     /// When a picture has no pixel or is too large, the body has no or too many parts, or the device fails.
     pub fn on(device: &Device, body: &Body, cameras: &[Camera], settings: GraphicsSettings) -> Result<Self> {
+        Self::with_groups(device, body, cameras, settings, StageGroups::default())
+    }
+
+    /// As [`Self::on`], by workgroups of other sizes.
+    pub(crate) fn with_groups(
+        device: &Device,
+        body: &Body,
+        cameras: &[Camera],
+        settings: GraphicsSettings,
+        groups: StageGroups,
+    ) -> Result<Self> {
         ensure!(
             body.parts.len() <= 127,
             "the body has {} parts, and the backend graphics tells at most 127 apart",
             body.parts.len()
         );
-        let packing = if device.capabilities().max_blend { settings.packing } else { Packing::Depth };
-        let settings = GraphicsSettings { packing, ..settings };
-        Self::with(DeviceScene::new(device, body, cameras)?, |scene| {
-            let drawn = Drawn::flat(device, scene.counts.parts, settings.packing, settings.coverage)?;
+        let settings = settings.on(device.capabilities());
+        Self::with(DeviceScene::new(device, body, cameras)?.with_groups(groups)?, |scene| {
+            let drawn = Drawn::flat(scene, &settings)?;
             GraphicsRasteriser::new(scene, drawn, settings)
         })
     }
@@ -107,14 +114,9 @@ impl Graphics {
                 camera.name
             );
         }
-        let settings = GraphicsSettings {
-            packing: Packing::Depth,
-            coverage: Coverage::Hardware,
-            projection: Projection::Compute,
-            ..settings
-        };
+        let settings = settings.of_mesh().on(device.capabilities());
         Self::with(DeviceScene::new(device, body, cameras)?, |scene| {
-            let drawn = Drawn::mesh(device, scene, &MeshProjector::new(body, mesh, cameras)?)?;
+            let drawn = Drawn::mesh(scene, &MeshProjector::new(body, mesh, cameras)?, &settings)?;
             GraphicsRasteriser::new(scene, drawn, settings)
         })
     }
@@ -137,36 +139,23 @@ impl Graphics {
 }
 
 impl GraphicsRasteriser {
-    fn new(scene: &DeviceScene, drawn: Drawn, mut settings: GraphicsSettings) -> Result<Self> {
+    fn new(scene: &DeviceScene, drawn: Drawn, settings: GraphicsSettings) -> Result<Self> {
         let device = &scene.device;
-        let gathering = match &mut settings.comparison {
-            Comparison::Device(gathering) => {
-                if !gathering.works_on(device.capabilities()) {
-                    *gathering = Gathering::Shared;
-                }
-                *gathering
-            }
+        let gathering = match settings.comparison {
+            Comparison::Device(gathering) => gathering,
             Comparison::Host(_) => Gathering::Texels,
         };
-        if !device.capabilities().transform_feedback {
-            settings.projection = Projection::Compute;
-        }
         // A real device has room for more workgroups than there are tiles; for a processor each is work.
         let bands = if device.facts().kind == DeviceKind::Cpu { 1 } else { 4 };
-        let comparing = Comparing { packing: settings.packing, gathering, bands };
+        let comparing = Comparing { packing: settings.packing, gathering, bands, group: scene.groups.compare };
         let stages = [pose_comp::stage(), place_comp::stage(), comparing.stage(), objective_comp::stage()];
         device.compile(&stages)?;
-        if settings.projection == Projection::Feedback {
-            device.compile(&[order_comp::stage()])?;
-            feedback_pipeline(device)?;
-        }
         let tiles = scene.sizes.clone();
         Ok(Self {
             drawn,
             comparing,
             segments: None,
             evidence: None,
-            captured: None,
             target: Target::new(scene, &settings, &tiles, 1)?,
             better_tiles: tiles.clone(),
             tiles,
@@ -175,6 +164,14 @@ impl GraphicsRasteriser {
             observations: scene.sizes.iter().map(|&[width, height]| Observation::empty(width, height)).collect(),
             settings,
         })
+    }
+
+    pub(super) fn settings(&self) -> GraphicsSettings {
+        self.settings
+    }
+
+    pub(super) fn drawn(&self) -> &Drawn {
+        &self.drawn
     }
 
     /// Bone matrices to the sums of a share; with a copy, to that, and the sums of the images that fit no tile.
@@ -193,7 +190,7 @@ impl GraphicsRasteriser {
             Summed::Evidence(evidence) if share.first == 0 => recorder.fill("clear evidence", &evidence.sums, 0)?,
             _ => (),
         }
-        self.drawn.record(recorder, scene, self.captured.as_ref(), framebuffer, share)?;
+        self.drawn.record(recorder, scene, framebuffer, share)?;
         let segments = match summed {
             Summed::Segments(segments, edges) => self.segments.as_ref().map(|own| (own, segments, edges)),
             _ => None,
@@ -242,9 +239,7 @@ impl Rasteriser for GraphicsRasteriser {
     }
 
     fn set_workspace(&mut self, scene: &DeviceScene, workspace: &Workspace) -> Result<()> {
-        if self.settings.projection == Projection::Feedback {
-            self.captured = Some(feedback_room(&scene.device, scene.counts, workspace.batch)?);
-        }
+        self.drawn.set_workspace(scene, workspace)?;
         let segments = self.segments.as_mut().map(|segments| &mut segments.orders);
         let orders = segments.into_iter().chain(self.evidence.as_mut().map(|evidence| &mut evidence.orders));
         orders.into_iter().try_for_each(|orders| orders.reserve(scene, workspace))
@@ -391,50 +386,7 @@ impl Rasteriser for GraphicsRasteriser {
     }
 
     fn draw(&self, resources: &Resources, pose: &[f32], view: usize) -> Result<Option<CandidateImage>> {
-        let scene = &resources.scene;
-        let (device, parts) = (&scene.device, scene.counts.parts as usize);
-        let workspace = Workspace::new(device, scene.counts, 1)?;
-        let settings = GraphicsSettings { comparison: Comparison::Host(HostComparison::Scalar), ..self.settings };
-        let Target { framebuffer, copy, .. } = Target::new(scene, &settings, &scene.sizes, 1)?;
-        let [width, height] = scene.sizes[view];
-        let held = framebuffer.layout.views[view].size;
-        ensure!(
-            held[0] >= width && held[1] >= height,
-            "a picture of {width}x{height} is larger than the {}x{} that this device draws at once",
-            held[0],
-            held[1]
-        );
-        let staging = device.buffer::<f32>("pose staging", pose.len(), Memory::Upload)?;
-        staging.write(0, pose)?;
-        let quads = scene.sizes.len() * parts;
-        let quads_out = device.buffer::<layout::Quad>("quads readback", quads, Memory::Readback)?;
-        let share = Share { first: 0, candidates: 1 };
-        let mut recorder = device.recorder(Timing::Off)?;
-        scene.record_upload(&mut recorder)?;
-        self.drawn.record_upload(&mut recorder)?;
-        recorder.copy("upload poses", (&staging, 0), (&workspace.poses, 0), staging.size())?;
-        passes::pose(&mut recorder, scene, &workspace, share)?;
-        self.drawn.record(&mut recorder, (scene, &workspace), self.captured.as_ref(), &framebuffer, share)?;
-        recorder.copy("read quads", (&workspace.quads, 0), (&quads_out, 0), quads_out.size())?;
-        let Some(copy) = copy else { return Ok(None) };
-        copy.record(&mut recorder, &framebuffer)?;
-        recorder.finish()?.run()?;
-        let mut quads: Vec<layout::Quad> = bytemuck::zeroed_vec(quads);
-        quads_out.read(0, &mut quads)?;
-        let drawn = copy.read(&framebuffer, 1)?.image(0, view, [width, height]);
-        let labels = &quads[view * parts..][..parts];
-        let bytes = match self.settings.packing {
-            Packing::Depth => drawn,
-            // 2 rank + edge, ranks counted from the farthest part on, 1 the farthest.
-            Packing::Max => drawn
-                .iter()
-                .map(|&byte| match usize::from(byte >> 1) {
-                    0 => 0,
-                    rank => labels[parts - rank.min(parts)].label as u8 | byte << 7,
-                })
-                .collect(),
-        };
-        Ok(Some(CandidateImage { width, height, bytes }))
+        Ok(self.pictures(resources, pose, view..view + 1)?.pop())
     }
 
     fn check_exchange(&self) -> Result<()> {

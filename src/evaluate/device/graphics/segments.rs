@@ -41,7 +41,7 @@ impl GraphicsSegments {
         let codes = drawn.codes(scene, packing);
         let compare = comparing.segments_stage(codes, segments.as_slice().len() as u32);
         let ignores = scene.counted.is_some();
-        let listed = raster_segments_comp::Constants { listed: true, ignores, segment_edges: false };
+        let listed = raster_segments_comp::Constants { listed: true, ignores, ..Default::default() };
         let objective = objective_segments_comp::Constants { segment_edges: false };
         device.compile(&[compare, raster_segments_comp::stage(listed), objective_segments_comp::stage(objective)])?;
         let words = scene.pixels.buffer.size() as usize / size_of::<u32>();

@@ -18,7 +18,7 @@ use super::mesh_tests::Tolerance;
 use super::passes::place;
 use super::readback::FramebufferCopy;
 use super::segments::GraphicsSegments;
-use super::settings::{Comparison, Coverage, Gathering, GraphicsSettings, HostComparison, Packing, Tiling};
+use super::settings::{Comparison, Gathering, GraphicsSettings, HostComparison, Packing, Tiling};
 use super::tests::{exact_settings, lowered, pictures};
 use crate::body::{Body, Mesh};
 use crate::evaluate::device::host_buffers::HostCounts;
@@ -89,7 +89,8 @@ fn segments_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
             let framebuffer = Framebuffer::new(&device, tiles, packing, false).unwrap();
             let [width, height] = framebuffer.layout.size;
             let copy = FramebufferCopy::new(&device, &framebuffer).unwrap();
-            let drawn = Drawn::flat(&device, model.counts.parts, packing, Coverage::Exact).unwrap();
+            let settings = GraphicsSettings { packing, ..GraphicsSettings::default() };
+            let drawn = Drawn::flat(&model, &settings).unwrap();
             let mut recorder = device.recorder(Timing::Off).unwrap();
             model.record_upload(&mut recorder).unwrap();
             recorder.copy("bounds", (&bounds_in, 0), (&workspace.bounds, 0), bounds_in.size()).unwrap();
@@ -118,7 +119,7 @@ fn segments_of_any_bytes_agree_and_a_changed_pixel_is_caught() {
             let staging = device.buffer::<u32>("texels staging", texels.len(), Memory::Upload).unwrap();
             for gathering in [Gathering::Texels, Gathering::Subgroup, Gathering::Shared] {
                 for bands in [1, 3] {
-                    let comparing = Comparing { packing, gathering, bands };
+                    let comparing = Comparing { packing, gathering, bands, group: if bands == 1 { 64 } else { 128 } };
                     let mut compared = GraphicsSegments::new(scene, &drawn, &segments, (comparing, true)).unwrap();
                     let mut scored = DeviceSegments::new(&model, &segments, candidates).unwrap();
                     scored.observe(&model, &seen).unwrap();

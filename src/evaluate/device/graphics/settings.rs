@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
+use anyhow::{Result, ensure};
 use clap::builder::ValueParserFactory;
 
 use crate::evaluate::shaders::{PACK_DEPTH, PACK_MAX};
@@ -59,6 +60,12 @@ impl Gathering {
     pub(crate) fn works_on(self, capabilities: &Capabilities) -> bool {
         let exchanges = capabilities.subgroup_shuffle && capabilities.subgroup_arithmetic;
         self != Self::Subgroup || (exchanges && capabilities.subgroup_size >= 4)
+    }
+
+    /// Says so where a device cannot.
+    pub(crate) fn check(self, capabilities: &Capabilities) -> Result<()> {
+        ensure!(self.works_on(capabilities), "the device has no shuffles over subgroups of 4 or more");
+        Ok(())
     }
 }
 
@@ -143,6 +150,29 @@ choices! {
     }
 }
 
+choices! {
+    /// What makes the primitives that are drawn.
+    #[derive(Default)]
+    "primitives" pub enum Primitives {
+        /// Vertices alone: parts by an index buffer, a mesh's silhouette edges listed by a compute stage (the default).
+        "vertices" #[default] Vertices,
+        /// A geometry stage: parts from points, a mesh's silhouette edges from triangles with their neighbours.
+        "geometry" Geometry,
+    }
+}
+
+choices! {
+    /// When the four channels of a tile are drawn, where they share it by depth.
+    #[derive(Default)]
+    "order of the channels" pub enum Channels {
+        /// A channel after the other, each through its write mask (the default).
+        "in-turn" #[default] InTurn,
+        /// All fills in one pass, then all edges, the largest value staying: wrong where parts or candidates overlap, kept to measure
+        /// against.
+        "at-once" AtOnce,
+    }
+}
+
 /// How the backend works.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GraphicsSettings {
@@ -156,6 +186,10 @@ pub struct GraphicsSettings {
     pub tiling: Tiling,
     /// What projects.
     pub projection: Projection,
+    /// What makes primitives.
+    pub primitives: Primitives,
+    /// When channels that share a tile by depth are drawn.
+    pub channels: Channels,
 }
 
 impl Default for GraphicsSettings {
@@ -166,6 +200,8 @@ impl Default for GraphicsSettings {
             comparison: Comparison::Device(Gathering::Texels),
             tiling: Tiling::default(),
             projection: Projection::default(),
+            primitives: Primitives::default(),
+            channels: Channels::default(),
         }
     }
 }
@@ -173,20 +209,52 @@ impl Default for GraphicsSettings {
 impl GraphicsSettings {
     /// All that differ, in the order of their lists.
     pub fn all() -> impl Iterator<Item = Self> {
-        Packing::ALL.into_iter().flat_map(|packing| {
-            Coverage::ALL.into_iter().flat_map(move |coverage| {
-                Comparison::all().flat_map(move |comparison| {
-                    Tiling::ALL.into_iter().flat_map(move |tiling| {
-                        let of = move |projection| Self { packing, coverage, comparison, tiling, projection };
-                        Projection::ALL.into_iter().map(of)
-                    })
-                })
-            })
-        })
+        let usual = std::iter::once(Self::default());
+        usual
+            .flat_map(|each| Packing::ALL.map(|packing| Self { packing, ..each }))
+            .flat_map(|each| Coverage::ALL.map(|coverage| Self { coverage, ..each }))
+            .flat_map(|each| Comparison::all().map(move |comparison| Self { comparison, ..each }))
+            .flat_map(|each| Tiling::ALL.map(|tiling| Self { tiling, ..each }))
+            .flat_map(|each| Projection::ALL.map(|projection| Self { projection, ..each }))
+            .flat_map(|each| Primitives::ALL.map(|primitives| Self { primitives, ..each }))
+            .flat_map(|each| Channels::ALL.map(|channels| Self { channels, ..each }))
+    }
+
+    /// Whether poses may be tracked so: not in ways that are kept to measure against.
+    pub fn is_for_tracking(&self) -> bool {
+        self.tiling == Tiling::default() && self.channels == Channels::default()
+    }
+
+    /// How a mesh is drawn where it is asked to be drawn so: it has a depth a pixel, and the device's own triangles cover the pixels.
+    pub fn of_mesh(self) -> Self {
+        Self { packing: Packing::Depth, coverage: Coverage::Hardware, channels: Channels::InTurn, ..self }
+    }
+
+    /// What a device can do of it, with what stands in for the rest: blending by the largest value becomes depths and write masks,
+    /// subgroup shuffles an exchange through shared memory, transform feedback a compute stage, a geometry stage vertices alone.
+    pub(crate) fn on(mut self, capabilities: &Capabilities) -> Self {
+        if !capabilities.max_blend {
+            (self.packing, self.channels) = (Packing::Depth, Channels::InTurn);
+        }
+        if self.packing != Packing::Depth {
+            self.channels = Channels::InTurn;
+        }
+        if let Comparison::Device(gathering) = &mut self.comparison
+            && !gathering.works_on(capabilities)
+        {
+            *gathering = Gathering::Shared;
+        }
+        if !capabilities.transform_feedback {
+            self.projection = Projection::Compute;
+        }
+        if !capabilities.geometry_shader {
+            self.primitives = Primitives::Vertices;
+        }
+        self
     }
 
     /// The name of its rows in tables: packing, who covers where that is not the usual one, how it is compared, or that tiles are
-    /// pictures, what projects where that is not the usual one.
+    /// pictures, and where they are not the usual ones what projects, what makes primitives, and when channels are drawn.
     pub fn name(&self) -> &'static str {
         // Put together once: a name lasts as long as the program.
         static NAMES: LazyLock<HashMap<GraphicsSettings, String>> =
@@ -209,6 +277,12 @@ impl GraphicsSettings {
         if self.projection != Projection::default() {
             more(self.projection.name());
         }
+        if self.primitives != Primitives::default() {
+            more(self.primitives.name());
+        }
+        if self.channels != Channels::default() {
+            more(self.channels.name());
+        }
         name
     }
 }
@@ -222,7 +296,7 @@ mod tests {
     #[test]
     fn every_way_has_a_name_of_its_own() {
         let names: HashSet<&str> = GraphicsSettings::all().map(|settings| settings.name()).collect();
-        assert_eq!(names.len(), 2 * 2 * 5 * 2 * 2);
+        assert_eq!(names.len(), 2 * 2 * 5 * 2 * 2 * 2 * 2);
         let usual = GraphicsSettings::default();
         assert_eq!(usual.name(), "max-texels");
         let pictures = GraphicsSettings { packing: Packing::Depth, tiling: Tiling::Pictures, ..usual };
@@ -234,6 +308,10 @@ mod tests {
             ..usual
         };
         assert_eq!(all.name(), "max-hardware-readback-simd-feedback");
+        let points = GraphicsSettings { primitives: Primitives::Geometry, ..usual };
+        assert_eq!((points.name(), points.is_for_tracking()), ("max-texels-geometry", true));
+        let once = GraphicsSettings { packing: Packing::Depth, channels: Channels::AtOnce, ..usual };
+        assert_eq!((once.name(), once.is_for_tracking()), ("depth-texels-at-once", false));
     }
 
     #[test]
