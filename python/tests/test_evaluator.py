@@ -89,6 +89,8 @@ def test_arrays_of_other_kinds_are_converted(walk, body, cameras):
         (lambda e, b: e.components(np.zeros((3, 30))), "poses are 3 x 30, expected 31 columns, one a degree of freedom of the body"),
         (lambda e, b: e.fitness(np.zeros((1, 31)), "spp"), "unknown objective `spp`, the nearest is `sp`"),
         (lambda e, b: e.fitness(np.zeros((1, 31)), "ws", w1=3.0), "w1 of the objective ws is 3, expected a weight from 0 to 1"),
+        (lambda e, b: e.fitness(np.zeros((1, 31)), edges="all"), "unknown edge term `all`, the nearest is "),
+        (lambda e, b: e.fitness(np.zeros((1, 31)), edges="segments"), "tells body parts apart, expected whole"),
         (lambda e, b: e.observe([np.zeros((2, 2), np.uint8)]), "expected"),
         (lambda e, b: e.drawn(np.zeros(3), 0), "the pose has 3 values, expected 31"),
         (lambda e, b: e.drawn(b.standing_pose(), 9), "there is no view 9, expected 0 to 3"),

@@ -1,6 +1,7 @@
 //! What is summed of drawn candidates besides their components.
 
-use super::objective::{EdgeTerm, Objective};
+use super::edge_term::EdgeTerm;
+use super::objective::Objective;
 
 /// One of the sums that cost time of their own; the objective says which it needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,6 +5,7 @@ use std::ops::Range;
 use anyhow::{Result, ensure};
 
 use super::components::Components;
+use super::edge_term::EdgeTerm;
 use super::evidence::EvidenceSum;
 use super::segments::SegmentSums;
 use super::view_counts::ViewCounts;
@@ -28,17 +29,6 @@ choices! {
         "posp" Posp => (Area::Silhouette, Terms::Product, Views::Product),
         /// Product of powers over all cameras together, of soft evidence in place of the silhouette; the default of `track` with `maes` off line.
         "evidence" Evidence => (Area::Evidence, Terms::Product, Views::Together),
-    }
-}
-
-choices! {
-    /// What the edge term is made of where observations tell body parts apart.
-    #[derive(Default)]
-    "edge term" pub enum EdgeTerm {
-        /// All edges of the candidate together (the default).
-        "whole" #[default] Whole,
-        /// The edges of each segment by themselves, weighed as the silhouettes of the segments are.
-        "segments" Segments,
     }
 }
 
