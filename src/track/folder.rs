@@ -27,6 +27,9 @@ const FILES: [&str; 14] = [
     Journal::NAME,
 ];
 
+/// Whether a file of a folder is one that a run drew.
+type IsOne = fn(&Path) -> bool;
+
 /// Removes what an earlier run left in the folder, so that a new one never stands beside old results; files that no run writes stay.
 pub(super) fn clear(output: &OutputFolder) -> Result<()> {
     let remove = |path: &Path| fs::remove_file(path).with_context(|| format!("cannot replace {}", path.display()));
@@ -37,7 +40,7 @@ pub(super) fn clear(output: &OutputFolder) -> Result<()> {
             }
         }
     }
-    let drawn: [(&str, fn(&Path) -> bool); 2] = [(overlay::FOLDER, overlay::is_one), (labels::FOLDER, labels::is_one)];
+    let drawn: [(&str, IsOne); 2] = [(overlay::FOLDER, overlay::is_one), (labels::FOLDER, labels::is_one)];
     for (name, is_one) in drawn {
         let folder = output.path().join(name);
         if folder.is_dir() {
