@@ -208,7 +208,8 @@ fn a_wrong_focal_length_is_caught_and_named() {
         println!("c{view} {by} times as long: {failed:?}");
         assert!(failed.contains(&format!("focal length c{view}")), "{failed:?}");
         let value = finding(&report, "focal length", &format!("c{view}"))["value"].as_f64().unwrap();
-        assert!((value - 100.0 * (1.0 / by - 1.0)).abs() < 1.5, "{value}");
+        // A weak pull to the stated one leaves some of it.
+        assert!((value - 100.0 * (1.0 / by - 1.0)).abs() < 2.5, "{value}");
         let others = failed.iter().filter(|check| check.starts_with("direction") || check.starts_with("timing"));
         assert_eq!(others.count() + failed.iter().filter(|check| check.starts_with("focal")).count(), 1, "{failed:?}");
     }

@@ -119,7 +119,7 @@ fn every_pixel_of_the_videos_has_the_label_of_the_part_that_shows() {
     fs::write(bare.join("labels/cam1_000003.png"), "half a fi").unwrap();
     succeeded(&track(&at, &bare, &["--backend", "cpu", "--resume", "--labels"]));
     assert!(labels(&bare) == whole);
-    let record = fs::read_to_string(bare.join("run.toml")).unwrap();
+    let record = fs::read_to_string(output.join("run.toml")).unwrap();
     assert!(record.contains(" --labels"), "{record}");
     for backend in ["reference", "compute", "graphics"] {
         if backend == "reference" || has_vulkan("every_pixel_of_the_videos_has_the_label_of_the_part_that_shows") {
