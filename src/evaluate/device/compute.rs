@@ -22,7 +22,7 @@ use crate::evaluate::MeshProjector;
 use crate::evaluate::evaluator::Footprint;
 use crate::evaluate::mesh_projection::bound_to_its_body;
 use crate::evaluate::shaders::{
-    objective_comp, objective_evidence_comp, objective_segments_comp, pose_comp, project_comp, raster_evidence_comp,
+    objective_comp, objective_evidence_comp, objective_segments_comp, pose_comp, raster_evidence_comp,
     raster_mesh_evidence_comp, raster_mesh_segments_comp, raster_segments_comp, raster_spans_comp,
     raster_spans_evidence_comp, raster_spans_segments_comp,
 };
@@ -58,12 +58,9 @@ impl Compute {
     pub fn on(device: &Device, body: &Body, cameras: &[Camera]) -> Result<Self> {
         Self::with(DeviceScene::new(device, body, cameras)?, |scene| {
             let kernel = spans::drawable(scene, RasterKernel::Rows);
-            device.compile(&[
-                flat_stage(device, kernel),
-                pose_comp::stage(),
-                project_comp::stage(),
-                objective_comp::stage(),
-            ])?;
+            let mut stages = passes::pose_and_project_stages(scene);
+            stages.extend([flat_stage(device, kernel), objective_comp::stage()]);
+            device.compile(&stages)?;
             Ok(ComputeRasteriser { has_subgroups: device.capabilities().subgroup_arithmetic, kernel, mesh: None })
         })
     }
@@ -230,9 +227,10 @@ impl Rasteriser for ComputeRasteriser {
     ) -> Result<()> {
         let Resources { scene, workspace, .. } = resources;
         if let Some(mesh) = &self.mesh {
+            passes::pose(recorder, scene, workspace, share)?;
             return mesh.record(recorder, (scene, workspace), summed, share);
         }
-        passes::project(recorder, scene, workspace, share)?;
+        passes::pose_and_project(recorder, scene, workspace, share)?;
         match self.kernel {
             RasterKernel::Rows => passes::raster(recorder, (scene, workspace), summed, Images::All, share),
             RasterKernel::Spans { .. } => spans::raster(recorder, (scene, workspace), summed, self.kernel, share),

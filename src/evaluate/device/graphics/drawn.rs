@@ -10,11 +10,11 @@ use super::passes::{place, project_by_feedback};
 use super::settings::{Coverage, Packing};
 use crate::evaluate::MeshProjector;
 use crate::evaluate::device::mesh::{DeviceMesh, MeshWorkspace, skin, skin_stages};
-use crate::evaluate::device::passes::{Images, project, raster, raster_stage};
+use crate::evaluate::device::passes::{Images, pose, pose_and_project, raster, raster_stage};
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::summed::Summed;
 use crate::evaluate::device::workspace::Workspace;
-use crate::evaluate::shaders::{LABELS, SHORT_CODES, outline_comp, project_comp};
+use crate::evaluate::shaders::{LABELS, SHORT_CODES, outline_comp};
 use crate::gpu::{Buffer, Device, OutOfMemory, Recorder};
 
 /// The stages of one model, and the memory that it alone needs.
@@ -51,7 +51,7 @@ impl DrawnMesh {
 impl Drawn {
     /// The flat model of a body of `parts` parts.
     pub(super) fn flat(device: &Device, parts: u32, packing: Packing, coverage: Coverage) -> Result<Self> {
-        device.compile(&[project_comp::stage(), raster_stage(device, true, false)])?;
+        device.compile(&[raster_stage(device, true, false)])?;
         Ok(Self::Flat(FlatDrawing::new(device, parts, packing, coverage)?))
     }
 
@@ -104,7 +104,7 @@ impl Drawn {
         }
     }
 
-    /// Records everything from `workspace.world` to the pictures; the flat model's parts are projected by transform feedback into
+    /// Records everything from `workspace.poses` to the pictures; the flat model's parts are projected by transform feedback into
     /// `captured`, if given.
     pub(super) fn record(
         &self,
@@ -117,14 +117,18 @@ impl Drawn {
         match self {
             Self::Flat(draw) => {
                 match captured {
-                    Some(captured) => project_by_feedback(recorder, (scene, workspace), captured, share)?,
-                    None => project(recorder, scene, workspace, share)?,
+                    Some(captured) => {
+                        pose(recorder, scene, workspace, share)?;
+                        project_by_feedback(recorder, (scene, workspace), captured, share)?;
+                    }
+                    None => pose_and_project(recorder, scene, workspace, share)?,
                 }
                 place(recorder, (scene, workspace), framebuffer, scene.counts.parts, share)?;
                 draw.record(recorder, (scene, workspace), framebuffer, share)
             }
             Self::Mesh(drawn) => {
                 let DrawnMesh { mesh, pipelines, workspace: own, outlines } = &**drawn;
+                pose(recorder, scene, workspace, share)?;
                 skin(recorder, (scene, mesh), (workspace, own), share)?;
                 place(recorder, (scene, workspace), framebuffer, 0, share)?;
                 draw_mesh(recorder, pipelines, (scene, mesh), (own, outlines), framebuffer, share)

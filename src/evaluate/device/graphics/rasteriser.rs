@@ -16,7 +16,7 @@ use crate::evaluate::device::backend::DeviceBackend;
 use crate::evaluate::device::evidence::DeviceEvidence;
 use crate::evaluate::device::host_buffers::HostCounts;
 use crate::evaluate::device::open::open_device;
-use crate::evaluate::device::passes;
+use crate::evaluate::device::passes::pose_and_project_stages;
 use crate::evaluate::device::rasteriser::Rasteriser;
 use crate::evaluate::device::resources::Resources;
 use crate::evaluate::device::scene::{DeviceScene, Share};
@@ -154,7 +154,12 @@ impl GraphicsRasteriser {
         // A real device has room for more workgroups than there are tiles; for a processor each is work.
         let bands = if device.facts().kind == DeviceKind::Cpu { 1 } else { 4 };
         let comparing = Comparing { packing: settings.packing, gathering, bands };
-        let stages = [pose_comp::stage(), place_comp::stage(), comparing.stage(), objective_comp::stage()];
+        let mut stages = vec![place_comp::stage(), comparing.stage(), objective_comp::stage()];
+        if drawn.scores_what_fits_no_tile() && settings.projection == Projection::Compute {
+            stages.extend(pose_and_project_stages(scene));
+        } else {
+            stages.push(pose_comp::stage());
+        }
         device.compile(&stages)?;
         if settings.projection == Projection::Feedback {
             device.compile(&[order_comp::stage()])?;
@@ -412,7 +417,6 @@ impl Rasteriser for GraphicsRasteriser {
         scene.record_upload(&mut recorder)?;
         self.drawn.record_upload(&mut recorder)?;
         recorder.copy("upload poses", (&staging, 0), (&workspace.poses, 0), staging.size())?;
-        passes::pose(&mut recorder, scene, &workspace, share)?;
         self.drawn.record(&mut recorder, (scene, &workspace), self.captured.as_ref(), &framebuffer, share)?;
         recorder.copy("read quads", (&workspace.quads, 0), (&quads_out, 0), quads_out.size())?;
         let Some(copy) = copy else { return Ok(None) };
