@@ -1858,14 +1858,14 @@ pub mod pose_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/pose.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<2707, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<2471, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/pose.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 24,
         bindings: &[
-            crate::gpu::BindingLayout { name: "Bones", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
-            crate::gpu::BindingLayout { name: "Poses", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "World", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+            crate::gpu::BindingLayout { name: "Bones", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Poses", set: 0, binding: 6, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
         ],
         constants: &[
         ],
@@ -1879,20 +1879,20 @@ pub mod pose_comp {
     /// What the stage works on.
     #[derive(Clone, Copy, Debug)]
     pub struct Bindings<'a> {
-        /// Storage buffer `Bones`, read; set 0, binding 0.
-        pub bones: &'a crate::gpu::Buffer,
-        /// Storage buffer `Poses`, read; set 0, binding 1.
-        pub poses: &'a crate::gpu::Buffer,
         /// Storage buffer `World`, read and written; set 0, binding 2.
         pub world: &'a crate::gpu::Buffer,
+        /// Storage buffer `Bones`, read; set 0, binding 5.
+        pub bones: &'a crate::gpu::Buffer,
+        /// Storage buffer `Poses`, read; set 0, binding 6.
+        pub poses: &'a crate::gpu::Buffer,
     }
     impl<'a> Bindings<'a> {
         /// Each resource with the place it goes to.
         pub fn bound(&self) -> [crate::gpu::Binding<'a>; 3] {
             [
-                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.bones) },
-                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.poses) },
-                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.world) },
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.world) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.bones) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.poses) },
             ]
         }
     }
@@ -1905,6 +1905,86 @@ pub mod pose_comp {
         }
     }
 }
+/// The stage `evaluate/pose_project.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod pose_project_comp {
+    // Accesses are as declared: naga cannot read this stage (invalid array size %1138).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/pose_project.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<9689, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/pose_project.comp.spv"))),
+        workgroup_size: [128, 1, 1],
+        push_size: 24,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Parts", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Cameras", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Quads", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+            crate::gpu::BindingLayout { name: "AllBounds", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+            crate::gpu::BindingLayout { name: "Bones", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Poses", set: 0, binding: 6, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "posed_rows", id: 0, default: 96 },
+            crate::gpu::SpecConstant { name: "local_size_x", id: 1, default: 128 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `posed_rows`, 96 by default.
+        pub posed_rows: u32,
+        /// `local_size_x`, 128 by default.
+        pub local_size_x: u32,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { posed_rows: 96, local_size_x: 128, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.posed_rows), (1, constants.local_size_x), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::Batch;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Parts`, read; set 0, binding 0.
+        pub parts: &'a crate::gpu::Buffer,
+        /// Storage buffer `Cameras`, read; set 0, binding 1.
+        pub cameras: &'a crate::gpu::Buffer,
+        /// Storage buffer `Quads`, written; set 0, binding 3.
+        pub quads: &'a crate::gpu::Buffer,
+        /// Storage buffer `AllBounds`, written; set 0, binding 4.
+        pub all_bounds: &'a crate::gpu::Buffer,
+        /// Storage buffer `Bones`, read; set 0, binding 5.
+        pub bones: &'a crate::gpu::Buffer,
+        /// Storage buffer `Poses`, read; set 0, binding 6.
+        pub poses: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 6] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.parts) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.cameras) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.quads) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.all_bounds) },
+                crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.bones) },
+                crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.poses) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
 /// The stage `evaluate/project.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod project_comp {
@@ -1913,7 +1993,7 @@ pub mod project_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/project.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<7223, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<7226, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/project.comp.spv"))),
         workgroup_size: [128, 1, 1],
         push_size: 24,
@@ -1986,7 +2066,7 @@ pub mod project_feedback_vert {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/project_feedback.vert",
         kind: crate::gpu::ShaderKind::Vertex,
-        spirv: &crate::gpu::words::<6243, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<6246, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/project_feedback.vert.spv"))),
         workgroup_size: [1, 1, 1],
         push_size: 24,
@@ -3517,4 +3597,4 @@ pub mod layout {
 /// Every stage of the folder, for tests that try them all.
 #[cfg(test)]
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
-pub static SHADERS: &[&crate::gpu::Shader] = &[&bind_comp::SHADER, &compare_shared_comp::SHADER, &compare_shared_segments_comp::SHADER, &compare_subgroup_comp::SHADER, &compare_subgroup_segments_comp::SHADER, &compare_texels_comp::SHADER, &compare_texels_segments_comp::SHADER, &draw_border_geom::SHADER, &draw_border_vert::SHADER, &draw_exact_frag::SHADER, &draw_exact_geom::SHADER, &draw_exact_vert::SHADER, &draw_fill_geom::SHADER, &draw_fill_vert::SHADER, &draw_plain_frag::SHADER, &draw_point_vert::SHADER, &evidence_comp::SHADER, &mesh_edge_geom::SHADER, &mesh_edge_vert::SHADER, &mesh_fill_vert::SHADER, &objective_comp::SHADER, &objective_evidence_comp::SHADER, &objective_segments_comp::SHADER, &order_comp::SHADER, &outline_comp::SHADER, &place_comp::SHADER, &pose_comp::SHADER, &project_comp::SHADER, &project_feedback_vert::SHADER, &raster_comp::SHADER, &raster_evidence_comp::SHADER, &raster_mesh_comp::SHADER, &raster_mesh_evidence_comp::SHADER, &raster_mesh_segments_comp::SHADER, &raster_segments_comp::SHADER, &raster_shared_comp::SHADER, &raster_spans_comp::SHADER, &raster_spans_evidence_comp::SHADER, &raster_spans_segments_comp::SHADER, &skin_comp::SHADER, &skin_feedback_vert::SHADER, &touched_comp::SHADER];
+pub static SHADERS: &[&crate::gpu::Shader] = &[&bind_comp::SHADER, &compare_shared_comp::SHADER, &compare_shared_segments_comp::SHADER, &compare_subgroup_comp::SHADER, &compare_subgroup_segments_comp::SHADER, &compare_texels_comp::SHADER, &compare_texels_segments_comp::SHADER, &draw_border_geom::SHADER, &draw_border_vert::SHADER, &draw_exact_frag::SHADER, &draw_exact_geom::SHADER, &draw_exact_vert::SHADER, &draw_fill_geom::SHADER, &draw_fill_vert::SHADER, &draw_plain_frag::SHADER, &draw_point_vert::SHADER, &evidence_comp::SHADER, &mesh_edge_geom::SHADER, &mesh_edge_vert::SHADER, &mesh_fill_vert::SHADER, &objective_comp::SHADER, &objective_evidence_comp::SHADER, &objective_segments_comp::SHADER, &order_comp::SHADER, &outline_comp::SHADER, &place_comp::SHADER, &pose_comp::SHADER, &pose_project_comp::SHADER, &project_comp::SHADER, &project_feedback_vert::SHADER, &raster_comp::SHADER, &raster_evidence_comp::SHADER, &raster_mesh_comp::SHADER, &raster_mesh_evidence_comp::SHADER, &raster_mesh_segments_comp::SHADER, &raster_segments_comp::SHADER, &raster_shared_comp::SHADER, &raster_spans_comp::SHADER, &raster_spans_evidence_comp::SHADER, &raster_spans_segments_comp::SHADER, &skin_comp::SHADER, &skin_feedback_vert::SHADER, &touched_comp::SHADER];

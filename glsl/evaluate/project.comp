@@ -4,6 +4,7 @@
 // Every part of every candidate in every camera, once; the quads of an image are written nearest first.
 
 #include "evaluate/order.glsl"
+#include "evaluate/world.glsl"
 #include "evaluate/project_part.glsl"
 
 layout(local_size_x = PROJECT_GROUP, local_size_x_id = 0) in;

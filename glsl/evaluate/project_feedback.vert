@@ -4,6 +4,7 @@
 // Every part of every candidate in every camera, once, by vertices: transform feedback captures them in the order of the body's
 // parts. `order.comp` brings them into the order of depth.
 
+#include "evaluate/world.glsl"
 #include "evaluate/project_part.glsl"
 
 // A Quad.

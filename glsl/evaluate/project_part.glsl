@@ -1,4 +1,5 @@
-// One part of one image, as all ways of projecting compute it: trapezoid (METHOD A4), projection (A2), snapping.
+// One part of one image, as all ways of projecting compute it: trapezoid (METHOD A4), projection (A2), snapping. Whoever includes it
+// says where bones are: `row_of_bone`.
 
 #ifndef EVALUATE_PROJECT_PART
 #define EVALUATE_PROJECT_PART
@@ -8,15 +9,14 @@
 
 layout(std430, set = 0, binding = 0) readonly buffer Parts { Part parts[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Cameras { Camera cameras[]; };
-layout(std430, set = 0, binding = 2) readonly buffer World { vec4 world[]; };
-
 Quad project_part(uint image, uint part_index) {
     Quad quad;
     uint candidate = image / batch.views;
     Camera camera = cameras[image % batch.views];
     Part part = parts[part_index];
-    uint rows = 3u * (candidate * batch.bones + part.bone);
-    vec4 row0 = world[rows], row1 = world[rows + 1u], row2 = world[rows + 2u];
+    vec4 row0 = row_of_bone(candidate, part.bone, 0u);
+    vec4 row1 = row_of_bone(candidate, part.bone, 1u);
+    vec4 row2 = row_of_bone(candidate, part.bone, 2u);
     vec3 a = transform(row0, row1, row2, part.a);
     vec3 b = transform(row0, row1, row2, part.b);
 

@@ -274,8 +274,8 @@ mod tests {
                 assert_eq!((profile.views, profile.width, profile.height), (4, 96, 72));
                 let shares: f64 = profile.passes.iter().map(|pass| pass.share).sum();
                 assert!((shares - 1.0).abs() < 1e-9 && profile.ms > 0.0, "{profile:?}");
-                // The same stage wherever it runs: an invocation a candidate, rounded up to workgroups.
-                let pose = of("pose");
+                // By itself for a mesh, with the projection for the flat model.
+                let pose = profile.passes.iter().find(|pass| pass.name.starts_with("pose")).unwrap();
                 let work = pose.work.unwrap();
                 assert!(work.float > 1000 * particles as u64 && work.memory() > 0, "{pose:?}");
                 assert!((pose.of_peak.unwrap().float - work.float as f64 / pose.ms * 1e-6).abs() < 1e-9, "{pose:?}");

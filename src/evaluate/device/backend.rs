@@ -8,7 +8,6 @@ use anyhow::{Result, ensure};
 use super::evidence::DeviceEvidence;
 use super::handover::Handovers;
 use super::host_buffers::{HostBuffers, HostCounts};
-use super::passes;
 use super::rasteriser::Rasteriser;
 use super::resources::Resources;
 use super::runs::{Asked, Runs};
@@ -105,7 +104,6 @@ impl<R: Rasteriser> DeviceBackend<R> {
                 let next = scene.device.recorder(self.runs.timing())?;
                 recorded.push(std::mem::replace(&mut recorder, next));
             }
-            passes::pose(&mut recorder, scene, workspace, share)?;
             self.rasteriser.record_host_share(&mut recorder, &self.resources, summed, share)?;
         }
         match asked {
@@ -441,10 +439,8 @@ impl<R: Rasteriser> DeviceEvaluator for DeviceBackend<R> {
     }
 
     fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
-        let Resources { scene, workspace, .. } = &self.resources;
         let summed = self.resources.summed(Besides::of(objective))?;
-        for share in self.resources.shares(candidates, self.rasteriser.batch(workspace))? {
-            passes::pose(recorder, scene, workspace, share)?;
+        for share in self.resources.shares(candidates, self.rasteriser.batch(&self.resources.workspace))? {
             self.rasteriser.record_share(recorder, &self.resources, summed, share)?;
         }
         self.resources.record_objective(recorder, objective, candidates)

@@ -7,7 +7,7 @@ use super::backend::DeviceBackend;
 use super::drawn_mesh::{DrawnMesh, MESH_TILE};
 use super::evidence::DeviceEvidence;
 use super::open::open_compute_device;
-use super::passes::{self, Images, project_stage, raster_stage};
+use super::passes::{self, Images, raster_stage};
 use super::raster_kernel::RasterKernel;
 use super::rasteriser::Rasteriser;
 use super::resources::Resources;
@@ -64,12 +64,9 @@ impl Compute {
     pub(crate) fn with_groups(device: &Device, body: &Body, cameras: &[Camera], groups: StageGroups) -> Result<Self> {
         Self::with(DeviceScene::new(device, body, cameras)?.with_groups(groups)?, |scene| {
             let kernel = spans::drawable(scene, RasterKernel::ROWS);
-            device.compile(&[
-                flat_stage(device, kernel),
-                pose_comp::stage(),
-                project_stage(scene),
-                objective_comp::stage(),
-            ])?;
+            let mut stages = passes::pose_and_project_stages(scene);
+            stages.extend([flat_stage(device, kernel), objective_comp::stage()]);
+            device.compile(&stages)?;
             Ok(ComputeRasteriser { has_subgroups: device.capabilities().subgroup_arithmetic, kernel, mesh: None })
         })
     }
@@ -243,9 +240,10 @@ impl Rasteriser for ComputeRasteriser {
     ) -> Result<()> {
         let Resources { scene, workspace, .. } = resources;
         if let Some(mesh) = &self.mesh {
+            passes::pose(recorder, scene, workspace, share)?;
             return mesh.record(recorder, (scene, workspace), summed, share);
         }
-        passes::project(recorder, scene, workspace, share)?;
+        passes::pose_and_project(recorder, scene, workspace, share)?;
         match self.kernel {
             RasterKernel::Rows { group, words } => {
                 passes::raster(recorder, (scene, workspace), summed, Images::All([group, words]), share)

@@ -7,10 +7,11 @@ use super::summed::Summed;
 use super::workspace::Workspace;
 use crate::evaluate::objective::Objective;
 use crate::evaluate::shaders::{
-    RASTER_GROUP, RASTER_WORDS, layout, objective_comp, objective_evidence_comp, objective_segments_comp, pose_comp,
-    project_comp, raster_comp, raster_evidence_comp, raster_segments_comp, raster_shared_comp,
+    PROJECT_GROUP, RASTER_GROUP, RASTER_WORDS, layout, objective_comp, objective_evidence_comp,
+    objective_segments_comp, pose_comp, pose_project_comp, project_comp, raster_comp, raster_evidence_comp,
+    raster_segments_comp, raster_shared_comp,
 };
-use crate::gpu::{Buffer, Device, Groups, Recorder, ShaderStage};
+use crate::gpu::{Buffer, Device, DeviceKind, Groups, Recorder, ShaderStage};
 
 /// Which images of a share are drawn.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +40,67 @@ pub(super) fn project(recorder: &mut Recorder, scene: &DeviceScene, workspace: &
     };
     let constants = project_comp::Constants { local_size_x: scene.groups.project };
     recorder.run(bindings.dispatch(constants, scene.batch(share), image_groups(scene, share)))
+}
+
+/// Records both for the flat model, `workspace.poses` to `workspace.quads` and `workspace.bounds`: in one pass where that suits the device,
+/// with nothing in `workspace.world`.
+pub(super) fn pose_and_project(
+    recorder: &mut Recorder,
+    scene: &DeviceScene,
+    workspace: &Workspace,
+    share: Share,
+) -> Result<()> {
+    if let Some(constants) = posed_together(scene) {
+        return pose_project(recorder, (scene, workspace), constants, share);
+    }
+    pose(recorder, scene, workspace, share)?;
+    project(recorder, scene, workspace, share)
+}
+
+/// The one pass, in a workgroup of that room.
+pub(super) fn pose_project(
+    recorder: &mut Recorder,
+    (scene, workspace): (&DeviceScene, &Workspace),
+    constants: pose_project_comp::Constants,
+    share: Share,
+) -> Result<()> {
+    let bindings = pose_project_comp::Bindings {
+        parts: &scene.parts.buffer,
+        cameras: &scene.cameras.buffer,
+        quads: &workspace.quads,
+        all_bounds: &workspace.bounds,
+        bones: &scene.bones.buffer,
+        poses: &workspace.poses,
+    };
+    recorder.run(bindings.dispatch(constants, scene.batch(share), image_groups(scene, share)))
+}
+
+/// The room of a workgroup that poses and projects in one pass; none where two passes suit the device better. Invocations of a workgroup
+/// wait for each other dearly on a processor: 20 ms where the two passes take 7 (docs/PERFORMANCE.md).
+fn posed_together(scene: &DeviceScene) -> Option<pose_project_comp::Constants> {
+    room_for_bones(scene).filter(|_| scene.device.facts().kind != DeviceKind::Cpu)
+}
+
+/// The room of a workgroup for the bones of the candidates that its images are of, wherever it begins among them; none where it has not
+/// so much.
+pub(super) fn room_for_bones(scene: &DeviceScene) -> Option<pose_project_comp::Constants> {
+    /// What bringing parts into order takes: five words an invocation.
+    const ORDER: u32 = 5 * 4 * PROJECT_GROUP;
+    let group = scene.groups.project;
+    let images = group / scene.counts.parts;
+    let candidates = (images - 1).div_ceil(scene.counts.views) + 1;
+    let posed_rows = candidates.checked_mul(scene.counts.bones)?.checked_mul(3)?;
+    let bytes = posed_rows.checked_mul(size_of::<[f32; 4]>() as u32)?;
+    let room = scene.device.capabilities().shared_memory.saturating_sub(ORDER);
+    (bytes <= room).then_some(pose_project_comp::Constants { posed_rows, local_size_x: group })
+}
+
+/// The stages of [`pose_and_project`], to be compiled ahead of their first use.
+pub(super) fn pose_and_project_stages(scene: &DeviceScene) -> Vec<ShaderStage> {
+    match posed_together(scene) {
+        Some(constants) => vec![pose_project_comp::stage(constants)],
+        None => vec![pose_comp::stage(), project_stage(scene)],
+    }
 }
 
 /// The workgroups of a stage that takes whole images, a part an invocation.

@@ -69,7 +69,7 @@ pub(crate) trait Rasteriser: Send {
         Ok(())
     }
 
-    /// Records everything from `resources.workspace.world` to the sums of a share.
+    /// Records everything from `resources.workspace.poses` to the sums of a share.
     fn record_share(
         &self,
         recorder: &mut Recorder,

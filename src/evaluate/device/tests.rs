@@ -178,6 +178,54 @@ fn pose_and_project_give_the_reference_s_corners() {
     assert_eq!(log.messages(), Vec::<String>::new());
 }
 
+/// Posed and projected in one pass is one after the other, also from within a run, to the bit; there is none where shared memory is short.
+#[test]
+fn posing_and_projecting_together_is_one_after_the_other() {
+    let little: fn(&mut crate::gpu::Capabilities) = |capabilities| capabilities.shared_memory = 3000;
+    for lower in [None, Some(little)] {
+        let opened = DeviceSettings { lower, ..DeviceSettings::default() };
+        let Some((device, log)) = device("posing_and_projecting_together", opened) else { return };
+        let body = Body::adult(1750.0).unwrap();
+        let (poses, all) = (poses(&body, 37), cameras());
+        for views in 1..=3 {
+            let seen: Vec<Camera> = all.iter().cycle().take(views).cloned().collect();
+            let (_, scene, workspace, share) = set_up_with(&device, &body, &seen, &poses);
+            let words = |buffer: &Buffer| fetch::<u32>(&device, buffer, (buffer.size() / 4) as usize);
+            let run = |record: &dyn Fn(&mut crate::gpu::Recorder)| {
+                let mut recorder = device.recorder(Timing::Off).unwrap();
+                for buffer in [&workspace.world, &workspace.quads, &workspace.bounds] {
+                    recorder.fill("clear", buffer, 7).unwrap();
+                }
+                record(&mut recorder);
+                let names = recorder.finish().map(|mut done| done.run().map(|()| done.passes().to_vec()));
+                (names.unwrap().unwrap(), words(&workspace.quads), words(&workspace.bounds))
+            };
+            let (_, quads, bounds) = run(&|recorder| {
+                passes::pose(recorder, &scene, &workspace, share).unwrap();
+                passes::project(recorder, &scene, &workspace, share).unwrap();
+            });
+            let room = passes::room_for_bones(&scene);
+            assert_eq!(room.is_none(), lower.is_some());
+            let posed = |recorder: &mut crate::gpu::Recorder, share| match room {
+                Some(room) => passes::pose_project(recorder, (&scene, &workspace), room, share).unwrap(),
+                None => passes::pose_and_project(recorder, &scene, &workspace, share).unwrap(),
+            };
+            let (names, found, extents) = run(&|recorder| posed(recorder, share));
+            assert_eq!(names.iter().any(|name| name == "pose_project"), room.is_some(), "{names:?}");
+            assert!((&found, &extents) == (&quads, &bounds), "{views} views");
+            // Candidates 5 to 15 alone begin the buffers.
+            let part = Share { first: 5, candidates: 11 };
+            let (_, found, extents) = run(&|recorder| posed(recorder, part));
+            let (a_pose, an_extent) = (quads.len() / 37, bounds.len() / 37);
+            assert!(found[..11 * a_pose] == quads[5 * a_pose..16 * a_pose], "{views} views, a share");
+            assert!(extents[..11 * an_extent] == bounds[5 * an_extent..16 * an_extent], "{views} views, a share");
+            assert!(found[11 * a_pose..].iter().all(|word| *word == 7), "and nothing else is written");
+        }
+        drop(device);
+        assert_eq!(log.messages(), Vec::<String>::new());
+    }
+}
+
 pub(super) struct Bounds {
     pub(super) low: [i32; 2],
     pub(super) high: [i32; 2],

@@ -12,7 +12,7 @@ use super::passes::{
 use super::settings::{GraphicsSettings, Packing, Primitives, Projection};
 use crate::evaluate::MeshProjector;
 use crate::evaluate::device::mesh::{DeviceMesh, MeshWorkspace, skin, skin_stages};
-use crate::evaluate::device::passes::{Images, project, project_stage, raster, raster_stage};
+use crate::evaluate::device::passes::{Images, pose, pose_and_project, raster, raster_stage};
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::summed::Summed;
 use crate::evaluate::device::workspace::Workspace;
@@ -74,7 +74,7 @@ impl Drawn {
     pub(super) fn flat(scene: &DeviceScene, settings: &GraphicsSettings) -> Result<Self> {
         let device = &scene.device;
         let listed = raster_comp::Constants { listed: true, ..raster_comp::Constants::default() };
-        device.compile(&[project_stage(scene), raster_stage(device, listed)])?;
+        device.compile(&[raster_stage(device, listed)])?;
         if settings.projection == Projection::Feedback {
             device.compile(&[order_stage(scene)])?;
             feedback_pipeline(device)?;
@@ -165,7 +165,7 @@ impl Drawn {
         }
     }
 
-    /// Records everything from `workspace.world` to the pictures.
+    /// Records everything from `workspace.poses` to the pictures.
     pub(super) fn record(
         &self,
         recorder: &mut Recorder,
@@ -176,14 +176,18 @@ impl Drawn {
         match self {
             Self::Flat { draw, captured, .. } => {
                 match captured {
-                    Some(captured) => project_by_feedback(recorder, (scene, workspace), captured, share)?,
-                    None => project(recorder, scene, workspace, share)?,
+                    Some(captured) => {
+                        pose(recorder, scene, workspace, share)?;
+                        project_by_feedback(recorder, (scene, workspace), captured, share)?;
+                    }
+                    None => pose_and_project(recorder, scene, workspace, share)?,
                 }
                 place(recorder, (scene, workspace), framebuffer, scene.counts.parts, share)?;
                 draw.record(recorder, (scene, workspace), framebuffer, share)
             }
             Self::Mesh(drawn) => {
                 let DrawnMesh { mesh, projection, pipelines, workspace: own, edges } = &**drawn;
+                pose(recorder, scene, workspace, share)?;
                 match projection {
                     Projection::Compute => skin(recorder, (scene, mesh), (workspace, own), share)?,
                     Projection::Feedback => skin_by_feedback(recorder, (scene, mesh), (workspace, own), share)?,

@@ -8,7 +8,6 @@ use super::Graphics;
 use super::rasteriser::GraphicsRasteriser;
 use super::settings::{Comparison, GraphicsSettings, HostComparison, Packing};
 use super::target::Target;
-use crate::evaluate::device::passes;
 use crate::evaluate::device::resources::Resources;
 use crate::evaluate::device::scene::Share;
 use crate::evaluate::device::workspace::Workspace;
@@ -72,7 +71,6 @@ impl GraphicsRasteriser {
         scene.record_upload(&mut recorder)?;
         self.drawn().record_upload(&mut recorder)?;
         recorder.copy("upload poses", (&staging, 0), (&workspace.poses, 0), staging.size())?;
-        passes::pose(&mut recorder, scene, &workspace, share)?;
         self.drawn().record(&mut recorder, (scene, &workspace), &framebuffer, share)?;
         recorder.copy("read quads", (&workspace.quads, 0), (&quads_out, 0), quads_out.size())?;
         let Some(copy) = copy else { return Ok(Vec::new()) };

@@ -7,7 +7,7 @@ use super::drawn::Drawn;
 use super::evidence::GraphicsEvidence;
 use super::readback::FramebufferCopy;
 use super::segments::GraphicsSegments;
-use super::settings::{Comparison, Gathering, GraphicsSettings, Packing, Tiling};
+use super::settings::{Comparison, Gathering, GraphicsSettings, Packing, Projection, Tiling};
 use super::target::Target;
 use super::tiles::{first_tiles, fitted_tiles};
 use crate::body::{Body, Mesh};
@@ -15,6 +15,7 @@ use crate::evaluate::device::backend::DeviceBackend;
 use crate::evaluate::device::evidence::DeviceEvidence;
 use crate::evaluate::device::host_buffers::HostCounts;
 use crate::evaluate::device::open::open_device;
+use crate::evaluate::device::passes::pose_and_project_stages;
 use crate::evaluate::device::rasteriser::Rasteriser;
 use crate::evaluate::device::resources::Resources;
 use crate::evaluate::device::scene::{DeviceScene, Share};
@@ -148,7 +149,12 @@ impl GraphicsRasteriser {
         // A real device has room for more workgroups than there are tiles; for a processor each is work.
         let bands = if device.facts().kind == DeviceKind::Cpu { 1 } else { 4 };
         let comparing = Comparing { packing: settings.packing, gathering, bands, group: scene.groups.compare };
-        let stages = [pose_comp::stage(), place_comp::stage(), comparing.stage(), objective_comp::stage()];
+        let mut stages = vec![place_comp::stage(), comparing.stage(), objective_comp::stage()];
+        if drawn.scores_what_fits_no_tile() && settings.projection == Projection::Compute {
+            stages.extend(pose_and_project_stages(scene));
+        } else {
+            stages.push(pose_comp::stage());
+        }
         device.compile(&stages)?;
         let tiles = scene.sizes.clone();
         Ok(Self {
