@@ -39,10 +39,14 @@ fn section(folder: &Path) -> String {
         writeln!(text, "|---|---|---|---|---|---|---|---|---|").unwrap();
         for row in rows {
             let number = |key: &str| row[key].as_f64().unwrap_or(f64::NAN);
-            let stages: Vec<String> = row["stages"].as_object().map_or_else(Vec::new, |stages| {
+            let mut stages: Vec<String> = row["stages"].as_object().map_or_else(Vec::new, |stages| {
                 let each = stages.iter().map(|(name, ms)| (name, ms.as_f64().unwrap_or(0.0)));
                 each.filter(|(_, ms)| *ms >= 5e-4).map(|(name, ms)| format!("{name} {ms:.3}")).collect()
             });
+            if let Some(wrong) = row["wrong"].as_object() {
+                let count = |key: &str| wrong.get(key).and_then(Value::as_u64).unwrap_or(0);
+                stages.insert(0, format!("WRONG in {} of {} pixels", count("wrong"), count("drawn")));
+            }
             writeln!(
                 text,
                 "| {} | {} | {} | {} | {}x{} | {:.3} | {:.3} | {:.0} | {} |",
@@ -167,11 +171,13 @@ fn results_fill_the_section() {
     assert!(!found.contains("| backend |"), "no benchmark ran: {found}");
     let row = r#"{ "backend": "compute", "variant": "subgroup", "model": "flat", "particles": 512, "width": 480, "height": 270,
         "ms": 0.1234, "ms_min": 0.1, "images_per_s": 1e6, "stages": { "pose": 0.01, "idle": 0.0 } }"#;
-    write("bench.json", &format!(r#"{{ "machine": "CPU", "device": "Card, driver 1", "rows": [{row}] }}"#));
+    let wrong = row.replace("\"stages\"", "\"wrong\": { \"wrong\": 12, \"drawn\": 345 }, \"stages\"");
+    write("bench.json", &format!(r#"{{ "machine": "CPU", "device": "Card, driver 1", "rows": [{row}, {wrong}] }}"#));
     let found = section(folder.path());
     assert!(found.starts_with("Measured with pantin 0.1.0 abc1234 on Card, driver 1; processor: CPU.\n"), "{found}");
     let expected = "| compute | subgroup | flat | 512 | 480x270 | 0.123 | 0.100 | 1000000 | pose 0.010 |\n";
     assert!(found.contains(expected), "{found}");
+    assert_eq!(found.matches("| WRONG in 12 of 345 pixels, pose 0.010 |").count(), 1, "{found}");
     assert!(!found.contains("| pass |"), "no profile: {found}");
     let pass = r#"{ "name": "raster", "ms": 0.05, "share": 0.4, "work": { "integer": 4000000, "float": 500000, "read": 250000,
         "written": 750000 }, "of_peak": { "integer": 0.25, "float": 0.1, "memory": 0.125, "shared": 0.0 } }"#;
