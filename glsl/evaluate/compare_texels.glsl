@@ -64,7 +64,7 @@ void main() {
     Walk walk = walk_from(unit, tile.width >> 2);
     if (unit < 16u) shared_totals[unit] = 0u;
 #ifdef SEGMENTED
-    for (uint at = unit; at < 4u * 32u; at += COMPARE_GROUP) shared_segments[at] = 0u;
+    for (uint at = unit; at < 4u * 32u; at += gl_WorkGroupSize.x) shared_segments[at] = 0u;
     load_numbers(tile);
 #endif
     Source source0 = source_of(tile, 0u);

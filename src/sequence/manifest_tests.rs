@@ -297,10 +297,8 @@ fn a_background_that_is_doubtful_is_said_by_whoever_opens_it() {
 #[test]
 fn views_that_do_not_fit_together_are_sentences() {
     let scene = Scene::new();
-    let (one, two) = (Scene::view("cam01"), Scene::view("cam02"));
+    let one = Scene::view("cam01");
     scene.pictures("cam02", CAMERA_SIZE, 5);
-    let error = scene.error("", &[&one, &two]);
-    assert!(error.contains("camera \"cam01\" has 3 frames and camera \"cam02\" has 5"), "{error}");
     scene.pictures("big", [80, 60], 3);
     let error = scene.error("", &["camera = \"cam01\"\nsource = \"big_%03d.png\""]);
     assert!(error.contains("80x60") && error.contains("camera \"cam01\" is calibrated for 40x30"), "{error}");
@@ -603,7 +601,7 @@ fn dropped_frames_are_made_up_for_and_cameras_stay_together() {
     );
     // As it was before: every picture a frame, and then the lengths differ.
     let error = scene.error("timestamps = \"ignore\"", &views);
-    assert!(error.contains("has 24 frames and camera \"cam02\" has 20") && error.contains("`delay`"), "{error}");
+    assert!(error.contains("has 24 frames and camera \"cam02\" has 20") && error.contains("`delay = 0`"), "{error}");
     let error = scene.error("timestamps = \"nearest\"", &views);
     assert!(error.contains("unknown use of timestamps `nearest`") && error.contains("resample, ignore"), "{error}");
     // Another rate in the manifest: times are not believed unless told so.
