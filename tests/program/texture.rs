@@ -99,7 +99,7 @@ fn palettes_and_noise_that_make_no_sense_are_refused() {
         (&["terrain", "--palette", "none.png"], "none.png"),
         (&["marble", "--noise", "volume", "--tile"], "expected arithmetic or tables"),
         (&["marble", "--noise", "tabels"], "the nearest is `tables`"),
-        (&["--example", "red.png", "--noise", "tables"], "--noise is for materials"),
+        (&["--example", "red.png", "--noise", "tables"], "--noise means nothing with --example"),
     ] {
         let output = run(arguments);
         assert!(!output.status.success(), "{arguments:?}");
