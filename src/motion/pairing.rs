@@ -97,6 +97,7 @@ impl PointPairs {
         let is =
             |&(theirs, mine): &(usize, usize), name: &String| truth.names[theirs] == *name || ours.names[mine] == *name;
         for name in names {
+            ensure!(!name.is_empty(), "a name of points is empty, expected a point's name");
             if !self.columns.iter().any(|pair| is(pair, name)) {
                 bail!("there is no point `{name}` to compare, expected some of {}", self.some(truth));
             }

@@ -441,7 +441,8 @@ impl Sequence {
             if LiveSource::of(&view.source, view.input.as_deref(), &dir).is_some() {
                 return Ok(None);
             }
-            let source = open_source(&format!("the source of camera {camera:?}"), &view.source, &existing, &dir)?;
+            let source =
+                open_source(&format!("the source of camera {camera:?}"), &view.source, &existing, (&path, &dir))?;
             Ok(Some(view.oriented(source, None).size))
         };
         let calibrated = read_cameras_sized(&cameras_path, &size_of)?;
@@ -589,7 +590,7 @@ fn open_view(
             let (size, frame_count) = (camera.size, Sequence::NO_END);
             Footage::plain(shown, Source::Live(live), size, frame_count)
         }
-        None => table.oriented(open_source(&key("source"), &table.source, existing, dir)?, Some(camera.size)),
+        None => table.oriented(open_source(&key("source"), &table.source, existing, (path, dir))?, Some(camera.size)),
     };
     if source.size != camera.size {
         bail!(
@@ -625,7 +626,7 @@ fn open_view(
     let mask = match &table.mask {
         None => None,
         Some(mask) => {
-            let mask = table.oriented(open_source(&key("mask"), mask, existing, dir)?, None);
+            let mask = table.oriented(open_source(&key("mask"), mask, existing, (path, dir))?, None);
             check_mask(name, camera.size, source.frame_count, &mask).with_context(|| path.display().to_string())?;
             Some((mask.source, mask.size))
         }
@@ -670,10 +671,14 @@ fn open_source(
     key: &str,
     relative: &Path,
     existing: &impl Fn(&str, &Path) -> Result<PathBuf>,
-    dir: &Path,
+    (manifest, dir): (&Path, &Path),
 ) -> Result<Footage> {
     let file = beside(dir, relative);
-    Footage::open(&if is_pattern(&file) { file } else { existing(key, relative)? })
+    if is_pattern(&file) {
+        return Footage::open(&file)
+            .with_context(|| format!("{}: {key} is {:?}", manifest.display(), relative.display()));
+    }
+    Footage::open(&existing(key, relative)?)
 }
 
 #[cfg(test)]

@@ -357,7 +357,10 @@ fn the_trace_has_the_device_beside_the_host() {
     }
     let stages: serde_json::Value = serde_json::from_slice(&fs::read(output.join("stages.json")).unwrap()).unwrap();
     let stages = stages["stages"].as_array().unwrap();
-    assert!(stages.iter().any(|stage| stage["name"] == format!("device {drawing}") && stage["count"] == 2), "{stages:?}");
+    assert!(
+        stages.iter().any(|stage| stage["name"] == format!("device {drawing}") && stage["count"] == 2),
+        "{stages:?}"
+    );
 }
 
 #[test]
