@@ -20,7 +20,7 @@ impl Default for StageGroups {
 }
 
 impl StageGroups {
-    /// Fewest of the comparison: each finds the place of one of the sums of a tile's segments.
+    /// Fewest of the comparison: the first 16 begin a tile's sums and bits of codes, one each.
     pub(crate) const LEAST_COMPARE: u32 = 64;
 
     /// Holds them to what a body of so many parts takes, and a device of workgroups of `most` invocations.

@@ -145,7 +145,6 @@ impl Scene {
         let copy = FramebufferCopy::new(device, &framebuffer).unwrap();
         let mut recorder = device.recorder(Timing::Off).unwrap();
         drawn.record_upload(&mut recorder).unwrap();
-        passes::pose(&mut recorder, model, workspace, *share).unwrap();
         drawn.record(&mut recorder, (model, workspace), &framebuffer, *share).unwrap();
         copy.record(&mut recorder, &framebuffer).unwrap();
         let [width, height] = framebuffer.layout.size;
