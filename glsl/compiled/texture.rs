@@ -58,6 +58,79 @@ pub const SHOWS_HEIGHTS: u32 = 1;
 /// `SHOWS_RAYS` of `texture/constants.glsl`.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const SHOWS_RAYS: u32 = 2;
+/// What a pass of mid-point displacement does: middles of squares, middles of sides, the least and the greatest height, all to [0, 1].
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const DISPLACES_SQUARES: u32 = 0;
+/// `DISPLACES_SIDES` of `texture/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const DISPLACES_SIDES: u32 = 1;
+/// `DISPLACES_EXTREMES` of `texture/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const DISPLACES_EXTREMES: u32 = 2;
+/// `DISPLACES_SCALING` of `texture/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const DISPLACES_SCALING: u32 = 3;
+/// The stage `texture/displace.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod displace_comp {
+    // Accesses are as declared: naga cannot read this stage (unsupported instruction UMulExtended at Function).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "texture/displace.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<2152, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/texture/displace.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 20,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Surface", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+            crate::gpu::BindingLayout { name: "Extremes", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "DISPLACES", id: 0, default: 0 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `DISPLACES`, 0 by default.
+        pub displaces: u32,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { displaces: 0, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, constants.displaces), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::Displace;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Surface`, read and written; set 0, binding 0.
+        pub surface: &'a crate::gpu::Buffer,
+        /// Storage buffer `Extremes`, read and written; set 0, binding 1.
+        pub extremes: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 2] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.surface) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.extremes) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
 /// The stage `texture/matching.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod matching_comp {
@@ -382,6 +455,27 @@ pub mod layout {
     }
     const _: () = assert!(size_of::<AllRequests>() == 48);
     const _: () = assert!(std::mem::offset_of!(AllRequests, request) == 0);
+    /// `Displace` in memory, 20 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct Displace {
+        /// `first` at byte 0.
+        pub first: u32,
+        /// `side` at byte 4.
+        pub side: u32,
+        /// `halved` at byte 8.
+        pub halved: u32,
+        /// `seed` at byte 12.
+        pub seed: u32,
+        /// `amplitude` at byte 16.
+        pub amplitude: f32,
+    }
+    const _: () = assert!(size_of::<Displace>() == 20);
+    const _: () = assert!(std::mem::offset_of!(Displace, first) == 0);
+    const _: () = assert!(std::mem::offset_of!(Displace, side) == 4);
+    const _: () = assert!(std::mem::offset_of!(Displace, halved) == 8);
+    const _: () = assert!(std::mem::offset_of!(Displace, seed) == 12);
+    const _: () = assert!(std::mem::offset_of!(Displace, amplitude) == 16);
     /// `Material` in memory, 912 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -532,4 +626,4 @@ pub mod layout {
 /// Every stage of the folder, for tests that try them all.
 #[cfg(test)]
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
-pub static SHADERS: &[&crate::gpu::Shader] = &[&matching_comp::SHADER, &material_comp::SHADER, &noise_comp::SHADER, &noise_image_frag::SHADER, &noise_image_vert::SHADER];
+pub static SHADERS: &[&crate::gpu::Shader] = &[&displace_comp::SHADER, &matching_comp::SHADER, &material_comp::SHADER, &noise_comp::SHADER, &noise_image_frag::SHADER, &noise_image_vert::SHADER];

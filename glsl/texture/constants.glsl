@@ -30,4 +30,10 @@ const uint SHOWS_COLOURS = 0u;
 const uint SHOWS_HEIGHTS = 1u;
 const uint SHOWS_RAYS = 2u;
 
+// What a pass of mid-point displacement does: middles of squares, middles of sides, the least and the greatest height, all to [0, 1].
+const uint DISPLACES_SQUARES = 0u;
+const uint DISPLACES_SIDES = 1u;
+const uint DISPLACES_EXTREMES = 2u;
+const uint DISPLACES_SCALING = 3u;
+
 #endif

@@ -6,11 +6,14 @@ mod tests;
 use anyhow::Result;
 use rayon::prelude::*;
 
-use super::materials::Material;
+use super::materials::{Displacement, Material};
 use super::noise::{NoiseMaker, TABLE, VOLUME_SIDE};
 use super::picture::{Heights, Picture, Seen, View, sample_place};
-use super::shaders::{SHOWS_COLOURS, SHOWS_HEIGHTS, SHOWS_RAYS, layout, material_comp};
-use crate::gpu::{Buffer, Device, Format, Groups, Image, ImageUse, Memory, Recording, Timing};
+use super::shaders::{
+    DISPLACES_EXTREMES, DISPLACES_SCALING, DISPLACES_SIDES, DISPLACES_SQUARES, SHOWS_COLOURS, SHOWS_HEIGHTS,
+    SHOWS_RAYS, displace_comp, layout, material_comp,
+};
+use crate::gpu::{Buffer, Device, Format, Groups, Image, ImageUse, Memory, Recorder, Recording, Timing};
 
 /// Samples of a run: a picture is drawn in runs, so that any size of it takes little of the device's memory, and none is long.
 const SAMPLES_OF_A_RUN: u32 = 1 << 19;
@@ -56,11 +59,7 @@ impl DeviceMaterial {
     /// # Errors
     /// When the device has no memory for them, or fails.
     pub(super) fn new(device: &Device, material: &Material) -> Result<Self> {
-        let (numbers, mut tables) = material.for_stages();
-        if tables.is_empty() {
-            // A device has no empty buffers.
-            tables.push(0.0);
-        }
+        let (numbers, bands, surface) = material.for_stages();
         let noise_tables = device.image("noise tables", Format::R32Uint, [TABLE as u32, 2], ImageUse::Sampled)?;
         // Vulkan wants an image where the stage has one.
         let side = if matches!(material.source(), NoiseMaker::Volume(_)) { VOLUME_SIDE as u32 } else { 1 };
@@ -80,7 +79,7 @@ impl DeviceMaterial {
         Ok(Self {
             device: device.clone(),
             material: device.uploaded("material", &[layout::Materials { material: numbers }])?,
-            tables: device.uploaded("material's tables", &tables)?,
+            tables: tables(device, &bands, surface.as_ref())?,
             noise_tables,
             noise_volume,
             kind: numbers.kind,
@@ -228,6 +227,47 @@ impl Job {
         };
         (0..pixels * square).into_par_iter().map(ray).collect()
     }
+}
+
+/// Bands of colour, and behind them the heights of a surface, which is displaced here.
+fn tables(device: &Device, bands: &[f32], surface: Option<&Displacement>) -> Result<Buffer> {
+    let points = surface.map_or(0, |surface| (surface.side * surface.side) as usize);
+    // A device has no empty buffers.
+    let tables = device.buffer::<f32>("material's tables", (bands.len() + points).max(1), Memory::Device)?;
+    let mut recorder = device.recorder(Timing::Off)?;
+    recorder.fill("fill", &tables, 0)?;
+    if !bands.is_empty() {
+        let staged = device.buffer::<f32>("bands", bands.len(), Memory::Upload)?;
+        staged.write(0, bands)?;
+        recorder.copy("upload", (&staged, 0), (&tables, 0), staged.size())?;
+    }
+    if let Some(surface) = surface {
+        displace(&mut recorder, &tables, bands.len() as u32, surface)?;
+    }
+    recorder.finish()?.run()?;
+    device.validation_log().check()?;
+    Ok(tables)
+}
+
+/// Records a surface: two passes a level, then its range and all of it over that. Its heights begin at `first` and are 0.
+fn displace(recorder: &mut Recorder, tables: &Buffer, first: u32, surface: &Displacement) -> Result<()> {
+    let extremes = recorder.device().buffer::<u32>("extremes", 2, Memory::Device)?;
+    recorder.fill("fill", &extremes, 0)?;
+    let bindings = displace_comp::Bindings { surface: tables, extremes: &extremes };
+    let &Displacement { side, seed, .. } = surface;
+    let mut run = |displaces: u32, halved: u32, amplitude: f32, over: [u32; 2]| {
+        let push = layout::Displace { first, side, halved, seed, amplitude };
+        let over = Groups::Over([over[0], over[1], 1]);
+        recorder.run(bindings.dispatch(displace_comp::Constants { displaces }, push, over))
+    };
+    for (level, &[of_squares, of_sides]) in surface.levels.iter().enumerate() {
+        let halved = side >> (level + 1);
+        let squares = 1 << level;
+        run(DISPLACES_SQUARES, halved, of_squares, [squares, squares])?;
+        run(DISPLACES_SIDES, halved, of_sides, [squares, 2 * squares])?;
+    }
+    run(DISPLACES_EXTREMES, 1, 0.0, [side, side])?;
+    run(DISPLACES_SCALING, 1, 0.0, [side, side])
 }
 
 /// Sets every texel of an image.

@@ -6,7 +6,7 @@ use super::*;
 use crate::gpu::DeviceSettings;
 use crate::gpu::rough::{Change, rough};
 use crate::gpu::test_device::device;
-use crate::texture::materials::{MaterialKind, Parameters};
+use crate::texture::materials::{MaterialKind, Parameters, Surface};
 use crate::texture::noise::NoiseWay;
 use crate::texture::picture::{flat, heights, shown};
 
@@ -72,4 +72,28 @@ fn large_pictures_are_drawn_run_by_run() {
     assert!(staged.flat(&view, 1).unwrap() == flat(&material, &view));
     drop((staged, device));
     assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+/// Surfaces of every size, rough ones and smooth ones, height by height; also on a device as inexact as Vulkan lets it be.
+#[test]
+fn surfaces_are_displaced_to_the_processors_bits() {
+    for code in [None, Some(rough as Change)] {
+        let settings = DeviceSettings { code, ..DeviceSettings::default() };
+        let Some((device, log)) = device("surfaces_are_displaced_to_the_processors_bits", settings) else { return };
+        for (seed, levels, smoothness) in [(1, 1, 0.95), (2, 2, 0.0), (3, 5, 2.0), (4, 9, 0.95), (5, 11, 0.3)] {
+            let displacement = Displacement::new(seed, levels, smoothness);
+            let bands = [0.25; 3];
+            let tables = tables(&device, &bands, Some(&displacement)).unwrap();
+            let read = device.buffer::<u8>("read", tables.size() as usize, Memory::Readback).unwrap();
+            let mut recorder = device.recorder(Timing::Off).unwrap();
+            recorder.copy("read", (&tables, 0), (&read, 0), tables.size()).unwrap();
+            recorder.finish().unwrap().run().unwrap();
+            let mut found = vec![0.0_f32; tables.size() as usize / 4];
+            read.read(0, &mut found).unwrap();
+            let surface = Surface::new(seed, levels, smoothness);
+            assert!(found[..3] == bands && found[3..] == *surface.heights(), "{levels} levels");
+        }
+        drop(device);
+        assert_eq!(log.messages(), Vec::<String>::new());
+    }
 }

@@ -86,7 +86,7 @@ impl Solid for Brick {
                 space.another(7).staged_fbm(4, 9.0),
                 space.another(8).staged_fbm(3, 22.0),
             ],
-            tables: Vec::new(),
+            ..Staged::default()
         }
     }
 }

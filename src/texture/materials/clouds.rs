@@ -41,7 +41,7 @@ impl Solid for Clouds {
             kind: MATERIAL_CLOUDS,
             numbers: [&sky[..], &cloud, &[offset, contrast]].concat(),
             sums: (0..4).map(|k| space.staged_octave(k, [scale; 3])).collect(),
-            tables: Vec::new(),
+            ..Staged::default()
         }
     }
 }

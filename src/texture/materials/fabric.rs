@@ -102,7 +102,7 @@ impl Solid for Fabric {
                 fibres.staged(Sum::Fbm, 3, self.fibre(true)),
                 fibres.staged(Sum::Fbm, 3, self.fibre(false)),
             ],
-            tables: Vec::new(),
+            ..Staged::default()
         }
     }
 }

@@ -38,7 +38,7 @@ impl Solid for Granite {
             kind: MATERIAL_GRANITE,
             numbers: [&self.colour[..], &[self.contrast]].concat(),
             sums: vec![space.staged_octave(3, [self.scale; 3])],
-            tables: Vec::new(),
+            ..Staged::default()
         }
     }
 }

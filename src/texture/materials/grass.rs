@@ -104,7 +104,7 @@ impl Solid for Grass {
             kind: MATERIAL_GRASS,
             numbers: [&self.root[..], &self.tip, &self.dry, &per_unit, &space.cells(per_unit), &blades].concat(),
             sums: vec![space.staged_fbm(3, 0.8)],
-            tables: Vec::new(),
+            ..Staged::default()
         }
     }
 }

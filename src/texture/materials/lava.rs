@@ -40,7 +40,7 @@ impl Solid for Lava {
             kind: MATERIAL_LAVA,
             numbers: [&bright[..], &dark, &[contrast]].concat(),
             sums: vec![space.staged(Sum::Turbulence, 4, [scale; 3])],
-            tables: Vec::new(),
+            ..Staged::default()
         }
     }
 }

@@ -52,7 +52,7 @@ impl Solid for Marble {
             kind: MATERIAL_MARBLE,
             numbers: [&self.vein[..], &self.stone, &self.turns(space)].concat(),
             sums: vec![space.staged(Sum::Turbulence, 4, [self.scale; 3])],
-            tables: Vec::new(),
+            ..Staged::default()
         }
     }
 }

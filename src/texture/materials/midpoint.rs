@@ -2,6 +2,31 @@
 
 use crate::texture::noise::mixed;
 
+/// How a surface is displaced, on the processor or a device.
+#[derive(Clone, Debug)]
+pub(in crate::texture) struct Displacement {
+    /// Points a side.
+    pub(in crate::texture) side: u32,
+    /// What tells surfaces apart, already mixed.
+    pub(in crate::texture) seed: u32,
+    /// Of each level: how far displacements go in the middles of squares, and in those of sides.
+    pub(in crate::texture) levels: Vec<[f32; 2]>,
+}
+
+impl Displacement {
+    /// Displaces `2^levels` points a side. From level to level displacements shrink by `2^-smoothness`, so 0 is rough, 1 smooth.
+    pub(in crate::texture) fn new(seed: u64, levels: u32, smoothness: f32) -> Self {
+        let levels = levels.clamp(1, 11);
+        let mut amplitude = 1.0_f32;
+        let level = |_| {
+            let level = [amplitude, 0.7 * amplitude];
+            amplitude *= (-smoothness.clamp(0.0, 2.0)).exp2();
+            level
+        };
+        Self { side: 1 << levels, seed: mixed(seed), levels: (0..levels).map(level).collect() }
+    }
+}
+
 /// Heights over a torus of `side` x `side` points, scaled to [0, 1].
 #[derive(Clone, Debug)]
 pub struct Surface {
@@ -12,16 +37,19 @@ pub struct Surface {
 impl Surface {
     /// Displaces `2^levels` points a side. From level to level displacements shrink by `2^-smoothness`, so 0 is rough, 1 smooth.
     pub fn new(seed: u64, levels: u32, smoothness: f32) -> Self {
-        let levels = levels.clamp(1, 11);
-        let side = 1_usize << levels;
+        Self::of(&Displacement::new(seed, levels, smoothness))
+    }
+
+    /// Displaced so.
+    pub(super) fn of(displacement: &Displacement) -> Self {
+        let side = displacement.side as usize;
         let mut heights = vec![0.0_f32; side * side];
         let die = |x: usize, y: usize| {
-            let word = mixed(u64::from(mixed(seed)) << 32 | (y * side + x) as u64);
+            let word = mixed(u64::from(displacement.seed) << 32 | (y * side + x) as u64);
             (word >> 8) as f32 / 8_388_608.0 - 1.0
         };
-        let mut amplitude = 1.0;
-        let mut step = side;
-        while step > 1 {
+        for (level, [of_squares, of_sides]) in displacement.levels.iter().enumerate() {
+            let step = side >> level;
             let half = step / 2;
             let wrap = |i: usize| i % side;
             // Middles of squares, from their four corners.
@@ -30,7 +58,7 @@ impl Surface {
                     let (l, r, t, b) = (x - half, wrap(x + half), y - half, wrap(y + half));
                     let sum =
                         heights[t * side + l] + heights[t * side + r] + heights[b * side + l] + heights[b * side + r];
-                    heights[y * side + x] = sum / 4.0 + amplitude * die(x, y);
+                    heights[y * side + x] = sum / 4.0 + of_squares * die(x, y);
                 }
             }
             // Middles of sides, from the two ends and the two middles beside them.
@@ -41,11 +69,9 @@ impl Surface {
                     let (t, b) = (wrap(y + side - half), wrap(y + half));
                     let sum =
                         heights[y * side + l] + heights[y * side + r] + heights[t * side + x] + heights[b * side + x];
-                    heights[y * side + x] = sum / 4.0 + 0.7 * amplitude * die(x, y);
+                    heights[y * side + x] = sum / 4.0 + of_sides * die(x, y);
                 }
             }
-            amplitude *= (-smoothness.clamp(0.0, 2.0)).exp2();
-            step = half;
         }
         let low = heights.iter().copied().fold(f32::MAX, f32::min);
         let range = heights.iter().copied().fold(f32::MIN, f32::max) - low;
@@ -55,13 +81,9 @@ impl Surface {
         Self { side, heights }
     }
 
-    /// Points a side.
-    pub(super) fn side(&self) -> usize {
-        self.side
-    }
-
     /// Heights, row by row.
-    pub(super) fn heights(&self) -> &[f32] {
+    #[cfg(test)]
+    pub(in crate::texture) fn heights(&self) -> &[f32] {
         &self.heights
     }
 

@@ -33,6 +33,7 @@ pub use granite::Granite;
 pub use grass::Grass;
 pub use lava::Lava;
 pub use marble::Marble;
+pub(super) use midpoint::Displacement;
 pub use midpoint::Surface;
 pub use skin::Skin;
 pub(crate) use solid::Solid;
@@ -233,9 +234,9 @@ impl Material {
         Some(self.for_stages().0).filter(|material| material.kind <= MATERIALS_OF_CLOTHES)
     }
 
-    /// The material for stages, and its bands of colour and heights.
-    pub(super) fn for_stages(&self) -> (layout::Material, Vec<f32>) {
-        let Staged { kind, numbers, sums, tables } = self.solid.staged(&self.space());
+    /// The material for stages, its bands of colour, and the surface whose heights stand behind them.
+    pub(super) fn for_stages(&self) -> (layout::Material, Vec<f32>, Option<Displacement>) {
+        let Staged { kind, numbers, sums, bands, surface } = self.solid.staged(&self.space());
         let mut material = layout::Material { kind, dice: self.space().dice(), ..bytemuck::Zeroable::zeroed() };
         material.numbers.iter_mut().zip(numbers).for_each(|(number, value)| *number = value);
         let mut first = 0;
@@ -244,7 +245,7 @@ impl Material {
             material.octaves.iter_mut().skip(first).zip(&octaves).for_each(|(place, octave)| *place = *octave);
             first += octaves.len();
         }
-        (material, tables)
+        (material, bands, surface)
     }
 }
 

@@ -106,7 +106,7 @@ impl Solid for Skin {
                 space.another(1).staged_fbm(3, self.scale * 6.0),
                 space.another(4).staged_fbm(2, self.pores * 1.3),
             ],
-            tables: Vec::new(),
+            ..Staged::default()
         }
     }
 }

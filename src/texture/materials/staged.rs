@@ -1,5 +1,6 @@
 //! Materials as stages take them (`glsl/texture/materials.glsl`).
 
+use super::midpoint::Displacement;
 use crate::texture::noise::Sum;
 use crate::texture::shaders::layout;
 
@@ -13,7 +14,7 @@ pub(crate) struct StagedSum {
 }
 
 /// A material as stages take it.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Staged {
     /// `MATERIAL_*`.
     pub(super) kind: u32,
@@ -21,6 +22,8 @@ pub(crate) struct Staged {
     pub(super) numbers: Vec<f32>,
     /// Its sums of noise.
     pub(super) sums: Vec<StagedSum>,
-    /// Colours of bands, then heights of a surface.
-    pub(super) tables: Vec<f32>,
+    /// Colours of bands.
+    pub(super) bands: Vec<f32>,
+    /// The surface whose heights stand behind the bands.
+    pub(super) surface: Option<Displacement>,
 }

@@ -1,8 +1,10 @@
 //! Terrain from above: heights by mid-point displacement or by noise, in colour bands or with isolines.
 
+use std::sync::OnceLock;
+
 use serde::{Deserialize, Serialize};
 
-use super::midpoint::Surface;
+use super::midpoint::{Displacement, Surface};
 use super::space::{blend, lit};
 use super::{Solid, Space, Staged, Texel};
 use crate::texture::noise::Sum;
@@ -120,16 +122,18 @@ impl Default for Fractal {
     }
 }
 
-/// [`Fractal`] with its surface displaced.
+/// [`Fractal`] with its surface, which a device displaces by itself.
 #[derive(Clone, Debug)]
 pub(super) struct Displaced {
     parameters: Fractal,
-    surface: Surface,
+    displacement: Displacement,
+    surface: OnceLock<Surface>,
 }
 
 impl Fractal {
     pub(super) fn displaced(&self, seed: u64) -> Displaced {
-        Displaced { parameters: self.clone(), surface: Surface::new(seed, self.levels, self.smoothness) }
+        let displacement = Displacement::new(seed, self.levels, self.smoothness);
+        Displaced { parameters: self.clone(), displacement, surface: OnceLock::new() }
     }
 }
 
@@ -150,8 +154,9 @@ impl Solid for Displaced {
         let map = &self.parameters.map;
         let lengths = self.lengths(space);
         let per_unit = lengths.map(|length| 1.0 / length);
+        let surface = self.surface.get_or_init(|| Surface::of(&self.displacement));
         // An object's sides show the surface sheared along z.
-        let height = |x: f32, y: f32| self.surface.at((x + 0.7 * p[2]) * per_unit[0], (y + 0.4 * p[2]) * per_unit[1]);
+        let height = |x: f32, y: f32| surface.at((x + 0.7 * p[2]) * per_unit[0], (y + 0.4 * p[2]) * per_unit[1]);
         let step = step_of(lengths[0]);
         let here = height(p[0], p[1]);
         Texel {
@@ -163,12 +168,13 @@ impl Solid for Displaced {
     fn staged(&self, space: &Space<'_>) -> Staged {
         let lengths = self.lengths(space);
         let (map, bands) = self.parameters.map.staged(step_of(lengths[0]));
-        let place = [self.surface.side() as f32, 1.0 / lengths[0], 1.0 / lengths[1]];
+        let place = [self.displacement.side as f32, 1.0 / lengths[0], 1.0 / lengths[1]];
         Staged {
             kind: MATERIAL_FRACTAL,
             numbers: [&map[..], &place].concat(),
             sums: Vec::new(),
-            tables: [&bands, self.surface.heights()].concat(),
+            bands,
+            surface: Some(self.displacement.clone()),
         }
     }
 }
@@ -225,8 +231,8 @@ impl Solid for Terrain {
     }
 
     fn staged(&self, space: &Space<'_>) -> Staged {
-        let (map, tables) = self.map.staged(self.step());
+        let (map, bands) = self.map.staged(self.step());
         let sums = vec![space.staged(self.sum, self.octaves(), [self.scale; 3])];
-        Staged { kind: MATERIAL_TERRAIN, numbers: map.to_vec(), sums, tables }
+        Staged { kind: MATERIAL_TERRAIN, numbers: map.to_vec(), sums, bands, surface: None }
     }
 }

@@ -68,7 +68,7 @@ impl Wood {
             kind,
             numbers: [&light[..], &dark, &[frequency, noisiness], &grain, &space.trunks(0)].concat(),
             sums: (0..3).map(|k| space.staged_octave(k, scale)).collect(),
-            tables: Vec::new(),
+            ..Staged::default()
         }
     }
 }
