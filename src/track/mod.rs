@@ -47,6 +47,7 @@ mod run_record;
 mod scoring;
 mod searcher;
 mod settings;
+mod sight;
 mod smoothed;
 mod summary;
 mod timings;

@@ -6,8 +6,9 @@ use glam::DVec3;
 use super::levers::Levers;
 use crate::body::Body;
 use crate::evaluate::{Evaluator, Objective};
-use crate::features::{Evidence, SeenView, evidence};
+use crate::features::SeenView;
 use crate::geometry::Camera;
+use crate::track::sight::{pixel, said};
 
 /// What a frame by itself says of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -157,27 +158,6 @@ impl JointProbe {
             }
         }
         if inside > 0 { seen as f32 / inside as f32 } else { 0.0 }
-    }
-}
-
-/// The pixel that a point is seen in; none outside the picture and where nothing counts.
-fn pixel(camera: &Camera, view: SeenView<'_>, point: DVec3) -> Option<usize> {
-    let at = camera.project(point)?.round();
-    let [width, height] = view.size();
-    let inside = at.x >= 0.0 && at.y >= 0.0 && at.x < f64::from(width) && at.y < f64::from(height);
-    let at = inside.then(|| at.y as usize * width as usize + at.x as usize)?;
-    (!view.ignores(at)).then_some(at)
-}
-
-/// What a pixel says of a part being there, from -1 to 1.
-fn said(view: SeenView<'_>, pixel: usize, label: u8) -> f32 {
-    match view.evidence() {
-        Some(seen) => {
-            let code = evidence::code(seen.words()[pixel], usize::from(seen.classes().of_label(label)));
-            (code as f32 - Evidence::NEUTRAL as f32) / Evidence::NEUTRAL as f32
-        }
-        None if view.is_person(pixel) => 1.0,
-        None => -1.0,
     }
 }
 

@@ -3,12 +3,20 @@
 
 use anyhow::Result;
 
+use super::glance::Glances;
 use super::scorer::{Candidate, Effort, Scorer, most_under};
+use super::window::Seen;
 use crate::body::Body;
+use crate::geometry::Camera;
 use crate::search::SearchSpace;
 
 /// Poses of a limb tried all over its limits, and generations that go on from the best of them.
 const SCATTERED: usize = 96;
+/// Poses of a limb that are looked at, and how many of them are tried, those that the pictures say most for.
+const LOOKED_AT: usize = 2048;
+const SIGHTED: usize = 48;
+/// By how much more must be said of a limb elsewhere than of where it is thought, for it to be looked for.
+const SUSPICIOUS: f32 = 0.2;
 const GENERATIONS: usize = 4;
 /// Width of that search, as a share of the limits.
 const WIDTH: f32 = 0.12;
@@ -17,12 +25,13 @@ const WIDTH: f32 = 0.12;
 #[derive(Clone, Debug)]
 pub(super) struct Limbs {
     limbs: Vec<Vec<usize>>,
+    glances: Glances,
     /// Pairs of limbs with the same joints on either side.
     pub(super) twins: Vec<[usize; 2]>,
 }
 
 impl Limbs {
-    pub(super) fn new(body: &Body, space: &SearchSpace) -> Self {
+    pub(super) fn new(body: &Body, cameras: &[Camera], space: &SearchSpace) -> Self {
         let count = space.groups().iter().max().copied().unwrap_or(0);
         let limbs: Vec<Vec<usize>> =
             (1..=count).map(|group| (0..space.dof_count()).filter(|&d| space.groups()[d] == group).collect()).collect();
@@ -37,7 +46,7 @@ impl Limbs {
                 twins.push([one, other]);
             }
         }
-        Self { limbs, twins }
+        Self { glances: Glances::new(body, cameras, &limbs), limbs, twins }
     }
 
     pub(super) fn count(&self) -> usize {
@@ -61,6 +70,17 @@ impl Limbs {
         exchanged
     }
 
+    /// The limbs of which the pictures say much more elsewhere than where a pose has them.
+    pub(super) fn suspicious(&self, scorer: &Scorer<'_>, seen: &Seen, pose: &[f32]) -> Vec<usize> {
+        let is_suspicious = |&limb: &usize| {
+            let glance = self.glances.at(scorer.shape, limb, pose, &seen.observations);
+            let looked_at = lattice(scorer.space, &self.limbs[limb], pose, 0, scorer.generations(LOOKED_AT));
+            let best = glance.best(looked_at, 1).first().map_or(-1.0, |(support, _)| *support);
+            best - glance.support(pose) > SUSPICIOUS
+        };
+        (0..self.count()).filter(is_suspicious).collect()
+    }
+
     /// A limb of a frame's pose looked for everywhere within its limits.
     ///
     /// # Errors
@@ -73,25 +93,30 @@ impl Limbs {
         pose: &[f32],
         turn: u64,
     ) -> Result<Candidate> {
-        self.with_end_anywhere(scorer, frame, limb, self.limbs[limb].len(), pose, turn)
+        self.with_end_anywhere(scorer, frame, [limb, self.limbs[limb].len()], &[], pose, turn)
     }
 
-    /// As [`Self::anywhere`], and with its end alone looked for so, beginning with the last two degrees of freedom: a lattice over few is
-    /// dense, where the limb's root is right already. The best of all.
+    /// As [`Self::anywhere`], beginning also where the pictures say most of it, and with its end alone looked for, beginning with the last
+    /// two degrees of freedom: a lattice over few is dense, where the limb's root is right already. The best of all.
     ///
     /// # Errors
     /// When the evaluator fails.
     pub(super) fn ends_inward(
         &self,
         scorer: &mut Scorer<'_>,
-        frame: usize,
+        seen: &Seen,
         limb: usize,
         pose: &[f32],
         turn: u64,
     ) -> Result<Candidate> {
-        let mut best = self.anywhere(scorer, frame, limb, pose, turn)?;
-        for count in (2..self.limbs[limb].len()).step_by(2) {
-            let found = self.with_end_anywhere(scorer, frame, limb, count, pose, turn)?;
+        let whole = &self.limbs[limb];
+        let glance = self.glances.at(scorer.shape, limb, pose, &seen.observations);
+        let looked_at = lattice(scorer.space, whole, pose, 0, scorer.generations(LOOKED_AT));
+        let sighted = glance.best(looked_at, scorer.generations(SIGHTED));
+        let sighted: Vec<Vec<f32>> = sighted.into_iter().map(|(_, row)| row).collect();
+        let mut best = self.with_end_anywhere(scorer, seen.index, [limb, whole.len()], &sighted, pose, turn)?;
+        for ends in (2..whole.len()).step_by(2) {
+            let found = self.with_end_anywhere(scorer, seen.index, [limb, ends], &[], pose, turn)?;
             if found.worth > best.worth {
                 best = found;
             }
@@ -99,39 +124,47 @@ impl Limbs {
         Ok(best)
     }
 
-    /// A limb with its last `ends` degrees of freedom tried all over their limits, and all of them searched from the best of these.
+    /// A limb with its last `ends` degrees of freedom tried all over their limits, and in other rows too; all of them searched from the
+    /// best of these.
     fn with_end_anywhere(
         &self,
         scorer: &mut Scorer<'_>,
         frame: usize,
-        limb: usize,
-        ends: usize,
+        [limb, ends]: [usize; 2],
+        others: &[Vec<f32>],
         pose: &[f32],
         turn: u64,
     ) -> Result<Candidate> {
         let whole = &self.limbs[limb];
         let moved = &whole[whole.len() - ends..];
-        let (lower, upper) = (scorer.space.lower(), scorer.space.upper());
-        // A lattice fills the limits more evenly than random numbers (Roberts 2018), shifted from frame to frame.
-        let root = plastic(moved.len());
         let count = scorer.generations(SCATTERED);
-        let rows: Vec<Vec<f32>> = (0..count)
-            .map(|at| {
-                let mut row = pose.to_vec();
-                for (dimension, &d) in moved.iter().enumerate() {
-                    let share = (0.5 + (at + 1 + frame * count) as f64 * root.powi(-(dimension as i32 + 1))).fract();
-                    row[d] = lower[d] + share as f32 * (upper[d] - lower[d]);
-                }
-                row
-            })
-            .collect();
+        // Shifted from frame to frame.
+        let mut rows = lattice(scorer.space, moved, pose, frame * count, count);
+        rows.extend_from_slice(others);
         let scattered = scorer.candidates(&rows)?;
         let best = most_under(&scattered, None);
+        let (lower, upper) = (scorer.space.lower(), scorer.space.upper());
         let spread: Vec<f32> = lower.iter().zip(upper).map(|(low, high)| WIDTH * (high - low)).collect();
         let effort = Effort { spread: &spread, generations: scorer.generations(GENERATIONS), turn };
         let found = scorer.search(frame, &scattered[best].pose, whole, effort, None)?;
         scorer.candidate(found.pose)
     }
+}
+
+/// `pose` with what is moved at the points of a lattice over its limits, from point `first` on: it fills them more evenly than random
+/// numbers (Roberts 2018).
+fn lattice(space: &SearchSpace, moved: &[usize], pose: &[f32], first: usize, count: usize) -> Vec<Vec<f32>> {
+    let (lower, upper) = (space.lower(), space.upper());
+    let root = plastic(moved.len());
+    let row = |at: usize| {
+        let mut row = pose.to_vec();
+        for (dimension, &d) in moved.iter().enumerate() {
+            let share = (0.5 + (first + at + 1) as f64 * root.powi(-(dimension as i32 + 1))).fract();
+            row[d] = lower[d] + share as f32 * (upper[d] - lower[d]);
+        }
+        row
+    };
+    (0..count).map(row).collect()
 }
 
 /// The root of x^(n + 1) = x + 1 above 1.

@@ -10,6 +10,7 @@ use super::scorer::{Candidate, Scorer, robust};
 use super::tracks::Track;
 use super::window::Seen;
 use crate::body::Body;
+use crate::geometry::Camera;
 
 /// Width of the searches, as a share of the track's changes, and of the body's steps at least and at most.
 const WIDTH: f32 = 0.5;
@@ -31,9 +32,9 @@ pub(super) struct Mending<'a> {
 }
 
 impl<'a> Mending<'a> {
-    pub(super) fn new(scorer: Scorer<'a>, body: &Body, fps: f64) -> Result<Self> {
+    pub(super) fn new(scorer: Scorer<'a>, body: &Body, cameras: &[Camera], fps: f64) -> Result<Self> {
         let steps = scorer.space.spread(1.0 / fps)?;
-        Ok(Self { limbs: Limbs::new(body, scorer.space), scorer, steps, reach: refining::reach(fps) })
+        Ok(Self { limbs: Limbs::new(body, cameras, scorer.space), scorer, steps, reach: refining::reach(fps) })
     }
 
     /// The poses of a window's frames, of which `given` were found, after those of `before`.

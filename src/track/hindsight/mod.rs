@@ -3,6 +3,7 @@
 //! close to where its neighbours expect it.
 
 mod delayed;
+mod glance;
 mod hypotheses;
 mod mending;
 mod path;
@@ -28,12 +29,15 @@ use super::journal::FrameResult;
 use super::plan::Plan;
 use crate::evaluate::{Evaluator, Objective};
 use crate::features::{Observation, SeenView};
+use crate::geometry::Camera;
 
 /// What the second pass works on.
 pub(super) struct Hindsight<'a> {
     pub(super) plan: &'a mut Plan,
     /// What asks a frame about its joints.
     pub(super) probe: &'a JointProbe,
+    /// At working size.
+    pub(super) cameras: &'a [Camera],
     pub(super) fps: f64,
     /// Every how many frames the pictures are handed on with the result; 0 for never.
     pub(super) pictures_every: usize,
@@ -58,7 +62,7 @@ impl Hindsight<'_> {
         let Plan { body, objective, backend, space, .. } = self.plan;
         let shape = Shape::new(body);
         let scorer = Scorer::new(backend.evaluator.as_mut(), objective, space, &shape, &settings);
-        let mut mending = Mending::new(scorer, body, self.fps)?;
+        let mut mending = Mending::new(scorer, body, self.cameras, self.fps)?;
         let mut windows = Windows::new(feed, appearance, self.pictures_every);
         // Poses of the window before that are not settled yet, and the last that are.
         let mut carried: Vec<Vec<f32>> = Vec::new();

@@ -21,7 +21,8 @@ pub(super) struct Shape {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Posed {
     pose: Vec<f64>,
-    bones: Vec<DAffine3>,
+    /// Where the bones are.
+    pub(super) bones: Vec<DAffine3>,
     /// The joints, mm, in the order of [`Body::joint_names`].
     pub(super) points: Vec<DVec3>,
 }

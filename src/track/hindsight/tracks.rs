@@ -14,7 +14,7 @@ const ANEW: usize = 20;
 const CONVINCING: f64 = 8.0;
 /// By how much less than the best frame of a window one is worth in which all limbs are looked for.
 const POOR: f64 = 12.0;
-/// Times that all limbs of a poor frame are looked for, and how many of those found are tried with all else moving along.
+/// Times that the limbs of a frame are looked for, and how many of those found are tried with all else moving along.
 const RESCUES: u64 = 3;
 const PROMISING: usize = 2;
 /// Where a track expects joints: deviation at rest, mm, and as a share of the way in a frame.
@@ -59,7 +59,7 @@ impl Track<'_> {
             let effort = Effort { spread: self.spread, generations, turn: self.turn(0) };
             let chosen = scorer.search_all(index, &starts[start], effort, pull.as_ref())?.pose;
             let mut chosen = scorer.candidate(chosen)?;
-            let mut others = self.mended(scorer, index, &mut chosen, most)?;
+            let mut others = self.mended(scorer, seen[t], &mut chosen, most)?;
             most = most.max(chosen.worth);
             if !self.is_back {
                 let twins = self.limbs.twins.iter();
@@ -113,18 +113,24 @@ impl Track<'_> {
         Some(Pull { targets: scorer.shape.points(&ahead), scales })
     }
 
-    /// Looks for limbs anew: another one every frame, and all where the frame is worth less than the `most` of others. What was found and
-    /// not `chosen`.
+    /// Looks for limbs anew: those of which the pictures say more elsewhere, all where the frame is worth less than the `most` of others,
+    /// and else another one every frame. What was found and not `chosen`.
     fn mended(
         &self,
         scorer: &mut Scorer<'_>,
-        index: usize,
+        seen: &Seen,
         chosen: &mut Candidate,
         most: f64,
     ) -> Result<Vec<Candidate>> {
-        if chosen.worth < most - POOR {
-            return self.rescued(scorer, index, chosen);
+        let suspicious = if chosen.worth < most - POOR {
+            (0..self.limbs.count()).collect()
+        } else {
+            self.limbs.suspicious(scorer, seen, &chosen.pose)
+        };
+        if !suspicious.is_empty() {
+            return self.rescued(scorer, seen, chosen, &suspicious);
         }
+        let index = seen.index;
         let mut others = Vec::new();
         let Some(limb) = index.checked_rem(self.limbs.count()) else { return Ok(others) };
         let mut elsewhere = self.limbs.anywhere(scorer, index, limb, &chosen.pose, self.turn(10 + limb as u64))?;
@@ -139,16 +145,23 @@ impl Track<'_> {
         Ok(others)
     }
 
-    /// Looks for all limbs of a poor frame, again and again as long as one is found. The most promising of them are tried with all else
-    /// moving along, whatever they are worth by themselves: an arm that is found explains little while the trunk still stands as it
-    /// did without it.
-    fn rescued(&self, scorer: &mut Scorer<'_>, index: usize, chosen: &mut Candidate) -> Result<Vec<Candidate>> {
+    /// Looks for `limbs`, again and again as long as one is found. The most promising of them are tried with all else moving along, whatever
+    /// they are worth by themselves: an arm that is found explains little while the trunk still stands as it did without it.
+    fn rescued(
+        &self,
+        scorer: &mut Scorer<'_>,
+        seen: &Seen,
+        chosen: &mut Candidate,
+        limbs: &[usize],
+    ) -> Result<Vec<Candidate>> {
+        let index = seen.index;
         let mut others = Vec::new();
         self.settle(scorer, index, chosen, &mut others)?;
         for attempt in 1..=RESCUES {
             let turn = |limb: usize| self.turn(100 * attempt + 10 + limb as u64);
-            let mut found = (0..self.limbs.count())
-                .map(|limb| self.limbs.ends_inward(scorer, index, limb, &chosen.pose, turn(limb)))
+            let mut found = limbs
+                .iter()
+                .map(|&limb| self.limbs.ends_inward(scorer, seen, limb, &chosen.pose, turn(limb)))
                 .collect::<Result<Vec<_>>>()?;
             found.sort_by(|a, b| b.worth.total_cmp(&a.worth));
             for (rank, promising) in found.iter().take(PROMISING).enumerate() {

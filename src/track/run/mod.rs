@@ -247,6 +247,7 @@ impl<'a> Run<'a> {
         let hindsight = Hindsight {
             plan: &mut self.plan,
             probe: &self.probe,
+            cameras: &self.sequence.cameras,
             fps: self.sequence.fps,
             pictures_every: self.settings.overlay_every,
         };
