@@ -19,6 +19,7 @@ mod first_try;
 mod fit;
 mod folder;
 mod frame_range;
+mod glance;
 mod held;
 mod held_feed;
 mod hindsight;

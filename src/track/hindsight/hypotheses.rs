@@ -3,12 +3,13 @@
 
 use anyhow::Result;
 
-use super::glance::Glances;
 use super::scorer::{Candidate, Effort, Scorer, most_under};
 use super::window::Seen;
 use crate::body::Body;
+use crate::features::SeenView;
 use crate::geometry::Camera;
 use crate::search::SearchSpace;
+use crate::track::glance::{Glances, lattice};
 
 /// Poses of a limb tried all over its limits, and generations that go on from the best of them.
 const SCATTERED: usize = 96;
@@ -32,9 +33,8 @@ pub(super) struct Limbs {
 
 impl Limbs {
     pub(super) fn new(body: &Body, cameras: &[Camera], space: &SearchSpace) -> Self {
-        let count = space.groups().iter().max().copied().unwrap_or(0);
-        let limbs: Vec<Vec<usize>> =
-            (1..=count).map(|group| (0..space.dof_count()).filter(|&d| space.groups()[d] == group).collect()).collect();
+        let glances = Glances::new(body, cameras, space);
+        let limbs: Vec<Vec<usize>> = glances.limbs().map(<[usize]>::to_vec).collect();
         let names = body.dof_names();
         let side = |limb: &[usize], side: &str| -> Option<Vec<String>> {
             limb.iter().map(|&d| names[d].strip_prefix(side).map(str::to_string)).collect()
@@ -46,7 +46,7 @@ impl Limbs {
                 twins.push([one, other]);
             }
         }
-        Self { glances: Glances::new(body, cameras, &limbs), limbs, twins }
+        Self { limbs, glances, twins }
     }
 
     pub(super) fn count(&self) -> usize {
@@ -71,14 +71,19 @@ impl Limbs {
     }
 
     /// The limbs of which the pictures say much more elsewhere than where a pose has them.
-    pub(super) fn suspicious(&self, scorer: &Scorer<'_>, seen: &Seen, pose: &[f32]) -> Vec<usize> {
-        let is_suspicious = |&limb: &usize| {
-            let glance = self.glances.at(scorer.shape, limb, pose, &seen.observations);
-            let looked_at = lattice(scorer.space, &self.limbs[limb], pose, 0, scorer.generations(LOOKED_AT));
-            let best = glance.best(looked_at, 1).first().map_or(-1.0, |(support, _)| *support);
-            best - glance.support(pose) > SUSPICIOUS
-        };
-        (0..self.count()).filter(is_suspicious).collect()
+    ///
+    /// # Errors
+    /// When the pose does not fit the body.
+    pub(super) fn suspicious(&self, scorer: &Scorer<'_>, seen: &Seen, pose: &[f32]) -> Result<Vec<usize>> {
+        let views = SeenView::all(&seen.observations);
+        let mut suspicious = Vec::new();
+        for limb in 0..self.count() {
+            let more = self.glances.at(limb, pose, &views)?.elsewhere(scorer.generations(LOOKED_AT));
+            if more > SUSPICIOUS {
+                suspicious.push(limb);
+            }
+        }
+        Ok(suspicious)
     }
 
     /// A limb of a frame's pose looked for everywhere within its limits.
@@ -110,9 +115,9 @@ impl Limbs {
         turn: u64,
     ) -> Result<Candidate> {
         let whole = &self.limbs[limb];
-        let glance = self.glances.at(scorer.shape, limb, pose, &seen.observations);
-        let looked_at = lattice(scorer.space, whole, pose, 0, scorer.generations(LOOKED_AT));
-        let sighted = glance.best(looked_at, scorer.generations(SIGHTED));
+        let views = SeenView::all(&seen.observations);
+        let glance = self.glances.at(limb, pose, &views)?;
+        let sighted = glance.best(scorer.generations(LOOKED_AT), scorer.generations(SIGHTED));
         let sighted: Vec<Vec<f32>> = sighted.into_iter().map(|(_, row)| row).collect();
         let mut best = self.with_end_anywhere(scorer, seen.index, [limb, whole.len()], &sighted, pose, turn)?;
         for ends in (2..whole.len()).step_by(2) {
@@ -149,26 +154,4 @@ impl Limbs {
         let found = scorer.search(frame, &scattered[best].pose, whole, effort, None)?;
         scorer.candidate(found.pose)
     }
-}
-
-/// `pose` with what is moved at the points of a lattice over its limits, from point `first` on: it fills them more evenly than random
-/// numbers (Roberts 2018).
-fn lattice(space: &SearchSpace, moved: &[usize], pose: &[f32], first: usize, count: usize) -> Vec<Vec<f32>> {
-    let (lower, upper) = (space.lower(), space.upper());
-    let root = plastic(moved.len());
-    let row = |at: usize| {
-        let mut row = pose.to_vec();
-        for (dimension, &d) in moved.iter().enumerate() {
-            let share = (0.5 + (first + at + 1) as f64 * root.powi(-(dimension as i32 + 1))).fract();
-            row[d] = lower[d] + share as f32 * (upper[d] - lower[d]);
-        }
-        row
-    };
-    (0..count).map(row).collect()
-}
-
-/// The root of x^(n + 1) = x + 1 above 1.
-fn plastic(dimensions: usize) -> f64 {
-    let power = 1.0 / (dimensions as f64 + 1.0);
-    (0..40).fold(1.5_f64, |x, _| (1.0 + x).powf(power))
 }

@@ -3,7 +3,6 @@
 //! close to where its neighbours expect it.
 
 mod delayed;
-mod glance;
 mod hypotheses;
 mod mending;
 mod path;

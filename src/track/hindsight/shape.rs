@@ -21,8 +21,7 @@ pub(super) struct Shape {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Posed {
     pose: Vec<f64>,
-    /// Where the bones are.
-    pub(super) bones: Vec<DAffine3>,
+    bones: Vec<DAffine3>,
     /// The joints, mm, in the order of [`Body::joint_names`].
     pub(super) points: Vec<DVec3>,
 }

@@ -205,7 +205,7 @@ fn a_limb_that_shows_elsewhere_is_suspicious() {
     let arm = (0..limbs.count()).find(|&limb| limbs.with(limb, &still, &marked) == marked).unwrap();
     reach.with_scorer(|scorer| {
         for (seen, (right, wrong)) in reach.seen.iter().zip(reach.truth.iter().zip(&hidden)) {
-            let [right, wrong] = [right, wrong].map(|pose| limbs.suspicious(&scorer, seen, pose));
+            let [right, wrong] = [right, wrong].map(|pose| limbs.suspicious(&scorer, seen, pose).unwrap());
             assert!(!right.contains(&arm) && wrong.contains(&arm), "frame {}: {right:?}, {wrong:?}", seen.index);
         }
     });

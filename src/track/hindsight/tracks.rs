@@ -125,7 +125,7 @@ impl Track<'_> {
         let suspicious = if chosen.worth < most - POOR {
             (0..self.limbs.count()).collect()
         } else {
-            self.limbs.suspicious(scorer, seen, &chosen.pose)
+            self.limbs.suspicious(scorer, seen, &chosen.pose)?
         };
         if !suspicious.is_empty() {
             return self.rescued(scorer, seen, chosen, &suspicious);

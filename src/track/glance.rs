@@ -1,0 +1,190 @@
+//! Looking for limbs: what the pictures say of them along their axes, without drawing them. Cheap enough for thousands of poses of a limb,
+//! where a few dozen leave nothing near in the six degrees of freedom of an arm (METHOD A14).
+
+use anyhow::Result;
+use glam::DAffine3;
+use rayon::prelude::*;
+
+use super::sight::{pixel, said};
+use crate::body::Body;
+use crate::evaluate::Reference;
+use crate::features::SeenView;
+use crate::geometry::Camera;
+use crate::search::SearchSpace;
+
+/// Places along the axis of a part that are looked at.
+const PLACES: usize = 4;
+/// By how many pixels of a view one of the pictures of the rest of the body is wide.
+const COARSE: u32 = 4;
+/// Poses of a limb that are looked at to learn whether it could be elsewhere.
+const FEW: usize = 128;
+
+/// A body's limbs, for looking at where they might be.
+#[derive(Clone, Debug)]
+pub(super) struct Glances {
+    body: Body,
+    space: SearchSpace,
+    cameras: Vec<Camera>,
+    limbs: Vec<Limb>,
+}
+
+/// A limb: its degrees of freedom, root to end; its bones, parents first, each with the place of its values in a pose; its parts; and the
+/// body without them.
+#[derive(Clone, Debug)]
+struct Limb {
+    dofs: Vec<usize>,
+    bones: Vec<(usize, usize)>,
+    parts: Vec<usize>,
+    rest: Reference,
+}
+
+impl Glances {
+    /// Of the limbs of a body, seen by cameras at working size.
+    pub(super) fn new(body: &Body, cameras: &[Camera], space: &SearchSpace) -> Self {
+        let coarse = |camera: &Camera| camera.scaled(camera.size.map(|side| side.div_ceil(COARSE)));
+        let coarse: Vec<Camera> = cameras.iter().map(coarse).collect();
+        let of_dofs: Vec<usize> = body.dofs().map(|(bone, _)| bone).collect();
+        let first = |bone: usize| body.bones[..bone].iter().map(|bone| bone.dofs.len()).sum::<usize>();
+        let limb = |group: usize| {
+            let dofs: Vec<usize> = (0..space.dof_count()).filter(|&dof| space.groups()[dof] == group).collect();
+            let mut is_moved = vec![false; body.bones.len()];
+            for &bone in &body.update_order {
+                let follows = body.bones[bone].parent.is_some_and(|parent| is_moved[parent]);
+                is_moved[bone] = follows || dofs.iter().any(|&dof| of_dofs[dof] == bone);
+            }
+            let moved = body.update_order.iter().filter(|&&bone| is_moved[bone]);
+            let (parts, others): (Vec<usize>, Vec<usize>) =
+                (0..body.parts.len()).partition(|&part| is_moved[body.parts[part].bone]);
+            let mut rest = body.clone();
+            rest.parts = others.into_iter().map(|part| body.parts[part].clone()).collect();
+            let bones = moved.map(|&bone| (bone, first(bone))).collect();
+            Limb { dofs, bones, parts, rest: Reference::new(&rest, &coarse) }
+        };
+        let count = space.groups().iter().max().copied().unwrap_or(0);
+        Self {
+            limbs: (1..=count).map(limb).collect(),
+            body: body.clone(),
+            space: space.clone(),
+            cameras: cameras.to_vec(),
+        }
+    }
+
+    /// The degrees of freedom of each limb, root to end.
+    pub(super) fn limbs(&self) -> impl Iterator<Item = &[usize]> {
+        self.limbs.iter().map(|limb| &*limb.dofs)
+    }
+
+    /// Looks at a frame for a limb of a pose.
+    ///
+    /// # Errors
+    /// When the pose does not fit the body.
+    pub(super) fn at<'a>(&'a self, limb: usize, pose: &[f32], views: &'a [SeenView<'a>]) -> Result<Glance<'a>> {
+        let limb = &self.limbs[limb];
+        let values: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
+        let bones = self.body.world_from_bones(&values)?;
+        let covered = (0..self.cameras.len()).map(|view| limb.rest.draw(pose, view).bytes).collect();
+        Ok(Glance { glances: self, limb, pose: pose.to_vec(), bones, views, covered })
+    }
+
+    /// By how much more the pictures say of each bone's limb elsewhere than where it is in a pose, 0 to 2; 0 of bones that are no limb's.
+    ///
+    /// # Errors
+    /// As [`Self::at`].
+    pub(super) fn elsewhere(&self, pose: &[f32], views: &[SeenView<'_>]) -> Result<Vec<f32>> {
+        let of_limb = |limb| Ok(self.at(limb, pose, views)?.elsewhere(FEW));
+        let more = (0..self.limbs.len()).into_par_iter().map(of_limb).collect::<Result<Vec<f32>>>()?;
+        let mut of_bones = vec![0.0; self.body.bones.len()];
+        for (limb, more) in self.limbs.iter().zip(more) {
+            limb.bones.iter().for_each(|(bone, _)| of_bones[*bone] = more);
+        }
+        Ok(of_bones)
+    }
+}
+
+/// What a frame says of a limb, with the rest of the body where it is.
+pub(super) struct Glance<'a> {
+    glances: &'a Glances,
+    limb: &'a Limb,
+    pose: Vec<f32>,
+    /// Where its bones are.
+    bones: Vec<DAffine3>,
+    views: &'a [SeenView<'a>],
+    /// Of each view, coarsely, which pixels the rest of the body covers: not 0.
+    covered: Vec<Vec<u8>>,
+}
+
+impl Glance<'_> {
+    /// What is said of the limb as `row` has it: the mean over places along its axes and views, from -1 to 1, and nothing where the rest of
+    /// the body is anyway. `bones` is memory that is used again.
+    fn support(&self, row: &[f32], bones: &mut Vec<DAffine3>) -> f32 {
+        let Glances { body, cameras, .. } = self.glances;
+        bones.clone_from(&self.bones);
+        for &(bone, first) in &self.limb.bones {
+            let posed = &body.bones[bone];
+            let mut values = [0.0; 6];
+            for (value, given) in values.iter_mut().zip(row.iter().skip(first).take(posed.dofs.len())) {
+                *value = f64::from(*given);
+            }
+            let moved = posed.parent_from_bone(&values);
+            bones[bone] = posed.parent.map_or(moved, |parent| bones[parent] * moved);
+        }
+        let (mut sum, mut count) = (0.0, 0);
+        for part in self.limb.parts.iter().map(|&part| &body.parts[part]) {
+            let [a, b] = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
+            for place in 0..PLACES {
+                let at = a.lerp(b, (place as f64 + 0.5) / PLACES as f64);
+                for ((camera, view), covered) in cameras.iter().zip(self.views).zip(&self.covered) {
+                    if let Some(pixel) = pixel(camera, *view, at) {
+                        count += 1;
+                        let width = camera.size[0] as usize;
+                        let [x, y] = [pixel % width, pixel / width].map(|at| at / COARSE as usize);
+                        if covered[y * width.div_ceil(COARSE as usize) + x] == 0 {
+                            sum += said(*view, pixel, part.label);
+                        }
+                    }
+                }
+            }
+        }
+        if count > 0 { sum / count as f32 } else { 0.0 }
+    }
+
+    /// The `most` poses of the limb of which most is said, and what, in falling order, of `count` on a lattice over its limits; of equals the
+    /// first.
+    pub(super) fn best(&self, count: usize, most: usize) -> Vec<(f32, Vec<f32>)> {
+        let rows = lattice(&self.glances.space, &self.limb.dofs, &self.pose, 0, count);
+        let supports: Vec<f32> =
+            rows.par_iter().with_min_len(64).map_init(Vec::new, |bones, row| self.support(row, bones)).collect();
+        let mut ranked: Vec<(f32, Vec<f32>)> = supports.into_iter().zip(rows).collect();
+        ranked.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        ranked.truncate(most);
+        ranked
+    }
+
+    /// By how much more is said of the limb in the best of `count` poses elsewhere than where it is, 0 to 2.
+    pub(super) fn elsewhere(&self, count: usize) -> f32 {
+        let best = self.best(count, 1).first().map_or(-1.0, |(support, _)| *support);
+        (best - self.support(&self.pose, &mut Vec::new())).max(0.0)
+    }
+}
+
+/// `pose` with what is moved at the points of a lattice over its limits, from point `first` on: it fills them more evenly than random
+/// numbers (Roberts 2018).
+pub(super) fn lattice(space: &SearchSpace, moved: &[usize], pose: &[f32], first: usize, count: usize) -> Vec<Vec<f32>> {
+    let (lower, upper) = (space.lower(), space.upper());
+    let root = plastic(moved.len());
+    let row = |at: usize| {
+        let mut row = pose.to_vec();
+        for (dimension, &d) in moved.iter().enumerate() {
+            let share = (0.5 + (first + at + 1) as f64 * root.powi(-(dimension as i32 + 1))).fract();
+            row[d] = lower[d] + share as f32 * (upper[d] - lower[d]);
+        }
+        row
+    };
+    (0..count).map(row).collect()
+}
+
+/// The root of x^(n + 1) = x + 1 above 1.
+fn plastic(dimensions: usize) -> f64 {
+    let power = 1.0 / (dimensions as f64 + 1.0);
+    (0..40).fold(1.5_f64, |x, _| (1.0 + x).powf(power))
+}
