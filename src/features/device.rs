@@ -1,9 +1,14 @@
 //! From pictures to packed observations on a Vulkan device: all views of a frame in one submission.
 
 mod bounds;
+mod cleaning;
 mod components;
 mod edges;
 mod foreground;
+mod light_input;
+mod likely;
+#[cfg(test)]
+mod likely_tests;
 mod morphology;
 mod passes;
 mod readback;
@@ -13,16 +18,19 @@ mod tests;
 mod twin_tests;
 mod view;
 
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use image::{GrayImage, RgbImage};
 
+use self::likely::LikelyView;
 use self::passes::{record_frame, record_priming};
 use self::readback::{FeaturesOut, SilhouetteOut, held_views};
-use self::view::{DeviceView, Input};
-use super::held::{HeldFrame, HeldView, Lease};
+use self::view::{Brings, DeviceView, Input};
+use super::held::{HeldFrame, HeldLook, HeldView, Lease};
+use super::likelihood::{BackgroundColours, LightTables};
 use super::shaders::layout::Rates;
 use super::{BitImage, FeatureSettings, ViewFeatures};
 use crate::gpu::{Buffer, Device, Memory, PassTiming, Recorder, Recording, Timing};
@@ -35,6 +43,8 @@ pub(super) struct DeviceChain {
     /// The 7-bit value of every code of a distance map.
     proximity: Buffer,
     views: Vec<DeviceView>,
+    /// What likelihoods are made by in frames that stay; none where they are not made there.
+    likely: Vec<LikelyView>,
     timing: Timing,
     /// Frames that go to the host whole.
     frames: Slot<FeaturesOut>,
@@ -53,17 +63,27 @@ struct Slot<Out> {
     inputs: Vec<Input>,
     packed: Vec<HeldView>,
     out: Vec<Out>,
-    /// The recording of a frame, and which views it expects masks for.
-    recorded: Option<(Vec<bool>, Recording)>,
+    /// The recording of a frame, and what it expects views to bring.
+    recorded: Option<(Vec<Brings>, Recording)>,
+    /// What differs between the views of its frame, where likelihoods are made.
+    looks: Vec<HeldLook>,
+    ignored: Vec<Option<Arc<BitImage>>>,
 }
 
 impl<Out> Slot<Out> {
-    fn new(device: &Device, views: &[DeviceView], out: impl Fn(&Device, &DeviceView) -> Result<Out>) -> Result<Self> {
+    fn new(
+        device: &Device,
+        views: &[DeviceView],
+        motion: Option<u32>,
+        out: impl Fn(&Device, &DeviceView) -> Result<Out>,
+    ) -> Result<Self> {
         Ok(Self {
             inputs: views.iter().map(|view| Input::new(device, view)).collect::<Result<_>>()?,
-            packed: held_views(device, views)?,
+            packed: held_views(device, views, motion)?,
             out: views.iter().map(|view| out(device, view)).collect::<Result<_>>()?,
             recorded: None,
+            looks: Vec::new(),
+            ignored: vec![None; views.len()],
         })
     }
 }
@@ -82,8 +102,15 @@ struct Held {
 }
 
 impl Held {
-    fn new(device: &Device, views: &[DeviceView]) -> Result<Self> {
-        let slot = || Slot::new(device, views, SilhouetteOut::new);
+    fn new(device: &Device, views: &[DeviceView], likely: &[LikelyView], motion: u32) -> Result<Self> {
+        let slot = || -> Result<_> {
+            let motion = (!likely.is_empty()).then_some(motion);
+            let mut slot = Slot::new(device, views, motion, SilhouetteOut::new)?;
+            for (input, view) in slot.inputs.iter_mut().zip(likely) {
+                input.light = view.input(device)?;
+            }
+            Ok(slot)
+        };
         let (given_back, free) = channel();
         (0..2).try_for_each(|place| given_back.send(place))?;
         Ok(Self { slots: [slot()?, slot()?], free, given_back, reserved: None, begun: None })
@@ -112,7 +139,8 @@ impl DeviceChain {
             device: device.clone(),
             settings: settings.clone(),
             proximity: table,
-            frames: Slot::new(device, &views, FeaturesOut::new)?,
+            frames: Slot::new(device, &views, None, FeaturesOut::new)?,
+            likely: Vec::new(),
             held: None,
             views,
             timing: Timing::Off,
@@ -121,26 +149,29 @@ impl DeviceChain {
             room: Default::default(),
         };
         // Compiles every stage, for a first frame in time.
-        chain.record(&vec![false; chain.views.len()])?;
+        chain.record(&vec![Brings::default(); chain.views.len()])?;
         Ok(chain)
     }
 
-    /// Has room for frames that stay on the device from now on.
+    /// Has room for frames that stay on the device from now on, and makes their likelihoods where views of that are `known`, one each: the
+    /// background's colours where there is a plate.
     ///
     /// # Errors
     /// When it has no memory for them.
-    pub(super) fn hold(&mut self) -> Result<()> {
-        self.held = Some(Held::new(&self.device, &self.views)?);
+    pub(super) fn hold(&mut self, known: &[Option<&BackgroundColours>]) -> Result<()> {
+        self.likely = known.iter().map(|colours| LikelyView::new(&self.device, *colours)).collect::<Result<_>>()?;
+        let motion = self.settings.silhouette.motion;
+        self.held = Some(Held::new(&self.device, &self.views, &self.likely, motion)?);
         Ok(())
     }
 
-    /// Records a frame in which these views have masks, where that is not what is recorded.
-    fn record(&mut self, masked: &[bool]) -> Result<()> {
+    /// Records a frame in which views bring this, where that is not what is recorded.
+    fn record(&mut self, brings: &[Brings]) -> Result<()> {
         let Self { device, views, timing, settings, proximity, frames, .. } = self;
-        record_slot(frames, masked, (device, *timing), |recorder, Slot { inputs, packed, out, .. }| {
-            record_frame(recorder, views, (inputs, masked), settings, proximity, packed)?;
-            let mut all = views.iter().zip(out).zip(packed).zip(masked);
-            all.try_for_each(|(((view, out), packed), masked)| out.record(recorder, view, packed, *masked))
+        record_slot(frames, brings, (device, *timing), |recorder, Slot { inputs, packed, out, .. }| {
+            record_frame(recorder, (views, &[]), (inputs, brings), settings, proximity, packed)?;
+            let mut all = views.iter().zip(out).zip(packed).zip(brings);
+            all.try_for_each(|(((view, out), packed), brings)| out.record(recorder, view, packed, brings.mask))
         })
     }
 
@@ -200,7 +231,8 @@ impl DeviceChain {
             }
         }
         fill(&self.frames.inputs, &self.views, pictures, masks, (&self.settings, &mut self.seen))?;
-        self.record(&masks.iter().map(Option::is_some).collect::<Vec<_>>())?;
+        let brings = |mask: &Option<GrayImage>| Brings { mask: mask.is_some(), ignored: false };
+        self.record(&masks.iter().map(brings).collect::<Vec<_>>())?;
         let Self { views, settings, frames: Slot { recorded, out, .. }, room: (codes, rows), .. } = self;
         recorded.as_mut().map_or(Ok(()), |(_, recording)| recording.run())?;
         let mut all = views.iter().zip(out).zip(masks).zip(features);
@@ -222,13 +254,20 @@ impl DeviceChain {
         Ok(())
     }
 
-    /// Begins with a frame in the memory that is reserved for it, and returns while the device is at work: one submission.
+    /// Begins with a frame in the memory that is reserved for it, and returns while the device is at work: one submission. Pixels that are
+    /// `ignored` count neither for nor against anybody; `lights` are those of the pictures, where likelihoods are made.
     ///
     /// # Errors
     /// When [`Self::hold`] was not asked for, the frame before was not taken, or the device fails.
-    pub(super) fn begin(&mut self, pictures: &[RgbImage], masks: &[Option<GrayImage>]) -> Result<()> {
+    pub(super) fn begin(
+        &mut self,
+        pictures: &[RgbImage],
+        masks: &[Option<GrayImage>],
+        ignored: &[Option<Arc<BitImage>>],
+        lights: &[Option<LightTables>],
+    ) -> Result<()> {
         self.reserve()?;
-        let Self { device, views, timing, settings, proximity, held, seen, .. } = self;
+        let Self { device, views, likely, timing, settings, proximity, held, seen, .. } = self;
         let Some(Held { slots, reserved, begun, .. }) = held else { return Err(not_held()) };
         if begun.is_some() {
             bail!("a frame was begun before the one before it was taken from the device");
@@ -236,9 +275,26 @@ impl DeviceChain {
         let Some(lease) = reserved.take() else { return Err(not_held()) };
         let slot = &mut slots[lease.place];
         fill(&slot.inputs, views, pictures, masks, (settings, seen))?;
-        let masked: Vec<bool> = masks.iter().map(Option::is_some).collect();
-        record_slot(slot, &masked, (device, *timing), |recorder, Slot { inputs, packed, out, .. }| {
-            record_frame(recorder, views, (inputs, &masked), settings, proximity, packed)?;
+        for (input, ignored) in slot.inputs.iter().zip(ignored) {
+            ignored.as_ref().map_or(Ok(()), |ignored| input.ignored.write(0, ignored.words()))?;
+        }
+        for (input, light) in slot.inputs.iter_mut().zip(lights) {
+            let (Some(input), Some(light)) = (&mut input.light, light) else { continue };
+            input.take(light)?;
+        }
+        let look = |(mask, light): (&Option<GrayImage>, &Option<LightTables>)| HeldLook {
+            is_masked: mask.is_some(),
+            is_grey: light.as_ref().is_some_and(|light| light.is_grey),
+        };
+        slot.looks = masks.iter().zip(lights).map(look).collect();
+        slot.ignored = ignored.to_vec();
+        let brings = |(mask, ignored): (&Option<GrayImage>, &Option<Arc<BitImage>>)| Brings {
+            mask: mask.is_some(),
+            ignored: ignored.is_some(),
+        };
+        let brings: Vec<Brings> = masks.iter().zip(ignored).map(brings).collect();
+        record_slot(slot, &brings, (device, *timing), |recorder, Slot { inputs, packed, out, .. }| {
+            record_frame(recorder, (views, likely), (inputs, &brings), settings, proximity, packed)?;
             views.iter().zip(out).try_for_each(|(view, out)| out.record(recorder, view))
         })?;
         slot.recorded.as_mut().map_or(Ok(()), |(_, recording)| recording.submit())?;
@@ -253,7 +309,7 @@ impl DeviceChain {
     pub(super) fn finish(&mut self) -> Result<HeldFrame> {
         let Some(Held { slots, begun, .. }) = &mut self.held else { return Err(not_held()) };
         let Some(lease) = begun.take() else { bail!("no frame was begun on the device") };
-        let Slot { packed, out, recorded, .. } = &slots[lease.place];
+        let Slot { packed, out, recorded, looks, ignored, .. } = &slots[lease.place];
         let mut passes = Vec::new();
         if let Some((_, recording)) = recorded {
             recording.wait()?;
@@ -262,7 +318,15 @@ impl DeviceChain {
         self.device.validation_log().check()?;
         let silhouettes =
             self.views.iter().zip(out).map(|(view, out)| out.read(view)).collect::<Result<Vec<BitImage>>>()?;
-        Ok(HeldFrame { views: packed.clone(), silhouettes, passes, lease })
+        Ok(HeldFrame {
+            views: packed.clone(),
+            silhouettes,
+            ignored: ignored.clone(),
+            looks: looks.clone(),
+            colours: None,
+            passes,
+            lease,
+        })
     }
 }
 
@@ -273,16 +337,16 @@ fn not_held() -> anyhow::Error {
 /// Records a frame in a slot, unless that is what is recorded there.
 fn record_slot<Out>(
     slot: &mut Slot<Out>,
-    masked: &[bool],
+    brings: &[Brings],
     (device, timing): (&Device, Timing),
     record: impl FnOnce(&mut Recorder, &Slot<Out>) -> Result<()>,
 ) -> Result<()> {
-    if slot.recorded.as_ref().is_some_and(|(recorded, _)| recorded == masked) {
+    if slot.recorded.as_ref().is_some_and(|(recorded, _)| recorded == brings) {
         return Ok(());
     }
     let mut recorder = device.recorder(timing)?;
     record(&mut recorder, slot)?;
-    slot.recorded = Some((masked.to_vec(), recorder.finish()?));
+    slot.recorded = Some((brings.to_vec(), recorder.finish()?));
     Ok(())
 }
 

@@ -6,7 +6,7 @@ use super::{Backend, FeaturesOn, TrackSettings};
 use crate::evaluate::Evaluator;
 use crate::features::FeatureSettings;
 use crate::gpu::{Device, DeviceKind};
-use crate::sequence::Sequence;
+use crate::sequence::{Sequence, View};
 
 /// Who makes them, and what the user should know about that.
 pub(super) struct FeaturesMade {
@@ -79,8 +79,8 @@ fn held_back(sequence: &Sequence, settings: &TrackSettings, features: &FeatureSe
     if settings.realtime.is_some() {
         return Some("a run in real time makes those of each view by itself");
     }
-    if sequence.views.iter().any(|view| view.ignored.is_some()) {
-        return Some("pixels are ignored");
+    if features.needs_likelihoods() && sequence.views.iter().any(View::learns_background) {
+        return Some("how likely each pixel is as background hangs on a background that is learnt on the way");
     }
     features.kept_from_device()
 }

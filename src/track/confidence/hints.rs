@@ -77,7 +77,7 @@ impl JointProbe {
             return Ok(vec![JointHints::default(); self.bones.len()]);
         };
         let looseness = self.looseness(evaluator, objective, pose, &levers)?;
-        let support = self.support(views, &levers.bones);
+        let support = self.support(evaluator, objective, views, &levers.bones)?;
         let hints = levers.joints.iter().zip(looseness).zip(support);
         Ok(hints
             .map(|((&joint, looseness), support)| JointHints { seen: self.seen(views, joint), looseness, support })
@@ -129,23 +129,50 @@ impl JointProbe {
     }
 
     /// What the pictures say of the limbs that meet in each joint.
-    fn support(&self, views: &[SeenView<'_>], bones: &[glam::DAffine3]) -> Vec<f32> {
+    fn support(
+        &self,
+        evaluator: &mut dyn Evaluator,
+        objective: &Objective,
+        views: &[SeenView<'_>],
+        bones: &[glam::DAffine3],
+    ) -> Result<Vec<f32>> {
         let mut sums = vec![[0.0, 0.0]; self.body.bones.len()];
+        let places = self.places(views, bones);
+        let said = if objective.weighs_evidence() && views.iter().any(|view| view.evidence().is_none()) {
+            // The evaluator's device made it.
+            let pixels: Vec<[usize; 2]> = places.iter().map(|place| [place.view, place.pixel]).collect();
+            let words = evaluator.evidence_at(&pixels)?;
+            let classes = evaluator.evidence_classes();
+            let class = |label: u8| classes.map_or(0, |classes| usize::from(classes.of_label(label)));
+            let pairs = words.into_iter().zip(&places);
+            pairs.map(|(word, place)| said_by(evidence::code(word, class(place.label)))).collect()
+        } else {
+            places.iter().map(|place| said(views[place.view], place.pixel, place.label)).collect::<Vec<f32>>()
+        };
+        for (place, said) in places.iter().zip(said) {
+            let sum = &mut sums[place.bone];
+            *sum = [sum[0] + said, sum[1] + 1.0];
+        }
+        let of_bone = |bone: &usize| if sums[*bone][1] > 0.0 { sums[*bone][0] / sums[*bone][1] } else { 0.0 };
+        let worse = |bones: &Vec<usize>| bones.iter().map(of_bone).reduce(f32::min).unwrap_or(0.0);
+        Ok(self.bones.iter().map(worse).collect())
+    }
+
+    /// Where the views show the axes of the body's parts.
+    fn places(&self, views: &[SeenView<'_>], bones: &[glam::DAffine3]) -> Vec<Place> {
+        let mut places = Vec::new();
         for part in &self.body.parts {
             let [a, b] = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
-            for place in 0..PLACES {
-                let at = a.lerp(b, (place as f64 + 0.5) / PLACES as f64);
-                for (camera, view) in self.cameras.iter().zip(views) {
-                    if let Some(pixel) = pixel(camera, *view, at) {
-                        let sum = &mut sums[part.bone];
-                        *sum = [sum[0] + said(*view, pixel, part.label), sum[1] + 1.0];
+            for nth in 0..PLACES {
+                let at = a.lerp(b, (nth as f64 + 0.5) / PLACES as f64);
+                for (view, (camera, seen)) in self.cameras.iter().zip(views).enumerate() {
+                    if let Some(pixel) = pixel(camera, *seen, at) {
+                        places.push(Place { view, pixel, bone: part.bone, label: part.label });
                     }
                 }
             }
         }
-        let of_bone = |bone: &usize| if sums[*bone][1] > 0.0 { sums[*bone][0] / sums[*bone][1] } else { 0.0 };
-        let worse = |bones: &Vec<usize>| bones.iter().map(of_bone).reduce(f32::min).unwrap_or(0.0);
-        self.bones.iter().map(worse).collect()
+        places
     }
 
     fn seen(&self, views: &[SeenView<'_>], joint: DVec3) -> f32 {
@@ -172,13 +199,24 @@ fn pixel(camera: &Camera, view: SeenView<'_>, point: DVec3) -> Option<usize> {
 /// What a pixel says of a part being there, from -1 to 1.
 fn said(view: SeenView<'_>, pixel: usize, label: u8) -> f32 {
     match view.evidence() {
-        Some(seen) => {
-            let code = evidence::code(seen.words()[pixel], usize::from(seen.classes().of_label(label)));
-            (code as f32 - Evidence::NEUTRAL as f32) / Evidence::NEUTRAL as f32
-        }
+        Some(seen) => said_by(evidence::code(seen.words()[pixel], usize::from(seen.classes().of_label(label)))),
         None if view.is_person(pixel) => 1.0,
         None => -1.0,
     }
+}
+
+/// The same by the code of its class.
+fn said_by(code: u32) -> f32 {
+    (code as f32 - Evidence::NEUTRAL as f32) / Evidence::NEUTRAL as f32
+}
+
+/// Where a view shows a place on the axis of a part.
+struct Place {
+    view: usize,
+    /// In the picture's rows.
+    pixel: usize,
+    bone: usize,
+    label: u8,
 }
 
 #[cfg(test)]
