@@ -1236,10 +1236,10 @@ pub mod probable_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "features/probable.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<1304, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<1328, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/features/probable.comp.spv"))),
         workgroup_size: [64, 1, 1],
-        push_size: 12,
+        push_size: 16,
         bindings: &[
             crate::gpu::BindingLayout { name: "State", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "Background", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
@@ -1816,7 +1816,7 @@ pub mod layout {
     const _: () = assert!(std::mem::offset_of!(Picture, limit) == 12);
     const _: () = assert!(std::mem::offset_of!(Picture, amount) == 16);
     const _: () = assert!(std::mem::offset_of!(Picture, low) == 20);
-    /// `Probable` in memory, 12 bytes.
+    /// `Probable` in memory, 16 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
     pub struct Probable {
@@ -1826,11 +1826,14 @@ pub mod layout {
         pub rows: u32,
         /// `first_row` at byte 8.
         pub first_row: u32,
+        /// `every` at byte 12.
+        pub every: u32,
     }
-    const _: () = assert!(size_of::<Probable>() == 12);
+    const _: () = assert!(size_of::<Probable>() == 16);
     const _: () = assert!(std::mem::offset_of!(Probable, width) == 0);
     const _: () = assert!(std::mem::offset_of!(Probable, rows) == 4);
     const _: () = assert!(std::mem::offset_of!(Probable, first_row) == 8);
+    const _: () = assert!(std::mem::offset_of!(Probable, every) == 12);
     /// `Rates` in memory, 8 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

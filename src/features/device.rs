@@ -25,12 +25,13 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use image::{GrayImage, RgbImage};
 
+use self::light_input::LightInput;
 use self::likely::LikelyView;
-use self::passes::{record_frame, record_priming};
+use self::passes::{record_frame, record_learning, record_priming};
 use self::readback::{FeaturesOut, SilhouetteOut, held_views};
 use self::view::{Brings, DeviceView, Input};
 use super::held::{HeldFrame, HeldLook, HeldView, Lease};
-use super::likelihood::{BackgroundColours, LightTables};
+use super::likelihood::{BackgroundColours, Lit};
 use super::shaders::layout::Rates;
 use super::{BitImage, FeatureSettings, ViewFeatures};
 use crate::gpu::{Buffer, Device, Memory, PassTiming, Recorder, Recording, Timing};
@@ -65,6 +66,8 @@ struct Slot<Out> {
     out: Vec<Out>,
     /// The recording of a frame, and what it expects views to bring.
     recorded: Option<(Vec<Brings>, Recording)>,
+    /// What goes ahead of it where likelihoods are of backgrounds that are learnt; none where none is.
+    learning: Option<(Vec<Brings>, Option<Recording>)>,
     /// What differs between the views of its frame, where likelihoods are made.
     looks: Vec<HeldLook>,
     ignored: Vec<Option<Arc<BitImage>>>,
@@ -82,9 +85,36 @@ impl<Out> Slot<Out> {
             packed: held_views(device, views, motion)?,
             out: views.iter().map(|view| out(device, view)).collect::<Result<_>>()?,
             recorded: None,
+            learning: None,
             looks: Vec::new(),
             ignored: vec![None; views.len()],
         })
+    }
+}
+
+impl<Out> Slot<Out> {
+    /// Has mixtures make their step where likelihoods need what they know; that is told, of views that learn.
+    fn learn(
+        &mut self,
+        device: &Device,
+        (views, likely): (&[DeviceView], &[LikelyView]),
+        brings: &[Brings],
+        settings: &FeatureSettings,
+    ) -> Result<Vec<Option<RgbImage>>> {
+        if self.learning.as_ref().is_none_or(|(recorded, _)| recorded != brings) {
+            let mut recorder = device.recorder(Timing::Off)?;
+            let learns = record_learning(&mut recorder, (views, likely), (&self.inputs, brings), settings)?;
+            let recording = if learns { Some(recorder.finish()?) } else { None };
+            self.learning = Some((brings.to_vec(), recording));
+        }
+        if let Some((_, Some(recording))) = &mut self.learning {
+            recording.run()?;
+        }
+        let each = views.iter().zip(likely).zip(brings);
+        let read = |((view, likely), brings): ((&DeviceView, &LikelyView), &Brings)| {
+            likely.learnt().filter(|_| !brings.mask).map(|learnt| learnt.read(view)).transpose()
+        };
+        each.map(read).collect()
     }
 }
 
@@ -106,8 +136,8 @@ impl Held {
         let slot = || -> Result<_> {
             let motion = (!likely.is_empty()).then_some(motion);
             let mut slot = Slot::new(device, views, motion, SilhouetteOut::new)?;
-            for (input, view) in slot.inputs.iter_mut().zip(likely) {
-                input.light = view.input(device)?;
+            for (input, _) in slot.inputs.iter_mut().zip(likely) {
+                input.light = Some(LightInput::new(device)?);
             }
             Ok(slot)
         };
@@ -159,7 +189,9 @@ impl DeviceChain {
     /// # Errors
     /// When it has no memory for them.
     pub(super) fn hold(&mut self, known: &[Option<&BackgroundColours>]) -> Result<()> {
-        self.likely = known.iter().map(|colours| LikelyView::new(&self.device, *colours)).collect::<Result<_>>()?;
+        let each = self.views.iter().zip(known);
+        self.likely =
+            each.map(|(view, colours)| LikelyView::new(&self.device, view, *colours)).collect::<Result<_>>()?;
         let motion = self.settings.silhouette.motion;
         self.held = Some(Held::new(&self.device, &self.views, &self.likely, motion)?);
         Ok(())
@@ -255,7 +287,8 @@ impl DeviceChain {
     }
 
     /// Begins with a frame in the memory that is reserved for it, and returns while the device is at work: one submission. Pixels that are
-    /// `ignored` count neither for nor against anybody; `lights` are those of the pictures, where likelihoods are made.
+    /// `ignored` count neither for nor against anybody. Where likelihoods are made, `lit` says the lights of the pictures, by the backgrounds
+    /// of views that learn them: those take a submission of their own before, which is waited for.
     ///
     /// # Errors
     /// When [`Self::hold`] was not asked for, the frame before was not taken, or the device fails.
@@ -264,7 +297,7 @@ impl DeviceChain {
         pictures: &[RgbImage],
         masks: &[Option<GrayImage>],
         ignored: &[Option<Arc<BitImage>>],
-        lights: &[Option<LightTables>],
+        lit: impl FnOnce(&[Option<RgbImage>]) -> Vec<Option<Lit>>,
     ) -> Result<()> {
         self.reserve()?;
         let Self { device, views, likely, timing, settings, proximity, held, seen, .. } = self;
@@ -278,21 +311,28 @@ impl DeviceChain {
         for (input, ignored) in slot.inputs.iter().zip(ignored) {
             ignored.as_ref().map_or(Ok(()), |ignored| input.ignored.write(0, ignored.words()))?;
         }
-        for (input, light) in slot.inputs.iter_mut().zip(lights) {
-            let (Some(input), Some(light)) = (&mut input.light, light) else { continue };
-            input.take(light)?;
-        }
-        let look = |(mask, light): (&Option<GrayImage>, &Option<LightTables>)| HeldLook {
-            is_masked: mask.is_some(),
-            is_grey: light.as_ref().is_some_and(|light| light.is_grey),
-        };
-        slot.looks = masks.iter().zip(lights).map(look).collect();
         slot.ignored = ignored.to_vec();
         let brings = |(mask, ignored): (&Option<GrayImage>, &Option<Arc<BitImage>>)| Brings {
             mask: mask.is_some(),
             ignored: ignored.is_some(),
         };
         let brings: Vec<Brings> = masks.iter().zip(ignored).map(brings).collect();
+        if !likely.is_empty() {
+            let learnt = slot.learn(device, (views, likely), &brings, settings)?;
+            let lights = lit(&learnt);
+            for (((input, likely), light), learnt) in slot.inputs.iter_mut().zip(&*likely).zip(&lights).zip(&learnt) {
+                let Some(light) = light else { continue };
+                input.light.as_mut().map_or(Ok(()), |input| input.take(&light.tables))?;
+                if let (Some(learnt), Some(colours)) = (learnt, &light.learnt) {
+                    likely.take(learnt, colours)?;
+                }
+            }
+            let look = |(brings, light): (&Brings, &Option<Lit>)| HeldLook {
+                is_masked: brings.mask,
+                is_grey: light.as_ref().is_some_and(|light| light.tables.is_grey),
+            };
+            slot.looks = brings.iter().zip(&lights).map(look).collect();
+        }
         record_slot(slot, &brings, (device, *timing), |recorder, Slot { inputs, packed, out, .. }| {
             record_frame(recorder, (views, likely), (inputs, &brings), settings, proximity, packed)?;
             views.iter().zip(out).try_for_each(|(view, out)| out.record(recorder, view))

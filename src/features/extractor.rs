@@ -142,11 +142,11 @@ impl Extractor {
     }
 
     /// Begins the features of a frame that stays on the device, in the memory of [`Self::reserve`], and returns while the device is at
-    /// work. Pixels that are `ignored` count neither for nor against anybody. Of likelihoods the processor measures the picture's light.
+    /// work. Pixels that are `ignored` count neither for nor against anybody. For likelihoods the processor measures the picture's light, where
+    /// a background is learnt after a wait for what the device knows of it.
     ///
     /// # Errors
-    /// As [`Self::extract`] and [`Self::ignore`]; also without [`Self::hold_on`], when the frame before was not finished, or when likelihoods
-    /// are to be made of a view that has neither a plate nor a mask.
+    /// As [`Self::extract`] and [`Self::ignore`]; also without [`Self::hold_on`], or when the frame before was not finished.
     pub fn begin(
         &mut self,
         pictures: &[RgbImage],
@@ -155,15 +155,18 @@ impl Extractor {
     ) -> Result<()> {
         self.check_frame(pictures, Some(masks))?;
         ignoring::check(ignored, &self.sizes)?;
-        let settings = &self.settings;
-        let inputs = self.likely.par_iter().zip(pictures).zip(masks);
-        let lights: Vec<_> = inputs
-            .map(|((likely, picture), mask)| match mask {
-                Some(_) => None,
-                None => likely.light_tables(picture, settings),
-            })
-            .collect();
-        self.held()?.begin(pictures, masks, ignored, &lights)
+        let Self { settings, likely, chain, .. } = self;
+        let lit = |learnt: &[Option<RgbImage>]| {
+            let views = likely.par_iter().zip(pictures).zip(masks).zip(learnt);
+            let of_view = |(((likely, picture), mask), learnt): (((&LikelySilhouette, _), &Option<_>), &Option<_>)| {
+                if mask.is_some() { None } else { likely.lit(picture, learnt.as_ref(), settings) }
+            };
+            views.map(of_view).collect()
+        };
+        match chain {
+            Chain::Device(device) => device.begin(pictures, masks, ignored, lit),
+            Chain::Processor(_) => Err(on_processor()),
+        }
     }
 
     /// The frame that was begun, when the device is done with it.

@@ -149,16 +149,19 @@ fn evidence_that_a_device_makes_gives_the_processor_s_files() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let sequences = [with_plates(""), with_plates("[features]\nforeground = \"likelihood\"\n")];
+    let plated = [with_plates(""), with_plates("[features]\nforeground = \"likelihood\"\n")];
+    let sequences = [plated[0].path(), plated[1].path(), sequence()];
     let mut before: Option<PathBuf> = None;
-    // The default objective with its search, both passes and one, driven by the device and by the host; silhouettes of either kind.
+    // The default objective with its search, both passes and one, driven by the device and by the host; silhouettes of either kind, and
+    // backgrounds that are learnt.
     for (name, sequence, more, backends) in [
         ("both", 0, &["--search", "maes", "--passes", "both"][..], &["compute", "graphics"][..]),
         ("forward", 1, &["--search", "maes", "--passes", "forward"], &["compute"]),
         ("host", 0, &["--search", "cmaes", "--passes", "forward"], &["graphics"]),
+        ("learnt", 2, &["--search", "maes", "--passes", "forward"], &["compute"]),
         ("refined", 0, &["--search", "pso", "--refine", "20", "--passes", "forward"], &["compute"]),
     ] {
-        let sequence = sequences[sequence].path();
+        let sequence = sequences[sequence];
         let more = [more, &["--objective", "evidence"]].concat();
         let expected = folder.path().join(name);
         tracked_of(sequence, &expected, &[&more[..], &["--backend", "cpu"]].concat());
@@ -178,11 +181,11 @@ fn evidence_that_a_device_makes_gives_the_processor_s_files() {
     let stopped = folder.path().join("stopped");
     let options = ["--search", "maes", "--passes", "forward", "--objective", "evidence", "--backend", "compute"];
     let options = [&options[..], &["--features", "device"]].concat();
-    tracked_of(sequences[1].path(), &stopped, &options);
+    tracked_of(sequences[1], &stopped, &options);
     let journal = fs::read_to_string(stopped.join("journal.txt")).unwrap();
     let kept: Vec<&str> = journal.lines().take(5).collect();
     fs::write(stopped.join("journal.txt"), kept.join("\n") + "\n").unwrap();
-    tracked_of(sequences[1].path(), &stopped, &[&options[..], &["--resume"]].concat());
+    tracked_of(sequences[1], &stopped, &[&options[..], &["--resume"]].concat());
     same(&stopped, &folder.path().join("forward"));
 }
 
@@ -261,11 +264,15 @@ fn who_makes_the_features_is_chosen_and_said() {
         (&["--backend", "cpu"][..], "the backend cpu is on none"),
         (&["--backend", "compute", "--devices", "0,0"], "several devices share the poses"),
         (&["--backend", "graphics", "--gather", "readback"], "poses are compared on the host"),
-        (&["--backend", "compute", "--objective", "evidence"], "a background that is learnt on the way"),
     ] {
         let done = track(&output("refused"), &[&device, more].concat()).output().unwrap();
         refused(&done, &["the features cannot be made on a device", why, "expected --features auto or cpu"]);
     }
+    let shirt = "[[features.segment]]\nname = 'head'\nparts = ['head']\nweight = 1.0\ncue = 'skin'\n";
+    let (parts, refused_to) = (with_plates(shirt), output("refused"));
+    let more = [&device[..], &["--backend", "compute"]].concat();
+    let done = track_of(parts.path(), &refused_to, &more).output().unwrap();
+    refused(&done, &["the features cannot be made on a device (body parts are told apart)"]);
     let said = stderr(&tracked(&output("shared"), &["--search", "pso", "--backend", "compute", "--devices", "0,0"]));
     assert!(said.contains("the processor makes the features, since several devices share the poses"), "{said}");
     let alone = output("alone");

@@ -1,54 +1,102 @@
 //! How likely each pixel is as background, and the silhouette of what is not: the twin of [`crate::features::likelihood`]. Logarithms
 //! come from the processor: of the plate once, of what a picture's noise makes of every slope whenever that changes.
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
+use image::RgbImage;
 
 use super::bounds::bounds_of;
 use super::cleaning::join;
-use super::light_input::LightInput;
 use super::view::{Brings, DeviceView, Input, Plane, copy_whole};
 use crate::features::held::HeldLikelihood;
 use crate::features::likelihood::BackgroundColours;
 use crate::features::shaders::{RATIO_GRID, layout, likely_comp, masked_comp, shadowed_comp, unlikely_comp};
 use crate::features::{FeatureSettings, ForegroundKind};
-use crate::gpu::{Buffer, Device, Groups, Memory, Recorder};
+use crate::gpu::{Buffer, Device, Groups, Memory, Recorder, StagedBuffer, Timing};
 
 /// What the device keeps of a view to judge its pixels by.
 #[derive(Debug)]
 pub(super) struct LikelyView {
-    /// None of a view without a plate, whose pixels ready masks tell about.
-    known: Option<KnownColours>,
-}
-
-/// Of a plate's colours what takes logarithms and roots, and a picture's light.
-#[derive(Debug)]
-struct KnownColours {
-    logarithms: Buffer,
-    slopes: Buffer,
+    /// Of the background's colours what takes logarithms and roots.
+    logarithms: StagedBuffer,
+    slopes: StagedBuffer,
     light: Buffer,
     /// Pixels in shadow and pixels that look like background.
     counted: Buffer,
+    /// Of a view without a plate.
+    learnt: Option<Learnt>,
+}
+
+/// The background of a view as its mixture knows it: what it is on the device, told to the host, and brought back as a plate.
+#[derive(Debug)]
+pub(super) struct Learnt {
+    /// Red, green, blue, a word a pixel.
+    pub(super) colours: Buffer,
+    pub(super) out: Buffer,
+    plate: StagedBuffer,
 }
 
 impl LikelyView {
-    pub(super) fn new(device: &Device, colours: Option<&BackgroundColours>) -> Result<Self> {
-        let known = |colours: &BackgroundColours| -> Result<KnownColours> {
-            let (logarithms, slopes) = colours.planes();
-            let mut slopes = slopes.to_vec();
-            slopes.resize(slopes.len().next_multiple_of(4), 0);
-            Ok(KnownColours {
-                logarithms: device.uploaded("plate's logarithms", logarithms)?,
-                slopes: device.uploaded("plate's slopes", &slopes)?,
-                light: device.buffer::<layout::LightTable>("light", 1, Memory::Device)?,
-                counted: device.buffer::<u32>("shadows", 2, Memory::Device)?,
+    /// For a view of that size with a plate of these colours, or with a background that is learnt or not needed.
+    pub(super) fn new(device: &Device, view: &DeviceView, colours: Option<&BackgroundColours>) -> Result<Self> {
+        let pixels = view.picture.width as usize * view.picture.height as usize;
+        let learnt = || -> Result<Learnt> {
+            Ok(Learnt {
+                colours: device.buffer::<u32>("learnt colours", pixels, Memory::Device)?,
+                out: device.buffer::<u32>("learnt colours readback", pixels, Memory::Readback)?,
+                plate: StagedBuffer::new::<u32>(device, "learnt plate", (3 * pixels).div_ceil(4))?,
             })
         };
-        Ok(Self { known: colours.map(known).transpose()? })
+        let own = Self {
+            logarithms: StagedBuffer::new::<f32>(device, "background's logarithms", pixels)?,
+            slopes: StagedBuffer::new::<u32>(device, "background's slopes", pixels.div_ceil(4))?,
+            light: device.buffer::<layout::LightTable>("light", 1, Memory::Device)?,
+            counted: device.buffer::<u32>("shadows", 2, Memory::Device)?,
+            learnt: colours.is_none().then(learnt).transpose()?,
+        };
+        if let Some(colours) = colours {
+            own.write(colours)?;
+            let mut recorder = device.recorder(Timing::Off)?;
+            own.record_upload(&mut recorder)?;
+            recorder.finish()?.run()?;
+        }
+        Ok(own)
     }
 
-    /// What the host fills of it for a frame.
-    pub(super) fn input(&self, device: &Device) -> Result<Option<LightInput>> {
-        self.known.as_ref().map(|_| LightInput::new(device)).transpose()
+    fn write(&self, colours: &BackgroundColours) -> Result<()> {
+        let (logarithms, slopes) = colours.planes();
+        self.logarithms.staging.write(0, logarithms)?;
+        self.slopes.staging.write(0, slopes)
+    }
+
+    fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
+        self.logarithms.record_upload(recorder)?;
+        self.slopes.record_upload(recorder)?;
+        self.learnt.as_ref().map_or(Ok(()), |learnt| learnt.plate.record_upload(recorder))
+    }
+
+    /// How its background is learnt, where it has no plate.
+    pub(super) fn learnt(&self) -> Option<&Learnt> {
+        self.learnt.as_ref()
+    }
+
+    /// Takes what was learnt, and its colours, for the plate of a frame.
+    pub(super) fn take(&self, learnt: &RgbImage, colours: &BackgroundColours) -> Result<()> {
+        self.write(colours)?;
+        self.learnt.as_ref().map_or(Ok(()), |own| own.plate.staging.write(0, learnt.as_raw().as_slice()))
+    }
+}
+
+impl Learnt {
+    /// What the device has learnt of a background of that size.
+    pub(super) fn read(&self, view: &DeviceView) -> Result<RgbImage> {
+        let (width, height) = (view.picture.width, view.picture.height);
+        let mut words = vec![0_u32; width as usize * height as usize];
+        self.out.read(0, &mut words)?;
+        let bytes = words.into_iter().flat_map(|word| {
+            let [red, green, blue, _] = word.to_le_bytes();
+            [red, green, blue]
+        });
+        RgbImage::from_raw(width, height, bytes.collect()).context("a learnt background has not its view's size")
     }
 }
 
@@ -56,7 +104,7 @@ impl LikelyView {
 #[derive(Clone, Copy)]
 struct Judged<'a> {
     view: &'a DeviceView,
-    known: &'a KnownColours,
+    likely: &'a LikelyView,
     plate: &'a Buffer,
     held: &'a HeldLikelihood,
 }
@@ -76,7 +124,7 @@ impl Judged<'_> {
 /// is there already. Where silhouettes are found by likelihood, they are left as the views' own.
 ///
 /// # Errors
-/// When a view has neither a plate nor a mask; as [`Recorder::run`].
+/// As [`Recorder::run`].
 pub(super) fn likelihoods(
     recorder: &mut Recorder,
     (views, likely): (&[DeviceView], &[LikelyView]),
@@ -90,12 +138,17 @@ pub(super) fn likelihoods(
             with_mask.push((view, *held));
             continue;
         }
-        let (Some(known), Some(plate), Some(light)) = (&likely.known, view.plate(), &input.light) else {
-            bail!("a view has neither a plate nor a mask, and its likelihoods are to be made on a device");
+        let plate = match &likely.learnt {
+            Some(learnt) => {
+                likely.record_upload(recorder)?;
+                Some(&learnt.plate.buffer)
+            }
+            None => view.plate(),
         };
-        copy_whole(recorder, "upload", &light.staging, &known.light)?;
-        recorder.fill("shadows", &known.counted, 0)?;
-        judged.push(Judged { view, known, plate, held });
+        let (Some(plate), Some(light)) = (plate, &input.light) else { bail!("a view has no background to judge by") };
+        copy_whole(recorder, "upload", &light.staging, &likely.light)?;
+        recorder.fill("shadows", &likely.counted, 0)?;
+        judged.push(Judged { view, likely, plate, held });
     }
     recorder.run_all(with_mask.iter().map(|(view, held)| {
         let mask = view.plane(Plane::Silhouette);
@@ -137,15 +190,15 @@ fn judge(recorder: &mut Recorder, judged: &[Judged<'_>], is_again: bool) -> Resu
         judged.iter().try_for_each(|judged| recorder.fill("bounds", &judged.held.sides, 0))?;
     }
     recorder.run_all(judged.iter().map(|judged| {
-        let &Judged { view, known, plate, held } = judged;
+        let &Judged { view, likely, plate, held } = judged;
         likely_comp::Bindings {
             colours: &view.colours,
             plate,
-            logarithms: &known.logarithms,
-            slopes: &known.slopes,
-            light: &known.light,
+            logarithms: &likely.logarithms.buffer,
+            slopes: &likely.slopes.buffer,
+            light: &likely.light,
             sides: &held.sides,
-            counted: &known.counted,
+            counted: &likely.counted,
             seen: &held.seen,
         }
         .dispatch(judged.push(is_again), view.every_pixel())
@@ -154,16 +207,16 @@ fn judge(recorder: &mut Recorder, judged: &[Judged<'_>], is_again: bool) -> Resu
 
 fn count_shadows(recorder: &mut Recorder, judged: &[Judged<'_>]) -> Result<()> {
     recorder.run_all(judged.iter().map(|judged| {
-        let &Judged { view, known, plate, held } = judged;
+        let &Judged { view, likely, plate, held } = judged;
         let [columns, rows] = [view.picture.width, view.picture.height].map(|side| side.div_ceil(RATIO_GRID / 2));
         shadowed_comp::Bindings {
             colours: &view.colours,
             plate,
-            logarithms: &known.logarithms,
-            slopes: &known.slopes,
-            light: &known.light,
+            logarithms: &likely.logarithms.buffer,
+            slopes: &likely.slopes.buffer,
+            light: &likely.light,
             sides: &held.sides,
-            counted: &known.counted,
+            counted: &likely.counted,
         }
         .dispatch(judged.push(true), Groups::Flat(columns * rows))
     }))

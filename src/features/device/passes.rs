@@ -7,7 +7,7 @@ use anyhow::Result;
 use super::bounds::bounds;
 use super::cleaning::clean;
 use super::edges::{edges, smooth};
-use super::foreground::{difference, mixture, probable, ratios};
+use super::foreground::{difference, mixture, probable, probable_every, ratios};
 use super::likely::{LikelyView, likelihoods};
 use super::morphology::{Operation, morphology};
 use super::view::{Brings, DeviceView, Input, Plane, copy_whole};
@@ -36,7 +36,8 @@ pub(super) fn record_frame(
     let finds_otherwise = !likely.is_empty() && settings.foreground == ForegroundKind::Likelihood;
     let segmented = of(&|_, masked| !masked && !finds_otherwise);
     let with_plate = of(&|view, masked| !masked && !finds_otherwise && view.plate().is_some());
-    let with_mixture = of(&|view, masked| !masked && !finds_otherwise && view.plate().is_none());
+    // Where likelihoods are made mixtures have made their step before.
+    let with_mixture = of(&|view, masked| !masked && likely.is_empty() && view.plate().is_none());
     for ((view, input), brings) in views.iter().zip(inputs).zip(brings) {
         copy_whole(recorder, "upload", &input.colours, &view.colours)?;
         if brings.mask {
@@ -57,7 +58,7 @@ pub(super) fn record_frame(
     }
     difference(recorder, &with_plate, &settings.plate, &settings.shadow)?;
     let of_mixture = |&((view, _), brings): &((&DeviceView, &Input), &Brings)| {
-        !brings.mask && !finds_otherwise && view.plate().is_none()
+        !brings.mask && likely.is_empty() && view.plate().is_none()
     };
     let learning = views.iter().zip(inputs).zip(brings).filter(of_mixture);
     let rates: Vec<&Buffer> = learning.map(|((_, input), _)| &input.rates).collect();
@@ -90,6 +91,33 @@ pub(super) fn record_frame(
         }
         .dispatch(constants, view.picture, Groups::Flat(view.picture.width.div_ceil(32) * view.picture.height))
     }))
+}
+
+/// Records the step of the mixtures of views whose background the likelihoods have from there, from what the host fills, and what the host
+/// is told of that: whether there is any such view.
+pub(super) fn record_learning(
+    recorder: &mut Recorder,
+    (views, likely): (&[DeviceView], &[LikelyView]),
+    (inputs, brings): (&[Input], &[Brings]),
+    settings: &FeatureSettings,
+) -> Result<bool> {
+    let each = views.iter().zip(inputs).zip(likely).zip(brings);
+    let learning: Vec<_> = each
+        .filter(|(_, brings)| !brings.mask)
+        .filter_map(|(((view, input), likely), _)| Some((view, input, likely.learnt()?)))
+        .collect();
+    for (view, input, _) in &learning {
+        copy_whole(recorder, "upload", &input.colours, &view.colours)?;
+    }
+    let rates: Vec<&Buffer> = learning.iter().map(|(_, input, _)| &input.rates).collect();
+    let of_learning: Vec<&DeviceView> = learning.iter().map(|(view, ..)| *view).collect();
+    record_mixture(recorder, &of_learning, &rates, settings)?;
+    let colours: Vec<&Buffer> = learning.iter().map(|(.., learnt)| &learnt.colours).collect();
+    probable_every(recorder, (&of_learning, &colours), 1, &settings.mixture)?;
+    for (.., learnt) in &learning {
+        copy_whole(recorder, "readback", &learnt.colours, &learnt.out)?;
+    }
+    Ok(!learning.is_empty())
 }
 
 /// Records what views without a plate, each with what the host fills, learn from a frame of the empty scene.

@@ -23,6 +23,14 @@ enum Known {
     Learnt,
 }
 
+/// A picture's light, as a device is told of it.
+#[derive(Debug)]
+pub(crate) struct Lit {
+    pub(crate) tables: LightTables,
+    /// The background's colours, where it is learnt.
+    pub(crate) learnt: Option<BackgroundColours>,
+}
+
 /// Makes the likelihoods of one view.
 #[derive(Debug)]
 pub(crate) struct LikelySilhouette {
@@ -64,11 +72,18 @@ impl LikelySilhouette {
         }
     }
 
-    /// What a device that makes the likelihoods of a picture is to know of its light; none of a view without a plate.
-    pub(crate) fn light_tables(&self, picture: &RgbImage, settings: &FeatureSettings) -> Option<LightTables> {
-        let Known::Plate { image, colours } = &self.known else { return None };
-        let gain = if settings.plate.gain { gains(picture, image) } else { [1.0; 3] };
-        Some(colours.light_tables(picture, gain))
+    /// What a device that makes the likelihoods of a picture is to know of its light; `learnt` is as in [`Self::find`]. None of a view
+    /// without a background.
+    pub(crate) fn lit(&self, picture: &RgbImage, learnt: Option<&RgbImage>, settings: &FeatureSettings) -> Option<Lit> {
+        let tables = |image: &RgbImage, colours: &BackgroundColours| {
+            let gain = if settings.plate.gain { gains(picture, image) } else { [1.0; 3] };
+            colours.light_tables(picture, gain)
+        };
+        if let Known::Plate { image, colours } = &self.known {
+            return Some(Lit { tables: tables(image, colours), learnt: None });
+        }
+        let colours = BackgroundColours::new(learnt?);
+        Some(Lit { tables: tables(learnt?, &colours), learnt: Some(colours) })
     }
 
     /// The likelihoods of a picture; `learnt` is what a view without a plate knows of its background by now.

@@ -11,7 +11,7 @@ mod smooth;
 
 pub(super) use background::BackgroundColours;
 pub use colour::ColourBin;
-pub(super) use foreground::LikelySilhouette;
+pub(super) use foreground::{LikelySilhouette, Lit};
 pub(super) use picture_light::{LightTables, SHADOWS, WidthTables, Widths};
 
 pub(crate) use smooth::smooth_rows;
