@@ -1277,6 +1277,255 @@ pub mod evidence_comp {
         }
     }
 }
+/// The stage `evaluate/evidence_at.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod evidence_at_comp {
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/evidence_at.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<579, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/evidence_at.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 8,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "AskedPixels", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "EvidencePlanes", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "ToldCodes", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+        ],
+        constants: &[
+        ],
+    };
+    /// What a pipeline is compiled from.
+    pub fn stage() -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::EvidenceAt;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `AskedPixels`, read; set 0, binding 0.
+        pub asked_pixels: &'a crate::gpu::Buffer,
+        /// Storage buffer `EvidencePlanes`, read; set 0, binding 1.
+        pub evidence_planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `ToldCodes`, written; set 0, binding 2.
+        pub told_codes: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 3] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.asked_pixels) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.evidence_planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.told_codes) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
+/// The stage `evaluate/evidence_best.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod evidence_best_comp {
+    // Accesses are as declared: naga cannot read this stage (Function [1] 'main' is invalid: Expression [132] is invalid: Operation Multiply can't work with [33] (of type Scalar(Scalar { kind: Sint, width: 4 })) and [131] (of type Scalar(Scalar { kind: Uint, width: 4 }))).
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/evidence_best.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<841, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/evidence_best.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 16,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "EvidencePlanes", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "BestEvidence", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+        ],
+        constants: &[
+        ],
+    };
+    /// What a pipeline is compiled from.
+    pub fn stage() -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::EvidenceBest;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `EvidencePlanes`, read; set 0, binding 0.
+        pub evidence_planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `BestEvidence`, read and written; set 0, binding 1.
+        pub best_evidence: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 2] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.evidence_planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.best_evidence) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
+/// The stage `evaluate/evidence_codes.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod evidence_codes_comp {
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/evidence_codes.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<4536, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/evidence_codes.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 28,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Seen", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Sides", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "ColourTables", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Looks", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "CountedPlanes", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "EvidencePlanes", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+            crate::gpu::BindingLayout { name: "Empty", set: 0, binding: 6, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "IGNORES", id: 0, default: 0 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `IGNORES`, false by default.
+        pub ignores: bool,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { ignores: false, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.ignores)), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::EvidenceView;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Seen`, read; set 0, binding 0.
+        pub seen: &'a crate::gpu::Buffer,
+        /// Storage buffer `Sides`, read; set 0, binding 1.
+        pub sides: &'a crate::gpu::Buffer,
+        /// Storage buffer `ColourTables`, read; set 0, binding 2.
+        pub colour_tables: &'a crate::gpu::Buffer,
+        /// Storage buffer `Looks`, read; set 0, binding 3.
+        pub looks: &'a crate::gpu::Buffer,
+        /// Storage buffer `CountedPlanes`, read; set 0, binding 4.
+        pub counted_planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `EvidencePlanes`, written; set 0, binding 5.
+        pub evidence_planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `Empty`, written; set 0, binding 6.
+        pub empty: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 7] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.seen) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.sides) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.colour_tables) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.looks) },
+                crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.counted_planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.evidence_planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[6], bound: crate::gpu::Bound::Buffer(self.empty) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
+/// The stage `evaluate/evidence_words.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod evidence_words_comp {
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "evaluate/evidence_words.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<868, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/evidence_words.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 20,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "EvidencePlanes", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "CountedPlanes", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "EvidencePixels", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+        ],
+        constants: &[
+            crate::gpu::SpecConstant { name: "IGNORES", id: 0, default: 0 },
+        ],
+    };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `IGNORES`, false by default.
+        pub ignores: bool,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { ignores: false, } }
+    }
+    /// What a pipeline is compiled from.
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.ignores)), ] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::EvidenceWords;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `EvidencePlanes`, read; set 0, binding 0.
+        pub evidence_planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `CountedPlanes`, read; set 0, binding 1.
+        pub counted_planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `EvidencePixels`, written; set 0, binding 2.
+        pub evidence_pixels: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 3] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.evidence_planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.counted_planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.evidence_pixels) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
 /// The stage `evaluate/mesh_edge.geom`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod mesh_edge_geom {
@@ -3341,6 +3590,36 @@ pub mod layout {
     const _: () = assert!(std::mem::offset_of!(Camera, first_plane_word) == 116);
     const _: () = assert!(std::mem::offset_of!(Camera, first_pixel_word) == 120);
     const _: () = assert!(std::mem::offset_of!(Camera, area_obs) == 124);
+    /// `EvidenceAt` in memory, 8 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct EvidenceAt {
+        /// `count` at byte 0.
+        pub count: u32,
+        /// `classes` at byte 4.
+        pub classes: u32,
+    }
+    const _: () = assert!(size_of::<EvidenceAt>() == 8);
+    const _: () = assert!(std::mem::offset_of!(EvidenceAt, count) == 0);
+    const _: () = assert!(std::mem::offset_of!(EvidenceAt, classes) == 4);
+    /// `EvidenceBest` in memory, 16 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct EvidenceBest {
+        /// `first_group` at byte 0.
+        pub first_group: u32,
+        /// `groups` at byte 4.
+        pub groups: u32,
+        /// `view` at byte 8.
+        pub view: u32,
+        /// `classes` at byte 12.
+        pub classes: u32,
+    }
+    const _: () = assert!(size_of::<EvidenceBest>() == 16);
+    const _: () = assert!(std::mem::offset_of!(EvidenceBest, first_group) == 0);
+    const _: () = assert!(std::mem::offset_of!(EvidenceBest, groups) == 4);
+    const _: () = assert!(std::mem::offset_of!(EvidenceBest, view) == 8);
+    const _: () = assert!(std::mem::offset_of!(EvidenceBest, classes) == 12);
     /// `EvidenceTableHeader` in memory, 516 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -3353,6 +3632,54 @@ pub mod layout {
     const _: () = assert!(size_of::<EvidenceTableHeader>() == 516);
     const _: () = assert!(std::mem::offset_of!(EvidenceTableHeader, classes) == 0);
     const _: () = assert!(std::mem::offset_of!(EvidenceTableHeader, count) == 512);
+    /// `EvidenceView` in memory, 28 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct EvidenceView {
+        /// `width` at byte 0.
+        pub width: u32,
+        /// `height` at byte 4.
+        pub height: u32,
+        /// `stride` at byte 8.
+        pub stride: u32,
+        /// `first_group` at byte 12.
+        pub first_group: u32,
+        /// `view` at byte 16.
+        pub view: u32,
+        /// `classes` at byte 20.
+        pub classes: u32,
+        /// `motion` at byte 24.
+        pub motion: u32,
+    }
+    const _: () = assert!(size_of::<EvidenceView>() == 28);
+    const _: () = assert!(std::mem::offset_of!(EvidenceView, width) == 0);
+    const _: () = assert!(std::mem::offset_of!(EvidenceView, height) == 4);
+    const _: () = assert!(std::mem::offset_of!(EvidenceView, stride) == 8);
+    const _: () = assert!(std::mem::offset_of!(EvidenceView, first_group) == 12);
+    const _: () = assert!(std::mem::offset_of!(EvidenceView, view) == 16);
+    const _: () = assert!(std::mem::offset_of!(EvidenceView, classes) == 20);
+    const _: () = assert!(std::mem::offset_of!(EvidenceView, motion) == 24);
+    /// `EvidenceWords` in memory, 20 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct EvidenceWords {
+        /// `width` at byte 0.
+        pub width: u32,
+        /// `height` at byte 4.
+        pub height: u32,
+        /// `first_group` at byte 8.
+        pub first_group: u32,
+        /// `first_word` at byte 12.
+        pub first_word: u32,
+        /// `classes` at byte 16.
+        pub classes: u32,
+    }
+    const _: () = assert!(size_of::<EvidenceWords>() == 20);
+    const _: () = assert!(std::mem::offset_of!(EvidenceWords, width) == 0);
+    const _: () = assert!(std::mem::offset_of!(EvidenceWords, height) == 4);
+    const _: () = assert!(std::mem::offset_of!(EvidenceWords, first_group) == 8);
+    const _: () = assert!(std::mem::offset_of!(EvidenceWords, first_word) == 12);
+    const _: () = assert!(std::mem::offset_of!(EvidenceWords, classes) == 16);
     /// `ListedHeader` in memory, 12 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -3597,4 +3924,4 @@ pub mod layout {
 /// Every stage of the folder, for tests that try them all.
 #[cfg(test)]
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
-pub static SHADERS: &[&crate::gpu::Shader] = &[&bind_comp::SHADER, &compare_shared_comp::SHADER, &compare_shared_segments_comp::SHADER, &compare_subgroup_comp::SHADER, &compare_subgroup_segments_comp::SHADER, &compare_texels_comp::SHADER, &compare_texels_segments_comp::SHADER, &draw_border_geom::SHADER, &draw_border_vert::SHADER, &draw_exact_frag::SHADER, &draw_exact_geom::SHADER, &draw_exact_vert::SHADER, &draw_fill_geom::SHADER, &draw_fill_vert::SHADER, &draw_plain_frag::SHADER, &draw_point_vert::SHADER, &evidence_comp::SHADER, &mesh_edge_geom::SHADER, &mesh_edge_vert::SHADER, &mesh_fill_vert::SHADER, &objective_comp::SHADER, &objective_evidence_comp::SHADER, &objective_segments_comp::SHADER, &order_comp::SHADER, &outline_comp::SHADER, &place_comp::SHADER, &pose_comp::SHADER, &pose_project_comp::SHADER, &project_comp::SHADER, &project_feedback_vert::SHADER, &raster_comp::SHADER, &raster_evidence_comp::SHADER, &raster_mesh_comp::SHADER, &raster_mesh_evidence_comp::SHADER, &raster_mesh_segments_comp::SHADER, &raster_segments_comp::SHADER, &raster_shared_comp::SHADER, &raster_spans_comp::SHADER, &raster_spans_evidence_comp::SHADER, &raster_spans_segments_comp::SHADER, &skin_comp::SHADER, &skin_feedback_vert::SHADER, &touched_comp::SHADER];
+pub static SHADERS: &[&crate::gpu::Shader] = &[&bind_comp::SHADER, &compare_shared_comp::SHADER, &compare_shared_segments_comp::SHADER, &compare_subgroup_comp::SHADER, &compare_subgroup_segments_comp::SHADER, &compare_texels_comp::SHADER, &compare_texels_segments_comp::SHADER, &draw_border_geom::SHADER, &draw_border_vert::SHADER, &draw_exact_frag::SHADER, &draw_exact_geom::SHADER, &draw_exact_vert::SHADER, &draw_fill_geom::SHADER, &draw_fill_vert::SHADER, &draw_plain_frag::SHADER, &draw_point_vert::SHADER, &evidence_comp::SHADER, &evidence_at_comp::SHADER, &evidence_best_comp::SHADER, &evidence_codes_comp::SHADER, &evidence_words_comp::SHADER, &mesh_edge_geom::SHADER, &mesh_edge_vert::SHADER, &mesh_fill_vert::SHADER, &objective_comp::SHADER, &objective_evidence_comp::SHADER, &objective_segments_comp::SHADER, &order_comp::SHADER, &outline_comp::SHADER, &place_comp::SHADER, &pose_comp::SHADER, &pose_project_comp::SHADER, &project_comp::SHADER, &project_feedback_vert::SHADER, &raster_comp::SHADER, &raster_evidence_comp::SHADER, &raster_mesh_comp::SHADER, &raster_mesh_evidence_comp::SHADER, &raster_mesh_segments_comp::SHADER, &raster_segments_comp::SHADER, &raster_shared_comp::SHADER, &raster_spans_comp::SHADER, &raster_spans_evidence_comp::SHADER, &raster_spans_segments_comp::SHADER, &skin_comp::SHADER, &skin_feedback_vert::SHADER, &touched_comp::SHADER];

@@ -37,6 +37,31 @@ pub const KEEP_TOUCHED: u32 = 1;
 /// The holes, which are the components of the clear pixels.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const KEEP_HOLES: u32 = 2;
+/// Log densities of colours are whole numbers of so many steps a unit.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const LIKELIHOOD_STEPS: u32 = 64;
+/// The largest log-likelihood ratio that is believed, in steps, and that from which on a pixel is the person's against colours of which
+/// nothing is known.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const LIKELIHOOD_MOST: u32 = 320;
+/// `LIKELIHOOD_FOREGROUND` of `features/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const LIKELIHOOD_FOREGROUND: u32 = 64;
+/// In a ready mask: minus the log density of what is inside, as background, and that of what is outside.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const LIKELIHOOD_MASKED: u32 = 192;
+/// `LIKELIHOOD_SURE` of `features/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const LIKELIHOOD_SURE: u32 = 16383;
+/// Steps in which the background's slopes are told apart, and those in which shares of shadows are.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const LIKELY_SLOPES: u32 = 64;
+/// `SHADOW_STEPS` of `features/constants.glsl`.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const SHADOW_STEPS: u32 = 20;
+/// Colours of 16 steps a channel.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const COLOUR_BINS: u32 = 4096;
 /// How two derivatives become one magnitude.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
 pub const MAGNITUDE_EXACT: u32 = 0;
@@ -818,6 +843,188 @@ pub mod gain_comp {
         }
     }
 }
+/// The stage `features/ignore.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod ignore_comp {
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "features/ignore.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<394, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/features/ignore.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 4,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Ignored", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Silhouette", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+            crate::gpu::BindingLayout { name: "Edges", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+        ],
+        constants: &[
+        ],
+    };
+    /// What a pipeline is compiled from.
+    pub fn stage() -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::Ignore;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Ignored`, read; set 0, binding 0.
+        pub ignored: &'a crate::gpu::Buffer,
+        /// Storage buffer `Silhouette`, read and written; set 0, binding 1.
+        pub silhouette: &'a crate::gpu::Buffer,
+        /// Storage buffer `Edges`, read and written; set 0, binding 2.
+        pub edges: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 3] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.ignored) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.silhouette) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.edges) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
+/// The stage `features/likely.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod likely_comp {
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "features/likely.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<3141, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/features/likely.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 16,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Colours", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Plate", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Logarithms", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Slopes", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "light", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Sides", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Counted", set: 0, binding: 6, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Seen", set: 0, binding: 7, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+        ],
+        constants: &[
+        ],
+    };
+    /// What a pipeline is compiled from.
+    pub fn stage() -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::Likely;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Colours`, read; set 0, binding 0.
+        pub colours: &'a crate::gpu::Buffer,
+        /// Storage buffer `Plate`, read; set 0, binding 1.
+        pub plate: &'a crate::gpu::Buffer,
+        /// Storage buffer `Logarithms`, read; set 0, binding 2.
+        pub logarithms: &'a crate::gpu::Buffer,
+        /// Storage buffer `Slopes`, read; set 0, binding 3.
+        pub slopes: &'a crate::gpu::Buffer,
+        /// Storage buffer `LightTable`, read; set 0, binding 4.
+        pub light: &'a crate::gpu::Buffer,
+        /// Storage buffer `Sides`, read; set 0, binding 5.
+        pub sides: &'a crate::gpu::Buffer,
+        /// Storage buffer `Counted`, read; set 0, binding 6.
+        pub counted: &'a crate::gpu::Buffer,
+        /// Storage buffer `Seen`, written; set 0, binding 7.
+        pub seen: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 8] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.colours) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.plate) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.logarithms) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.slopes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.light) },
+                crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.sides) },
+                crate::gpu::Binding { layout: &SHADER.bindings[6], bound: crate::gpu::Bound::Buffer(self.counted) },
+                crate::gpu::Binding { layout: &SHADER.bindings[7], bound: crate::gpu::Bound::Buffer(self.seen) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
+/// The stage `features/masked.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod masked_comp {
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "features/masked.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<619, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/features/masked.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 24,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Colours", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Mask", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Seen", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+        ],
+        constants: &[
+        ],
+    };
+    /// What a pipeline is compiled from.
+    pub fn stage() -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::Picture;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Colours`, read; set 0, binding 0.
+        pub colours: &'a crate::gpu::Buffer,
+        /// Storage buffer `Mask`, read; set 0, binding 1.
+        pub mask: &'a crate::gpu::Buffer,
+        /// Storage buffer `Seen`, written; set 0, binding 2.
+        pub seen: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 3] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.colours) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.mask) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.seen) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
 /// The stage `features/mixture.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod mixture_comp {
@@ -953,7 +1160,7 @@ pub mod pack_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "features/pack.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<1030, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<1138, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/features/pack.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 24,
@@ -963,13 +1170,24 @@ pub mod pack_comp {
             crate::gpu::BindingLayout { name: "Proximity", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "Pixels", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
             crate::gpu::BindingLayout { name: "Planes", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+            crate::gpu::BindingLayout { name: "Ignored", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
         ],
         constants: &[
+            crate::gpu::SpecConstant { name: "IGNORES", id: 0, default: 0 },
         ],
     };
+    /// Specialisation constants.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Constants {
+        /// `IGNORES`, false by default.
+        pub ignores: bool,
+    }
+    impl Default for Constants {
+        fn default() -> Self { Self { ignores: false, } }
+    }
     /// What a pipeline is compiled from.
-    pub fn stage() -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
+    pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.ignores)), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Picture;
@@ -986,25 +1204,28 @@ pub mod pack_comp {
         pub pixels: &'a crate::gpu::Buffer,
         /// Storage buffer `Planes`, written; set 0, binding 4.
         pub planes: &'a crate::gpu::Buffer,
+        /// Storage buffer `Ignored`, read; set 0, binding 5.
+        pub ignored: &'a crate::gpu::Buffer,
     }
     impl<'a> Bindings<'a> {
         /// Each resource with the place it goes to.
-        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 5] {
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 6] {
             [
                 crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.silhouette) },
                 crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.codes) },
                 crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.proximity) },
                 crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.pixels) },
                 crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.planes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.ignored) },
             ]
         }
     }
     impl<'a> Bindings<'a> {
         /// A run on them.
-        pub fn dispatch(self, push: Push, groups: crate::gpu::Groups<'a>)
+        pub fn dispatch(self, constants: Constants, push: Push, groups: crate::gpu::Groups<'a>)
             -> crate::gpu::Dispatch<'a> {
             let bindings = self.bound().to_vec();
-            crate::gpu::Dispatch { stage: stage(), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+            crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
         }
     }
 }
@@ -1015,10 +1236,10 @@ pub mod probable_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "features/probable.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<1304, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<1328, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/features/probable.comp.spv"))),
         workgroup_size: [64, 1, 1],
-        push_size: 12,
+        push_size: 16,
         bindings: &[
             crate::gpu::BindingLayout { name: "State", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "Background", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
@@ -1172,6 +1393,76 @@ pub mod reach_comp {
         }
     }
 }
+/// The stage `features/shadowed.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod shadowed_comp {
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "features/shadowed.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<2513, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/features/shadowed.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 16,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Colours", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Plate", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Logarithms", set: 0, binding: 2, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Slopes", set: 0, binding: 3, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "light", set: 0, binding: 4, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Sides", set: 0, binding: 5, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Counted", set: 0, binding: 6, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::ReadWrite },
+        ],
+        constants: &[
+        ],
+    };
+    /// What a pipeline is compiled from.
+    pub fn stage() -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::Likely;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Colours`, read; set 0, binding 0.
+        pub colours: &'a crate::gpu::Buffer,
+        /// Storage buffer `Plate`, read; set 0, binding 1.
+        pub plate: &'a crate::gpu::Buffer,
+        /// Storage buffer `Logarithms`, read; set 0, binding 2.
+        pub logarithms: &'a crate::gpu::Buffer,
+        /// Storage buffer `Slopes`, read; set 0, binding 3.
+        pub slopes: &'a crate::gpu::Buffer,
+        /// Storage buffer `LightTable`, read; set 0, binding 4.
+        pub light: &'a crate::gpu::Buffer,
+        /// Storage buffer `Sides`, read; set 0, binding 5.
+        pub sides: &'a crate::gpu::Buffer,
+        /// Storage buffer `Counted`, read and written; set 0, binding 6.
+        pub counted: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 7] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.colours) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.plate) },
+                crate::gpu::Binding { layout: &SHADER.bindings[2], bound: crate::gpu::Bound::Buffer(self.logarithms) },
+                crate::gpu::Binding { layout: &SHADER.bindings[3], bound: crate::gpu::Bound::Buffer(self.slopes) },
+                crate::gpu::Binding { layout: &SHADER.bindings[4], bound: crate::gpu::Bound::Buffer(self.light) },
+                crate::gpu::Binding { layout: &SHADER.bindings[5], bound: crate::gpu::Bound::Buffer(self.sides) },
+                crate::gpu::Binding { layout: &SHADER.bindings[6], bound: crate::gpu::Bound::Buffer(self.counted) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
 /// The stage `features/smooth.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod smooth_comp {
@@ -1229,6 +1520,56 @@ pub mod smooth_comp {
             -> crate::gpu::Dispatch<'a> {
             let bindings = self.bound().to_vec();
             crate::gpu::Dispatch { stage: stage(constants), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
+        }
+    }
+}
+/// The stage `features/unlikely.comp`.
+#[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
+pub mod unlikely_comp {
+    /// The compiled stage.
+    pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
+        name: "features/unlikely.comp",
+        kind: crate::gpu::ShaderKind::Compute,
+        spirv: &crate::gpu::words::<1096, _>(include_bytes!(concat!(
+            env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/features/unlikely.comp.spv"))),
+        workgroup_size: [64, 1, 1],
+        push_size: 24,
+        bindings: &[
+            crate::gpu::BindingLayout { name: "Seen", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
+            crate::gpu::BindingLayout { name: "Foreground", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Write },
+        ],
+        constants: &[
+        ],
+    };
+    /// What a pipeline is compiled from.
+    pub fn stage() -> crate::gpu::ShaderStage {
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
+    }
+    /// Push constants.
+    pub type Push = super::layout::Picture;
+    /// What the stage works on.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Bindings<'a> {
+        /// Storage buffer `Seen`, read; set 0, binding 0.
+        pub seen: &'a crate::gpu::Buffer,
+        /// Storage buffer `Foreground`, written; set 0, binding 1.
+        pub foreground: &'a crate::gpu::Buffer,
+    }
+    impl<'a> Bindings<'a> {
+        /// Each resource with the place it goes to.
+        pub fn bound(&self) -> [crate::gpu::Binding<'a>; 2] {
+            [
+                crate::gpu::Binding { layout: &SHADER.bindings[0], bound: crate::gpu::Bound::Buffer(self.seen) },
+                crate::gpu::Binding { layout: &SHADER.bindings[1], bound: crate::gpu::Bound::Buffer(self.foreground) },
+            ]
+        }
+    }
+    impl<'a> Bindings<'a> {
+        /// A run on them.
+        pub fn dispatch(self, push: Push, groups: crate::gpu::Groups<'a>)
+            -> crate::gpu::Dispatch<'a> {
+            let bindings = self.bound().to_vec();
+            crate::gpu::Dispatch { stage: stage(), bindings, push: bytemuck::bytes_of(&push).to_vec(), groups }
         }
     }
 }
@@ -1319,6 +1660,69 @@ pub mod layout {
     const _: () = assert!(std::mem::offset_of!(Difference, darkest) == 24);
     const _: () = assert!(std::mem::offset_of!(Difference, brightest) == 28);
     const _: () = assert!(std::mem::offset_of!(Difference, chroma_squared) == 32);
+    /// `Ignore` in memory, 4 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct Ignore {
+        /// `words` at byte 0.
+        pub words: u32,
+    }
+    const _: () = assert!(size_of::<Ignore>() == 4);
+    const _: () = assert!(std::mem::offset_of!(Ignore, words) == 0);
+    /// `LightTable` in memory, 21636 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct LightTable {
+        /// `dim` at byte 0.
+        pub dim: [f32; 3],
+        /// `outlier` at byte 12.
+        pub outlier: f32,
+        /// `range` at byte 16.
+        pub range: [f32; 2],
+        /// `logs` at byte 24.
+        pub logs: [f32; 2],
+        /// `falls` at byte 32.
+        pub falls: [f32; 2],
+        /// `assumed` at byte 40.
+        pub assumed: [f32; 2],
+        /// `believed` at byte 48.
+        pub believed: [f32; 2],
+        /// `from` at byte 56.
+        pub from: [f32; 19],
+        /// `counting` at byte 132.
+        pub counting: [Widths; 64],
+        /// `judging` at byte 1156.
+        pub judging: [Widths; 1280],
+    }
+    const _: () = assert!(size_of::<LightTable>() == 21636);
+    const _: () = assert!(std::mem::offset_of!(LightTable, dim) == 0);
+    const _: () = assert!(std::mem::offset_of!(LightTable, outlier) == 12);
+    const _: () = assert!(std::mem::offset_of!(LightTable, range) == 16);
+    const _: () = assert!(std::mem::offset_of!(LightTable, logs) == 24);
+    const _: () = assert!(std::mem::offset_of!(LightTable, falls) == 32);
+    const _: () = assert!(std::mem::offset_of!(LightTable, assumed) == 40);
+    const _: () = assert!(std::mem::offset_of!(LightTable, believed) == 48);
+    const _: () = assert!(std::mem::offset_of!(LightTable, from) == 56);
+    const _: () = assert!(std::mem::offset_of!(LightTable, counting) == 132);
+    const _: () = assert!(std::mem::offset_of!(LightTable, judging) == 1156);
+    /// `Likely` in memory, 16 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct Likely {
+        /// `width` at byte 0.
+        pub width: u32,
+        /// `height` at byte 4.
+        pub height: u32,
+        /// `motion` at byte 8.
+        pub motion: u32,
+        /// `again` at byte 12.
+        pub again: u32,
+    }
+    const _: () = assert!(size_of::<Likely>() == 16);
+    const _: () = assert!(std::mem::offset_of!(Likely, width) == 0);
+    const _: () = assert!(std::mem::offset_of!(Likely, height) == 4);
+    const _: () = assert!(std::mem::offset_of!(Likely, motion) == 8);
+    const _: () = assert!(std::mem::offset_of!(Likely, again) == 12);
     /// `Mixture` in memory, 52 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -1412,7 +1816,7 @@ pub mod layout {
     const _: () = assert!(std::mem::offset_of!(Picture, limit) == 12);
     const _: () = assert!(std::mem::offset_of!(Picture, amount) == 16);
     const _: () = assert!(std::mem::offset_of!(Picture, low) == 20);
-    /// `Probable` in memory, 12 bytes.
+    /// `Probable` in memory, 16 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
     pub struct Probable {
@@ -1422,11 +1826,14 @@ pub mod layout {
         pub rows: u32,
         /// `first_row` at byte 8.
         pub first_row: u32,
+        /// `every` at byte 12.
+        pub every: u32,
     }
-    const _: () = assert!(size_of::<Probable>() == 12);
+    const _: () = assert!(size_of::<Probable>() == 16);
     const _: () = assert!(std::mem::offset_of!(Probable, width) == 0);
     const _: () = assert!(std::mem::offset_of!(Probable, rows) == 4);
     const _: () = assert!(std::mem::offset_of!(Probable, first_row) == 8);
+    const _: () = assert!(std::mem::offset_of!(Probable, every) == 12);
     /// `Rates` in memory, 8 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -1451,8 +1858,26 @@ pub mod layout {
     const _: () = assert!(size_of::<Ratios>() == 8);
     const _: () = assert!(std::mem::offset_of!(Ratios, width) == 0);
     const _: () = assert!(std::mem::offset_of!(Ratios, height) == 4);
+    /// `Widths` in memory, 16 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct Widths {
+        /// `y` at byte 0.
+        pub y: f32,
+        /// `c` at byte 4.
+        pub c: f32,
+        /// `lit` at byte 8.
+        pub lit: f32,
+        /// `shadow` at byte 12.
+        pub shadow: f32,
+    }
+    const _: () = assert!(size_of::<Widths>() == 16);
+    const _: () = assert!(std::mem::offset_of!(Widths, y) == 0);
+    const _: () = assert!(std::mem::offset_of!(Widths, c) == 4);
+    const _: () = assert!(std::mem::offset_of!(Widths, lit) == 8);
+    const _: () = assert!(std::mem::offset_of!(Widths, shadow) == 12);
 }
 /// Every stage of the folder, for tests that try them all.
 #[cfg(test)]
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
-pub static SHADERS: &[&crate::gpu::Shader] = &[&bounds_comp::SHADER, &bridge_comp::SHADER, &canny_comp::SHADER, &components_join_comp::SHADER, &components_keep_comp::SHADER, &components_label_comp::SHADER, &components_largest_comp::SHADER, &components_measure_comp::SHADER, &difference_comp::SHADER, &distance_comp::SHADER, &edges_comp::SHADER, &gain_comp::SHADER, &mixture_comp::SHADER, &morphology_comp::SHADER, &pack_comp::SHADER, &probable_comp::SHADER, &ratios_comp::SHADER, &reach_comp::SHADER, &smooth_comp::SHADER];
+pub static SHADERS: &[&crate::gpu::Shader] = &[&bounds_comp::SHADER, &bridge_comp::SHADER, &canny_comp::SHADER, &components_join_comp::SHADER, &components_keep_comp::SHADER, &components_label_comp::SHADER, &components_largest_comp::SHADER, &components_measure_comp::SHADER, &difference_comp::SHADER, &distance_comp::SHADER, &edges_comp::SHADER, &gain_comp::SHADER, &ignore_comp::SHADER, &likely_comp::SHADER, &masked_comp::SHADER, &mixture_comp::SHADER, &morphology_comp::SHADER, &pack_comp::SHADER, &probable_comp::SHADER, &ratios_comp::SHADER, &reach_comp::SHADER, &shadowed_comp::SHADER, &smooth_comp::SHADER, &unlikely_comp::SHADER];

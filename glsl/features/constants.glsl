@@ -30,6 +30,21 @@ const uint KEEP_TOUCHED = 1u;
 // The holes, which are the components of the clear pixels.
 const uint KEEP_HOLES = 2u;
 
+// Log densities of colours are whole numbers of so many steps a unit.
+const uint LIKELIHOOD_STEPS = 64u;
+// The largest log-likelihood ratio that is believed, in steps, and that from which on a pixel is the person's against colours of which
+// nothing is known.
+const uint LIKELIHOOD_MOST = 320u;
+const uint LIKELIHOOD_FOREGROUND = 64u;
+// In a ready mask: minus the log density of what is inside, as background, and that of what is outside.
+const uint LIKELIHOOD_MASKED = 192u;
+const uint LIKELIHOOD_SURE = 16383u;
+// Steps in which the background's slopes are told apart, and those in which shares of shadows are.
+const uint LIKELY_SLOPES = 64u;
+const uint SHADOW_STEPS = 20u;
+// Colours of 16 steps a channel.
+const uint COLOUR_BINS = 4096u;
+
 // How two derivatives become one magnitude.
 const uint MAGNITUDE_EXACT = 0u;
 const uint MAGNITUDE_SUM = 1u;

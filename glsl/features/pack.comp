@@ -12,12 +12,16 @@ layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 0) readonly buffer Silhouette { uint silhouette[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Codes { uint codes[]; };
+// The pixels that do not count, looked at where there are any.
+layout(std430, set = 0, binding = 5) readonly buffer Ignored { uint ignored[]; };
 // The proximity of each code, a byte each.
 layout(std430, set = 0, binding = 2) readonly buffer Proximity { uint proximity[]; };
 // Four pixels a word, rows padded to whole words.
 layout(std430, set = 0, binding = 3) writeonly buffer Pixels { uint observation[]; };
 // Eight words for 32 pixels of a row: planes 0..=6 the bits of the proximity, plane 7 the silhouette.
 layout(std430, set = 0, binding = 4) writeonly buffer Planes { uint planes[]; };
+
+layout(constant_id = 0) const bool IGNORES = false;
 
 void main() {
     uint groups = (picture.width + 31u) / 32u;
@@ -26,6 +30,7 @@ void main() {
     uint y = place / groups;
     uint group = place % groups;
     uint inside = silhouette[y * picture.stride + group];
+    uint kept = IGNORES ? ~ignored[y * picture.stride + group] : 0xffffffffu;
     uint first_word = y * ((picture.width + 3u) / 4u) + group * 8u;
     uint own[8];
     for (uint plane = 0u; plane < 8u; plane++) own[plane] = 0u;
@@ -39,6 +44,7 @@ void main() {
             uint bit = four * 4u + i;
             uint value = (proximity[code >> 2u] >> (8u * (code & 3u))) & 127u;
             value |= ((inside >> bit) & 1u) << 7u;
+            if (((kept >> bit) & 1u) == 0u) value = 0u;
             word |= value << (8u * i);
             for (uint plane = 0u; plane < 8u; plane++) own[plane] |= ((value >> plane) & 1u) << bit;
         }

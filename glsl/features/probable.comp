@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The colours of the most probable components on the grid that the light is measured on.
+// The colours of the most probable components, of every so many rows and columns.
 
 #include "features/constants.glsl"
 #include "arithmetic/rounding.glsl"
@@ -14,7 +14,8 @@ layout(std430, set = 0, binding = 1) writeonly buffer Background { uint backgrou
 layout(push_constant) uniform Probable {
     uint width;
     uint rows;      // of the band
-    uint first_row; // a multiple of the grid
+    uint first_row; // a multiple of `every`
+    uint every;     // rows and columns
 } push;
 
 layout(constant_id = 0) const uint COMPONENTS = 3u;
@@ -28,12 +29,12 @@ uint rounded(float value) {
 
 void main() {
     uint components = COMPONENTS;
-    uint columns = (push.width + RATIO_GRID - 1u) / RATIO_GRID;
+    uint columns = (push.width + push.every - 1u) / push.every;
     uint column = gl_GlobalInvocationID.x;
-    uint row = gl_GlobalInvocationID.y * RATIO_GRID;
+    uint row = gl_GlobalInvocationID.y * push.every;
     if (column >= columns || row >= push.rows) return;
     uint pixels = push.width * push.rows;
-    uint pixel = row * push.width + column * RATIO_GRID;
+    uint pixel = row * push.width + column * push.every;
     float greatest = -1.0;
     uint colour = 0u;
     for (uint k = 0u; k < components; k++) {
@@ -46,5 +47,5 @@ void main() {
             colour = rounded(state[at + pixels]) | (rounded(state[at + 2u * pixels]) << 8u) | (rounded(state[at + 3u * pixels]) << 16u);
         }
     }
-    background[(push.first_row + row) / RATIO_GRID * columns + column] = colour;
+    background[(push.first_row + row) / push.every * columns + column] = colour;
 }

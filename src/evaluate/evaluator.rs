@@ -12,7 +12,7 @@ use super::objective::{AreaSums, Objective};
 use super::raster::CandidateImage;
 use super::segments::{SegmentSums, no_segments};
 use super::view_counts::ViewCounts;
-use crate::features::{HeldFrame, Observation, SeenFrame, Segments};
+use crate::features::{HeldFrame, Observation, PartClasses, SeenFrame, Segments};
 use crate::gpu::{Device, DevicePass};
 
 /// Scores candidate poses against the observations of one frame.
@@ -94,6 +94,20 @@ pub trait Evaluator: Send {
     /// As [`Self::components`]; also when the observations carry none.
     fn evidence_sums(&mut self, _poses: &[f32], _sums: &mut [i32]) -> Result<()> {
         Err(no_evidence())
+    }
+
+    /// The codes of single pixels of evidence that its device made of what it holds, a word each; a pixel is a view and its place in the
+    /// picture's rows. Something of the frame was scored before.
+    ///
+    /// # Errors
+    /// When there is none, a pixel is in no picture, or the device fails.
+    fn evidence_at(&mut self, _pixels: &[[usize; 2]]) -> Result<Vec<u32>> {
+        Err(no_evidence())
+    }
+
+    /// The classes of that.
+    fn evidence_classes(&self) -> Option<&PartClasses> {
+        None
     }
 
     /// What an objective is told of one pose, one a view.

@@ -1,9 +1,14 @@
 //! From pictures to packed observations on a Vulkan device: all views of a frame in one submission.
 
 mod bounds;
+mod cleaning;
 mod components;
 mod edges;
 mod foreground;
+mod light_input;
+mod likely;
+#[cfg(test)]
+mod likely_tests;
 mod morphology;
 mod passes;
 mod readback;
@@ -13,16 +18,20 @@ mod tests;
 mod twin_tests;
 mod view;
 
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use image::{GrayImage, RgbImage};
 
-use self::passes::{record_frame, record_priming};
+use self::light_input::LightInput;
+use self::likely::LikelyView;
+use self::passes::{record_frame, record_learning, record_priming};
 use self::readback::{FeaturesOut, SilhouetteOut, held_views};
-use self::view::{DeviceView, Input};
-use super::held::{HeldFrame, HeldView, Lease};
+use self::view::{Brings, DeviceView, Input};
+use super::held::{HeldFrame, HeldLook, HeldView, Lease};
+use super::likelihood::{BackgroundColours, Lit};
 use super::shaders::layout::Rates;
 use super::{BitImage, FeatureSettings, ViewFeatures};
 use crate::gpu::{Buffer, Device, Memory, PassTiming, Recorder, Recording, Timing};
@@ -35,6 +44,8 @@ pub(super) struct DeviceChain {
     /// The 7-bit value of every code of a distance map.
     proximity: Buffer,
     views: Vec<DeviceView>,
+    /// What likelihoods are made by in frames that stay; none where they are not made there.
+    likely: Vec<LikelyView>,
     timing: Timing,
     /// Frames that go to the host whole.
     frames: Slot<FeaturesOut>,
@@ -53,18 +64,57 @@ struct Slot<Out> {
     inputs: Vec<Input>,
     packed: Vec<HeldView>,
     out: Vec<Out>,
-    /// The recording of a frame, and which views it expects masks for.
-    recorded: Option<(Vec<bool>, Recording)>,
+    /// The recording of a frame, and what it expects views to bring.
+    recorded: Option<(Vec<Brings>, Recording)>,
+    /// What goes ahead of it where likelihoods are of backgrounds that are learnt; none where none is.
+    learning: Option<(Vec<Brings>, Option<Recording>)>,
+    /// What differs between the views of its frame, where likelihoods are made.
+    looks: Vec<HeldLook>,
+    ignored: Vec<Option<Arc<BitImage>>>,
 }
 
 impl<Out> Slot<Out> {
-    fn new(device: &Device, views: &[DeviceView], out: impl Fn(&Device, &DeviceView) -> Result<Out>) -> Result<Self> {
+    fn new(
+        device: &Device,
+        views: &[DeviceView],
+        motion: Option<u32>,
+        out: impl Fn(&Device, &DeviceView) -> Result<Out>,
+    ) -> Result<Self> {
         Ok(Self {
             inputs: views.iter().map(|view| Input::new(device, view)).collect::<Result<_>>()?,
-            packed: held_views(device, views)?,
+            packed: held_views(device, views, motion)?,
             out: views.iter().map(|view| out(device, view)).collect::<Result<_>>()?,
             recorded: None,
+            learning: None,
+            looks: Vec::new(),
+            ignored: vec![None; views.len()],
         })
+    }
+}
+
+impl<Out> Slot<Out> {
+    /// Has mixtures make their step where likelihoods need what they know; that is told, of views that learn.
+    fn learn(
+        &mut self,
+        device: &Device,
+        (views, likely): (&[DeviceView], &[LikelyView]),
+        brings: &[Brings],
+        settings: &FeatureSettings,
+    ) -> Result<Vec<Option<RgbImage>>> {
+        if self.learning.as_ref().is_none_or(|(recorded, _)| recorded != brings) {
+            let mut recorder = device.recorder(Timing::Off)?;
+            let learns = record_learning(&mut recorder, (views, likely), (&self.inputs, brings), settings)?;
+            let recording = if learns { Some(recorder.finish()?) } else { None };
+            self.learning = Some((brings.to_vec(), recording));
+        }
+        if let Some((_, Some(recording))) = &mut self.learning {
+            recording.run()?;
+        }
+        let each = views.iter().zip(likely).zip(brings);
+        let read = |((view, likely), brings): ((&DeviceView, &LikelyView), &Brings)| {
+            likely.learnt().filter(|_| !brings.mask).map(|learnt| learnt.read(view)).transpose()
+        };
+        each.map(read).collect()
     }
 }
 
@@ -82,8 +132,15 @@ struct Held {
 }
 
 impl Held {
-    fn new(device: &Device, views: &[DeviceView]) -> Result<Self> {
-        let slot = || Slot::new(device, views, SilhouetteOut::new);
+    fn new(device: &Device, views: &[DeviceView], likely: &[LikelyView], motion: u32) -> Result<Self> {
+        let slot = || -> Result<_> {
+            let motion = (!likely.is_empty()).then_some(motion);
+            let mut slot = Slot::new(device, views, motion, SilhouetteOut::new)?;
+            for (input, _) in slot.inputs.iter_mut().zip(likely) {
+                input.light = Some(LightInput::new(device)?);
+            }
+            Ok(slot)
+        };
         let (given_back, free) = channel();
         (0..2).try_for_each(|place| given_back.send(place))?;
         Ok(Self { slots: [slot()?, slot()?], free, given_back, reserved: None, begun: None })
@@ -112,7 +169,8 @@ impl DeviceChain {
             device: device.clone(),
             settings: settings.clone(),
             proximity: table,
-            frames: Slot::new(device, &views, FeaturesOut::new)?,
+            frames: Slot::new(device, &views, None, FeaturesOut::new)?,
+            likely: Vec::new(),
             held: None,
             views,
             timing: Timing::Off,
@@ -121,26 +179,31 @@ impl DeviceChain {
             room: Default::default(),
         };
         // Compiles every stage, for a first frame in time.
-        chain.record(&vec![false; chain.views.len()])?;
+        chain.record(&vec![Brings::default(); chain.views.len()])?;
         Ok(chain)
     }
 
-    /// Has room for frames that stay on the device from now on.
+    /// Has room for frames that stay on the device from now on, and makes their likelihoods where views of that are `known`, one each: the
+    /// background's colours where there is a plate.
     ///
     /// # Errors
     /// When it has no memory for them.
-    pub(super) fn hold(&mut self) -> Result<()> {
-        self.held = Some(Held::new(&self.device, &self.views)?);
+    pub(super) fn hold(&mut self, known: &[Option<&BackgroundColours>]) -> Result<()> {
+        let each = self.views.iter().zip(known);
+        self.likely =
+            each.map(|(view, colours)| LikelyView::new(&self.device, view, *colours)).collect::<Result<_>>()?;
+        let motion = self.settings.silhouette.motion;
+        self.held = Some(Held::new(&self.device, &self.views, &self.likely, motion)?);
         Ok(())
     }
 
-    /// Records a frame in which these views have masks, where that is not what is recorded.
-    fn record(&mut self, masked: &[bool]) -> Result<()> {
+    /// Records a frame in which views bring this, where that is not what is recorded.
+    fn record(&mut self, brings: &[Brings]) -> Result<()> {
         let Self { device, views, timing, settings, proximity, frames, .. } = self;
-        record_slot(frames, masked, (device, *timing), |recorder, Slot { inputs, packed, out, .. }| {
-            record_frame(recorder, views, (inputs, masked), settings, proximity, packed)?;
-            let mut all = views.iter().zip(out).zip(packed).zip(masked);
-            all.try_for_each(|(((view, out), packed), masked)| out.record(recorder, view, packed, *masked))
+        record_slot(frames, brings, (device, *timing), |recorder, Slot { inputs, packed, out, .. }| {
+            record_frame(recorder, (views, &[]), (inputs, brings), settings, proximity, packed)?;
+            let mut all = views.iter().zip(out).zip(packed).zip(brings);
+            all.try_for_each(|(((view, out), packed), brings)| out.record(recorder, view, packed, brings.mask))
         })
     }
 
@@ -200,7 +263,8 @@ impl DeviceChain {
             }
         }
         fill(&self.frames.inputs, &self.views, pictures, masks, (&self.settings, &mut self.seen))?;
-        self.record(&masks.iter().map(Option::is_some).collect::<Vec<_>>())?;
+        let brings = |mask: &Option<GrayImage>| Brings { mask: mask.is_some(), ignored: false };
+        self.record(&masks.iter().map(brings).collect::<Vec<_>>())?;
         let Self { views, settings, frames: Slot { recorded, out, .. }, room: (codes, rows), .. } = self;
         recorded.as_mut().map_or(Ok(()), |(_, recording)| recording.run())?;
         let mut all = views.iter().zip(out).zip(masks).zip(features);
@@ -222,13 +286,21 @@ impl DeviceChain {
         Ok(())
     }
 
-    /// Begins with a frame in the memory that is reserved for it, and returns while the device is at work: one submission.
+    /// Begins with a frame in the memory that is reserved for it, and returns while the device is at work: one submission. Pixels that are
+    /// `ignored` count neither for nor against anybody. Where likelihoods are made, `lit` says the lights of the pictures, by the backgrounds
+    /// of views that learn them: those take a submission of their own before, which is waited for.
     ///
     /// # Errors
     /// When [`Self::hold`] was not asked for, the frame before was not taken, or the device fails.
-    pub(super) fn begin(&mut self, pictures: &[RgbImage], masks: &[Option<GrayImage>]) -> Result<()> {
+    pub(super) fn begin(
+        &mut self,
+        pictures: &[RgbImage],
+        masks: &[Option<GrayImage>],
+        ignored: &[Option<Arc<BitImage>>],
+        lit: impl FnOnce(&[Option<RgbImage>]) -> Vec<Option<Lit>>,
+    ) -> Result<()> {
         self.reserve()?;
-        let Self { device, views, timing, settings, proximity, held, seen, .. } = self;
+        let Self { device, views, likely, timing, settings, proximity, held, seen, .. } = self;
         let Some(Held { slots, reserved, begun, .. }) = held else { return Err(not_held()) };
         if begun.is_some() {
             bail!("a frame was begun before the one before it was taken from the device");
@@ -236,9 +308,33 @@ impl DeviceChain {
         let Some(lease) = reserved.take() else { return Err(not_held()) };
         let slot = &mut slots[lease.place];
         fill(&slot.inputs, views, pictures, masks, (settings, seen))?;
-        let masked: Vec<bool> = masks.iter().map(Option::is_some).collect();
-        record_slot(slot, &masked, (device, *timing), |recorder, Slot { inputs, packed, out, .. }| {
-            record_frame(recorder, views, (inputs, &masked), settings, proximity, packed)?;
+        for (input, ignored) in slot.inputs.iter().zip(ignored) {
+            ignored.as_ref().map_or(Ok(()), |ignored| input.ignored.write(0, ignored.words()))?;
+        }
+        slot.ignored = ignored.to_vec();
+        let brings = |(mask, ignored): (&Option<GrayImage>, &Option<Arc<BitImage>>)| Brings {
+            mask: mask.is_some(),
+            ignored: ignored.is_some(),
+        };
+        let brings: Vec<Brings> = masks.iter().zip(ignored).map(brings).collect();
+        if !likely.is_empty() {
+            let learnt = slot.learn(device, (views, likely), &brings, settings)?;
+            let lights = lit(&learnt);
+            for (((input, likely), light), learnt) in slot.inputs.iter_mut().zip(&*likely).zip(&lights).zip(&learnt) {
+                let Some(light) = light else { continue };
+                input.light.as_mut().map_or(Ok(()), |input| input.take(&light.tables))?;
+                if let (Some(learnt), Some(colours)) = (learnt, &light.learnt) {
+                    likely.take(learnt, colours)?;
+                }
+            }
+            let look = |(brings, light): (&Brings, &Option<Lit>)| HeldLook {
+                is_masked: brings.mask,
+                is_grey: light.as_ref().is_some_and(|light| light.tables.is_grey),
+            };
+            slot.looks = brings.iter().zip(&lights).map(look).collect();
+        }
+        record_slot(slot, &brings, (device, *timing), |recorder, Slot { inputs, packed, out, .. }| {
+            record_frame(recorder, (views, likely), (inputs, &brings), settings, proximity, packed)?;
             views.iter().zip(out).try_for_each(|(view, out)| out.record(recorder, view))
         })?;
         slot.recorded.as_mut().map_or(Ok(()), |(_, recording)| recording.submit())?;
@@ -253,7 +349,7 @@ impl DeviceChain {
     pub(super) fn finish(&mut self) -> Result<HeldFrame> {
         let Some(Held { slots, begun, .. }) = &mut self.held else { return Err(not_held()) };
         let Some(lease) = begun.take() else { bail!("no frame was begun on the device") };
-        let Slot { packed, out, recorded, .. } = &slots[lease.place];
+        let Slot { packed, out, recorded, looks, ignored, .. } = &slots[lease.place];
         let mut passes = Vec::new();
         if let Some((_, recording)) = recorded {
             recording.wait()?;
@@ -262,7 +358,15 @@ impl DeviceChain {
         self.device.validation_log().check()?;
         let silhouettes =
             self.views.iter().zip(out).map(|(view, out)| out.read(view)).collect::<Result<Vec<BitImage>>>()?;
-        Ok(HeldFrame { views: packed.clone(), silhouettes, passes, lease })
+        Ok(HeldFrame {
+            views: packed.clone(),
+            silhouettes,
+            ignored: ignored.clone(),
+            looks: looks.clone(),
+            colours: None,
+            passes,
+            lease,
+        })
     }
 }
 
@@ -273,16 +377,16 @@ fn not_held() -> anyhow::Error {
 /// Records a frame in a slot, unless that is what is recorded there.
 fn record_slot<Out>(
     slot: &mut Slot<Out>,
-    masked: &[bool],
+    brings: &[Brings],
     (device, timing): (&Device, Timing),
     record: impl FnOnce(&mut Recorder, &Slot<Out>) -> Result<()>,
 ) -> Result<()> {
-    if slot.recorded.as_ref().is_some_and(|(recorded, _)| recorded == masked) {
+    if slot.recorded.as_ref().is_some_and(|(recorded, _)| recorded == brings) {
         return Ok(());
     }
     let mut recorder = device.recorder(timing)?;
     record(&mut recorder, slot)?;
-    slot.recorded = Some((masked.to_vec(), recorder.finish()?));
+    slot.recorded = Some((brings.to_vec(), recorder.finish()?));
     Ok(())
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use image::{GrayImage, RgbImage};
 use rayon::prelude::*;
 
@@ -104,6 +104,10 @@ impl Extractor {
         if self.likely.iter().any(LikelySilhouette::learns) {
             return Ok(());
         }
+        self.leave_to(device)
+    }
+
+    fn leave_to(&mut self, device: &Device) -> Result<()> {
         if let Chain::Processor(views) = &self.chain {
             let views = views.iter().map(|view| ([view.width, view.height], view.foreground.plate()));
             let chain = DeviceChain::new(device, views, &self.settings, &self.proximity)?;
@@ -121,8 +125,12 @@ impl Extractor {
         if let Some(why) = self.settings.kept_from_device() {
             bail!("observations cannot stay on a device, since {why}");
         }
-        self.move_to(&device.beside())?;
-        self.held()?.hold()
+        self.leave_to(&device.beside())?;
+        let known: Vec<_> = self.likely.iter().map(LikelySilhouette::known).collect();
+        match &mut self.chain {
+            Chain::Device(device) => device.hold(&known),
+            Chain::Processor(_) => Err(on_processor()),
+        }
     }
 
     /// Waits for the memory of a frame that stays on the device: one of two, which the frames before have until they are dropped.
@@ -134,13 +142,31 @@ impl Extractor {
     }
 
     /// Begins the features of a frame that stays on the device, in the memory of [`Self::reserve`], and returns while the device is at
-    /// work.
+    /// work. Pixels that are `ignored` count neither for nor against anybody. For likelihoods the processor measures the picture's light, where
+    /// a background is learnt after a wait for what the device knows of it.
     ///
     /// # Errors
-    /// As [`Self::extract`]; also without [`Self::hold_on`], or when the frame before was not finished.
-    pub fn begin(&mut self, pictures: &[RgbImage], masks: &[Option<GrayImage>]) -> Result<()> {
+    /// As [`Self::extract`] and [`Self::ignore`]; also without [`Self::hold_on`], or when the frame before was not finished.
+    pub fn begin(
+        &mut self,
+        pictures: &[RgbImage],
+        masks: &[Option<GrayImage>],
+        ignored: &[Option<Arc<BitImage>>],
+    ) -> Result<()> {
         self.check_frame(pictures, Some(masks))?;
-        self.held()?.begin(pictures, masks)
+        ignoring::check(ignored, &self.sizes)?;
+        let Self { settings, likely, chain, .. } = self;
+        let lit = |learnt: &[Option<RgbImage>]| {
+            let views = likely.par_iter().zip(pictures).zip(masks).zip(learnt);
+            let of_view = |(((likely, picture), mask), learnt): (((&LikelySilhouette, _), &Option<_>), &Option<_>)| {
+                if mask.is_some() { None } else { likely.lit(picture, learnt.as_ref(), settings) }
+            };
+            views.map(of_view).collect()
+        };
+        match chain {
+            Chain::Device(device) => device.begin(pictures, masks, ignored, lit),
+            Chain::Processor(_) => Err(on_processor()),
+        }
     }
 
     /// The frame that was begun, when the device is done with it.
@@ -154,7 +180,7 @@ impl Extractor {
     fn held(&mut self) -> Result<&mut DeviceChain> {
         match &mut self.chain {
             Chain::Device(device) => Ok(device),
-            Chain::Processor(_) => bail!("the processor makes the features, and no frame stays on a device"),
+            Chain::Processor(_) => Err(on_processor()),
         }
     }
 
@@ -315,6 +341,10 @@ impl Extractor {
         }
         Ok(())
     }
+}
+
+fn on_processor() -> anyhow::Error {
+    anyhow!("the processor makes the features, and no frame stays on a device")
 }
 
 fn same_size(what: &str, view: usize, found: (u32, u32), expected: (u32, u32)) -> Result<()> {

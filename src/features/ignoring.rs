@@ -5,6 +5,7 @@ use std::sync::Arc;
 use anyhow::{Result, bail};
 use rayon::prelude::*;
 
+use super::observation::check_ignored;
 use super::{BitImage, FeatureSettings, ViewFeatures};
 
 /// Leaves pixels out of features that are made already.
@@ -30,6 +31,23 @@ impl Ignoring {
     }
 }
 
+fn check_count(masks: usize, views: usize) -> Result<()> {
+    if masks != views {
+        bail!("{views} views were given {masks} masks of ignored pixels or gaps, expected one each");
+    }
+    Ok(())
+}
+
+/// That there is a mask of ignored pixels, or none, for each of the views of these sizes.
+pub(super) fn check(ignored: &[Option<Arc<BitImage>>], sizes: &[(u32, u32)]) -> Result<()> {
+    check_count(ignored.len(), sizes.len())?;
+    for (ignored, size) in ignored.iter().zip(sizes) {
+        let Some(ignored) = ignored else { continue };
+        check_ignored(ignored, *size)?;
+    }
+    Ok(())
+}
+
 /// [`Ignoring::apply`] for features of these settings.
 pub(super) fn apply(
     settings: &FeatureSettings,
@@ -37,13 +55,7 @@ pub(super) fn apply(
     features: &mut [ViewFeatures],
     ignored: &[Option<Arc<BitImage>>],
 ) -> Result<()> {
-    if ignored.len() != features.len() {
-        bail!(
-            "{} views were given {} masks of ignored pixels or gaps, expected one each",
-            features.len(),
-            ignored.len()
-        );
-    }
+    check_count(ignored.len(), features.len())?;
     features.par_iter_mut().zip(ignored).try_for_each(|(features, ignored)| {
         let Some(ignored) = ignored else { return Ok(()) };
         features.silhouette.and_not(ignored);

@@ -7,6 +7,7 @@
 mod bit_image;
 pub mod blobs;
 pub mod clean_plate;
+mod colour_tables;
 mod device;
 pub mod distance;
 pub mod edges;
@@ -33,11 +34,12 @@ mod view_features;
 
 pub use bit_image::BitImage;
 pub use clean_plate::{Doubt, DoubtKind, LearntPlate};
+pub use colour_tables::ColourTables;
 pub use distance::{DistanceMap, Metric};
 pub use edges::{EdgeSettings, Magnitude, Operator};
 pub use evidence::{Evidence, PartClasses};
 pub use extractor::{Extractor, ViewSource};
-pub use held::{HeldFrame, HeldView, SeenFrame, SeenView};
+pub use held::{HeldFrame, HeldLikelihood, HeldLook, HeldView, SeenFrame, SeenView};
 pub use ignoring::Ignoring;
 pub use likelihood::Likelihood;
 pub use mixture::{Adaptation, MixtureSettings};

@@ -50,15 +50,7 @@ impl Observation {
     /// # Errors
     /// When the mask is of another size.
     pub fn ignore(&mut self, ignored: &Arc<BitImage>) -> Result<()> {
-        let size = (ignored.width(), ignored.height());
-        ensure!(
-            size == (self.width, self.height),
-            "the ignored pixels of {} x {} were given for an observation of {} x {}",
-            size.0,
-            size.1,
-            self.width,
-            self.height
-        );
+        check_ignored(ignored, (self.width, self.height))?;
         let pixels: Vec<usize> = ignored.pixels().collect();
         pixels.iter().for_each(|&at| self.bytes[at] = 0);
         self.segmentation = self.segmentation.take().map(|found| found.without(&pixels));
@@ -198,6 +190,20 @@ fn pack_row<T: Copy + Into<u32>>(bytes: &mut [u8], codes: &[T], silhouette: &[u6
             *byte = proximity[code as usize] | ((word >> at & 1) as u8) << 7;
         }
     }
+}
+
+/// That a mask of ignored pixels has the size of its observation.
+pub(super) fn check_ignored(ignored: &BitImage, size: (u32, u32)) -> Result<()> {
+    let found = (ignored.width(), ignored.height());
+    ensure!(
+        found == size,
+        "the ignored pixels of {} x {} were given for an observation of {} x {}",
+        found.0,
+        found.1,
+        size.0,
+        size.1
+    );
+    Ok(())
 }
 
 #[cfg(test)]

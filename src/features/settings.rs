@@ -122,17 +122,13 @@ impl FeatureSettings {
     }
 
     /// Whether likelihoods are made, to be given out or to find the foreground.
-    pub(super) fn needs_likelihoods(&self) -> bool {
+    pub(crate) fn needs_likelihoods(&self) -> bool {
         self.likelihoods || self.foreground == ForegroundKind::Likelihood
     }
 
     /// Why observations cannot stay on a device that makes them; none where they can.
     pub fn kept_from_device(&self) -> Option<&'static str> {
-        if !self.segment.is_empty() {
-            return Some("body parts are told apart");
-        }
-        self.needs_likelihoods()
-            .then_some("poses are compared, or silhouettes found, by how likely each pixel is as background")
+        (!self.segment.is_empty()).then_some("body parts are told apart")
     }
 
     /// Turns the parts that segments name into their labels; `parts` are the body's, each with its label.

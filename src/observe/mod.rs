@@ -6,7 +6,7 @@ mod observer;
 mod plates;
 mod settings;
 
-pub use appearance::{Appearance, Lesson};
+pub use appearance::{Appearance, Lesson, SeenColours};
 pub use observer::{Observer, check_background, take_likelihoods, take_observations, view_extractors};
 pub use plates::{Advance, PlateLesson, Plated, ViewPlate, learn_plate, with_plates};
 pub use settings::{feature_settings, silhouette_settings};

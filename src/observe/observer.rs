@@ -115,14 +115,9 @@ impl Observer {
     /// Begins the features of a frame that stays on the device.
     ///
     /// # Errors
-    /// As [`Extractor::begin`]; also when it ignores pixels.
+    /// As [`Extractor::begin`].
     pub fn begin(&mut self, frame: &FrameSet) -> Result<()> {
-        ensure!(
-            frame.ignored.iter().all(Option::is_none),
-            "frame {} ignores pixels, and stays on a device",
-            frame.index
-        );
-        self.extractor.begin(&frame.pictures, &frame.masks)
+        self.extractor.begin(&frame.pictures, &frame.masks, &ignored_pixels(frame))
     }
 
     /// The frame that was begun, when the device is done with it.

@@ -6,7 +6,6 @@ use super::{Backend, FeaturesOn, TrackSettings};
 use crate::evaluate::Evaluator;
 use crate::features::FeatureSettings;
 use crate::gpu::{Device, DeviceKind};
-use crate::sequence::Sequence;
 
 /// Who makes them, and what the user should know about that.
 pub(super) struct FeaturesMade {
@@ -27,7 +26,6 @@ impl FeaturesMade {
     /// # Errors
     /// When a device is asked for and cannot make them.
     pub(super) fn choose(
-        sequence: &Sequence,
         settings: &TrackSettings,
         features: &FeatureSettings,
         evaluator: &dyn Evaluator,
@@ -39,7 +37,7 @@ impl FeaturesMade {
         let name = evaluator.name();
         let is_shared = settings.devices.len() > 1;
         let draws_there = matches!(Backend::from_name(name)?, Backend::Compute | Backend::Graphics);
-        let device = match held_back(sequence, settings, features) {
+        let device = match held_back(settings, features) {
             _ if is_shared => Err("several devices share the poses".to_string()),
             _ if !draws_there => Err(format!("the backend {name} is on none")),
             Some(why) => Err(why.to_string()),
@@ -75,12 +73,9 @@ pub fn makes_features(kind: DeviceKind) -> bool {
 }
 
 /// What of a run needs observations on the host.
-fn held_back(sequence: &Sequence, settings: &TrackSettings, features: &FeatureSettings) -> Option<&'static str> {
+fn held_back(settings: &TrackSettings, features: &FeatureSettings) -> Option<&'static str> {
     if settings.realtime.is_some() {
         return Some("a run in real time makes those of each view by itself");
-    }
-    if sequence.views.iter().any(|view| view.ignored.is_some()) {
-        return Some("pixels are ignored");
     }
     features.kept_from_device()
 }

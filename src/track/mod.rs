@@ -4,6 +4,8 @@
 //! [`track`] is the driver, offline and in real time. [`score_poses`] scores given poses of one frame.
 
 mod appearance;
+#[cfg(test)]
+mod appearance_tests;
 mod auto;
 mod backend;
 mod begin;

@@ -73,7 +73,7 @@ impl Plan {
         settings.search.check()?;
         let mesh = settings.model.mesh(&body)?;
         let mut backend = drawing.build(&settings.devices, mesh.as_ref(), &body, &sequence.cameras, &start)?;
-        let made = FeaturesMade::choose(sequence, settings, &features, backend.evaluator.as_ref())?;
+        let made = FeaturesMade::choose(settings, &features, backend.evaluator.as_ref())?;
         if let Some(note) = &made.note {
             backend.reason = format!("{}; {note}", backend.reason);
         }

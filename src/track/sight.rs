@@ -1,9 +1,21 @@
 //! What the pictures say of a part of the body being at a place in space.
 
+use anyhow::Result;
 use glam::DVec3;
 
+use crate::evaluate::{Evaluator, Objective};
 use crate::features::{Evidence, SeenView, evidence};
 use crate::geometry::Camera;
+
+/// Where a view shows a place on the axis of a part.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) view: usize,
+    /// In the picture's rows.
+    pub(super) pixel: usize,
+    /// The part's.
+    pub(super) label: u8,
+}
 
 /// The pixel that a point is seen in; none outside the picture and where nothing counts.
 pub(super) fn pixel(camera: &Camera, view: SeenView<'_>, point: DVec3) -> Option<usize> {
@@ -14,14 +26,38 @@ pub(super) fn pixel(camera: &Camera, view: SeenView<'_>, point: DVec3) -> Option
     (!view.ignores(at)).then_some(at)
 }
 
-/// What a pixel says of a part being there, by the part's label, from -1 (surely background) to 1 (surely this part).
-pub(super) fn said(view: SeenView<'_>, pixel: usize, label: u8) -> f32 {
+/// What each place says of its part being there, from -1 (surely background) to 1 (surely this part). Evidence that the evaluator's device
+/// made is asked of it, all at once.
+///
+/// # Errors
+/// When the device fails.
+pub(super) fn said_of(
+    evaluator: &mut dyn Evaluator,
+    objective: &Objective,
+    views: &[SeenView<'_>],
+    places: &[Place],
+) -> Result<Vec<f32>> {
+    if !objective.weighs_evidence() || views.iter().all(|view| view.evidence().is_some()) {
+        return Ok(places.iter().map(|place| said(views, place)).collect());
+    }
+    let pixels: Vec<[usize; 2]> = places.iter().map(|place| [place.view, place.pixel]).collect();
+    let words = evaluator.evidence_at(&pixels)?;
+    let classes = evaluator.evidence_classes();
+    let class = |label: u8| classes.map_or(0, |classes| usize::from(classes.of_label(label)));
+    Ok(words.into_iter().zip(places).map(|(word, place)| of_code(evidence::code(word, class(place.label)))).collect())
+}
+
+/// The same of a place in views that the host knows.
+pub(super) fn said(views: &[SeenView<'_>], Place { view, pixel, label }: &Place) -> f32 {
+    let view = views[*view];
     match view.evidence() {
-        Some(seen) => {
-            let code = evidence::code(seen.words()[pixel], usize::from(seen.classes().of_label(label)));
-            (code as f32 - Evidence::NEUTRAL as f32) / Evidence::NEUTRAL as f32
-        }
-        None if view.is_person(pixel) => 1.0,
+        Some(seen) => of_code(evidence::code(seen.words()[*pixel], usize::from(seen.classes().of_label(*label)))),
+        None if view.is_person(*pixel) => 1.0,
         None => -1.0,
     }
+}
+
+/// The same by the code of the part's class.
+fn of_code(code: u32) -> f32 {
+    (code as f32 - Evidence::NEUTRAL as f32) / Evidence::NEUTRAL as f32
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-use image::{GrayImage, Rgb, RgbImage};
+use image::{GrayImage, Luma, Rgb, RgbImage};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -18,10 +18,22 @@ const EMPTY: usize = 4;
 /// The walk behind some frames of the empty scene. Of its four views the first has masks, the second a plate, and two learn.
 fn sequence() -> &'static Path {
     static SEQUENCE: OnceLock<TempDir> = OnceLock::new();
-    SEQUENCE.get_or_init(written).path()
+    let views = ["", "background = \"plate.png\"", "", ""];
+    SEQUENCE.get_or_init(|| written(views, "[features.mixture]\ncomponents = 3\n")).path()
 }
 
-fn written() -> TempDir {
+/// The same with a plate where backgrounds are learnt, and pixels of the last view that do not count.
+fn with_plates(features: &str) -> TempDir {
+    let plate = "background = \"plate.png\"";
+    let ignoring = "background = \"plate.png\"\nignore = \"ignored.png\"";
+    let folder = written(["", plate, plate, ignoring], features);
+    let ignored = GrayImage::from_fn(160, 120, |x, y| Luma([if (70..80).contains(&x) && y > 50 { 255 } else { 0 }]));
+    ignored.save(folder.path().join("ignored.png")).unwrap();
+    folder
+}
+
+/// What the manifest says of the views in the place of masks, but of the first one, and of features.
+fn written(views: [&str; 4], features: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     walk::write(folder.path());
     let frames = folder.path().join("frames");
@@ -42,25 +54,25 @@ fn written() -> TempDir {
     let mut lines = Vec::new();
     for line in fs::read_to_string(&manifest).unwrap().lines() {
         if line.starts_with("mask") {
-            match view {
-                0 => lines.push(line.to_string()),
-                1 => lines.push("background = \"plate.png\"".to_string()),
-                _ => (),
-            }
+            lines.push(if view == 0 { line.to_string() } else { views[view].to_string() });
             view += 1;
         } else if !line.starts_with("truth") {
             lines.push(line.to_string());
         }
     }
-    fs::write(&manifest, lines.join("\n") + "\n[features.mixture]\ncomponents = 3\n").unwrap();
+    fs::write(&manifest, lines.join("\n") + "\n" + features).unwrap();
     folder
 }
 
 /// A run to be.
 fn track(output: &Path, more: &[&str]) -> Command {
+    track_of(sequence(), output, more)
+}
+
+fn track_of(sequence: &Path, output: &Path, more: &[&str]) -> Command {
     let frames = format!("{EMPTY}..{}", EMPTY + walk::FRAMES);
     let mut command = program();
-    command.args(["track", sequence().to_str().unwrap(), "-o", output.to_str().unwrap(), "--frames", &frames]);
+    command.args(["track", sequence.to_str().unwrap(), "-o", output.to_str().unwrap(), "--frames", &frames]);
     command.args(["--particles", "24", "--iterations", "4", "--overlay-every", "3"]).args(more);
     if !more.contains(&"--objective") {
         command.args(["--objective", "sp"]);
@@ -69,8 +81,12 @@ fn track(output: &Path, more: &[&str]) -> Command {
 }
 
 fn tracked(output: &Path, more: &[&str]) -> Output {
+    tracked_of(sequence(), output, more)
+}
+
+fn tracked_of(sequence: &Path, output: &Path, more: &[&str]) -> Output {
     // Any message of the validation layer ends the run.
-    let done = track(output, more).env("PANTIN_VALIDATION", "sync").output().unwrap();
+    let done = track_of(sequence, output, more).env("PANTIN_VALIDATION", "sync").output().unwrap();
     succeeded(&done);
     done
 }
@@ -125,6 +141,52 @@ fn what_a_device_makes_and_holds_gives_the_processor_s_files() {
     fs::write(stopped.join("journal.txt"), kept.join("\n") + "\n").unwrap();
     tracked(&stopped, &["--search", "pso", "--backend", "compute", "--features", "device", "--resume"]);
     same(&stopped, &whole);
+}
+
+#[test]
+fn evidence_that_a_device_makes_gives_the_processor_s_files() {
+    if !has_vulkan("evidence_that_a_device_makes_gives_the_processor_s_files") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let plated = [with_plates(""), with_plates("[features]\nforeground = \"likelihood\"\n")];
+    let sequences = [plated[0].path(), plated[1].path(), sequence()];
+    let mut before: Option<PathBuf> = None;
+    // The default objective with its search, both passes and one, driven by the device and by the host; silhouettes of either kind, and
+    // backgrounds that are learnt.
+    for (name, sequence, more, backends) in [
+        ("both", 0, &["--search", "maes", "--passes", "both"][..], &["compute", "graphics"][..]),
+        ("forward", 1, &["--search", "maes", "--passes", "forward"], &["compute"]),
+        ("host", 0, &["--search", "cmaes", "--passes", "forward"], &["graphics"]),
+        ("learnt", 2, &["--search", "maes", "--passes", "forward"], &["compute"]),
+        ("refined", 0, &["--search", "pso", "--refine", "20", "--passes", "forward"], &["compute"]),
+    ] {
+        let sequence = sequences[sequence];
+        let more = [more, &["--objective", "evidence"]].concat();
+        let expected = folder.path().join(name);
+        tracked_of(sequence, &expected, &[&more[..], &["--backend", "cpu"]].concat());
+        for backend in backends {
+            let found = folder.path().join(format!("{name}_{backend}"));
+            let device = ["--backend", backend, "--features", "device"];
+            tracked_of(sequence, &found, &[&more[..], &device].concat());
+            same(&found, &expected);
+            assert_eq!(machine(&found, "features_made_by"), "device");
+        }
+        if let Some(before) = before.replace(expected.clone()) {
+            let read = |folder: &Path| fs::read(folder.join("poses.csv")).unwrap();
+            assert!(read(&before) != read(&expected), "{name} gives another run's poses");
+        }
+    }
+    // A run that was stopped goes on with the colours that it had learnt.
+    let stopped = folder.path().join("stopped");
+    let options = ["--search", "maes", "--passes", "forward", "--objective", "evidence", "--backend", "compute"];
+    let options = [&options[..], &["--features", "device"]].concat();
+    tracked_of(sequences[1], &stopped, &options);
+    let journal = fs::read_to_string(stopped.join("journal.txt")).unwrap();
+    let kept: Vec<&str> = journal.lines().take(5).collect();
+    fs::write(stopped.join("journal.txt"), kept.join("\n") + "\n").unwrap();
+    tracked_of(sequences[1], &stopped, &[&options[..], &["--resume"]].concat());
+    same(&stopped, &folder.path().join("forward"));
 }
 
 /// When an event begins and ends, microseconds, of every frame in order.
@@ -202,11 +264,15 @@ fn who_makes_the_features_is_chosen_and_said() {
         (&["--backend", "cpu"][..], "the backend cpu is on none"),
         (&["--backend", "compute", "--devices", "0,0"], "several devices share the poses"),
         (&["--backend", "graphics", "--gather", "readback"], "poses are compared on the host"),
-        (&["--backend", "compute", "--objective", "evidence"], "how likely each pixel is as background"),
     ] {
         let done = track(&output("refused"), &[&device, more].concat()).output().unwrap();
         refused(&done, &["the features cannot be made on a device", why, "expected --features auto or cpu"]);
     }
+    let shirt = "[[features.segment]]\nname = 'head'\nparts = ['head']\nweight = 1.0\ncue = 'skin'\n";
+    let (parts, refused_to) = (with_plates(shirt), output("refused"));
+    let more = [&device[..], &["--backend", "compute"]].concat();
+    let done = track_of(parts.path(), &refused_to, &more).output().unwrap();
+    refused(&done, &["the features cannot be made on a device (body parts are told apart)"]);
     let said = stderr(&tracked(&output("shared"), &["--search", "pso", "--backend", "compute", "--devices", "0,0"]));
     assert!(said.contains("the processor makes the features, since several devices share the poses"), "{said}");
     let alone = output("alone");

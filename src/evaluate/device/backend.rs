@@ -20,12 +20,12 @@ use crate::evaluate::batch::check_batch;
 use crate::evaluate::besides::Besides;
 use crate::evaluate::components::Components;
 use crate::evaluate::device_evaluator::DeviceEvaluator;
-use crate::evaluate::evaluator::{Evaluator, Footprint, check_evidence_batch, check_segment_batch};
+use crate::evaluate::evaluator::{Evaluator, Footprint, check_segment_batch};
 use crate::evaluate::evidence::{evidence_of, no_evidence};
 use crate::evaluate::objective::{AreaSums, Objective};
 use crate::evaluate::raster::CandidateImage;
 use crate::evaluate::segments::{SegmentSums, segments_of};
-use crate::features::{HeldFrame, Observation, PartClasses, SeenFrame, Segments};
+use crate::features::{ColourTables, HeldFrame, Observation, PartClasses, SeenFrame, Segments};
 use crate::gpu::{Buffer, Device, DeviceFacts, DevicePass, OutOfMemory, PassTiming, Recorder, Recording, Timing};
 
 /// An evaluator on a Vulkan device that draws by `R`.
@@ -176,6 +176,7 @@ impl<R: Rasteriser> DeviceBackend<R> {
         self.runs.clear();
         let Resources { scene, workspace, evidence, .. } = &mut self.resources;
         *evidence = count.map(|count| DeviceEvidence::new(scene, count, workspace.candidates)).transpose()?;
+        self.handovers.clear();
         self.rasteriser.set_evidence(scene, workspace, evidence.as_ref())?;
         self.runs.set_upload(record_upload(&self.resources, &self.rasteriser)?);
         self.is_outgrown = self.is_recorded;
@@ -187,6 +188,7 @@ impl<R: Rasteriser> DeviceBackend<R> {
         if self.resources.scene.reserve_ignored()? {
             // Recordings count everything.
             self.runs.clear();
+            self.handovers.clear();
             self.runs.set_upload(record_upload(&self.resources, &self.rasteriser)?);
             self.is_outgrown = self.is_recorded;
         }
@@ -244,7 +246,7 @@ impl<R: Rasteriser> DeviceBackend<R> {
 fn record_upload(resources: &Resources, rasteriser: &impl Rasteriser) -> Result<Recording> {
     let mut recorder = resources.scene.device.recorder(Timing::Off)?;
     resources.record_upload(&mut recorder)?;
-    rasteriser.record_upload(&mut recorder)?;
+    rasteriser.record_upload(&mut recorder, resources.scene.is_handed())?;
     recorder.finish()
 }
 
@@ -292,11 +294,23 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
         let name = self.name();
         ensure!(self.holder().is_some(), "the backend {name} compares on the host, and was given what a device holds");
         let views = SeenFrame::Held(frame).views();
-        self.resources.scene.observe_handed(&views)?;
         self.set_handed(true)?;
+        if views.iter().any(|view| view.is_partly_ignored()) {
+            self.set_ignoring()?;
+        }
+        self.resources.scene.observe_handed(&views)?;
         self.set_segments(None)?;
-        self.set_evidence(None)?;
-        self.handovers.take(&self.resources.scene, frame)?;
+        let colours = frame.colours();
+        self.set_evidence(colours.map(ColourTables::classes).map(AsRef::as_ref))?;
+        let Self { resources: Resources { scene, evidence, .. }, rasteriser, handovers, .. } = self;
+        if let (Some(evidence), Some(colours)) = (&mut *evidence, colours) {
+            evidence.observe_held(scene, frame, colours)?;
+        }
+        handovers.take(scene, frame, |recorder, views| {
+            let Some(evidence) = evidence else { return Ok(()) };
+            evidence.record_held(recorder, scene, views)?;
+            rasteriser.record_evidence(recorder, scene, evidence)
+        })?;
         self.rasteriser.observe_handed(&views, self.is_recorded);
         self.runs.outdate_upload();
         let is_refitted = self.refit()?;
@@ -327,11 +341,23 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
     }
 
     fn best_evidence(&self) -> Option<&[u32]> {
-        self.resources.evidence.as_ref().and_then(DeviceEvidence::best)
+        // What is still to be handed over is not known yet.
+        self.resources.evidence.as_ref().filter(|_| !self.handovers.is_due()).and_then(DeviceEvidence::best)
+    }
+
+    fn evidence_at(&mut self, pixels: &[[usize; 2]]) -> Result<Vec<u32>> {
+        ensure!(!self.handovers.is_due(), "the evidence of pixels was asked for before anything was scored");
+        let Resources { scene, evidence, .. } = &mut self.resources;
+        evidence.as_mut().ok_or_else(no_evidence)?.at(scene, pixels)
+    }
+
+    fn evidence_classes(&self) -> Option<&PartClasses> {
+        self.resources.evidence.as_ref().and_then(DeviceEvidence::held_classes)
     }
 
     fn evidence_sums(&mut self, poses: &[f32], sums: &mut [i32]) -> Result<()> {
-        check_evidence_batch(self, poses, sums.len())?;
+        ensure!(self.resources.evidence.is_some(), no_evidence());
+        check_batch(poses, self.dof_count(), sums.len(), self.view_count())?;
         if sums.is_empty() {
             return Ok(());
         }
@@ -435,7 +461,7 @@ impl<R: Rasteriser> DeviceEvaluator for DeviceBackend<R> {
 
     fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
         self.resources.record_upload(recorder)?;
-        self.rasteriser.record_upload(recorder)
+        self.rasteriser.record_upload(recorder, self.is_handed_observations())
     }
 
     fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {

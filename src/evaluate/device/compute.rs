@@ -227,7 +227,7 @@ impl Rasteriser for ComputeRasteriser {
         scene.device.compile(&[raster, objective_evidence_comp::stage()])
     }
 
-    fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
+    fn record_upload(&self, recorder: &mut Recorder, _is_handed: bool) -> Result<()> {
         self.mesh.as_ref().map_or(Ok(()), |mesh| mesh.record_upload(recorder))
     }
 

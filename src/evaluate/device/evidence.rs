@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use anyhow::Result;
 
+use super::held_evidence::HeldEvidence;
 use super::host_buffers::HostCounts;
 use super::scene::DeviceScene;
 use crate::evaluate::bit_planes::{WORD_PIXELS, word_planes};
-use crate::evaluate::evidence::best_sums;
+use crate::evaluate::evidence::{best_sums, no_evidence};
 use crate::evaluate::shaders::layout;
-use crate::features::{Evidence, Observation};
+use crate::features::{ColourTables, Evidence, HeldFrame, HeldView, Observation, PartClasses};
 use crate::gpu::{Buffer, Memory, Recorder, StagedBuffer};
 
 /// The evidence of a frame's observations, and the sums of a run.
@@ -18,8 +19,12 @@ use crate::gpu::{Buffer, Memory, Recorder, StagedBuffer};
 pub(crate) struct DeviceEvidence {
     /// Room is for so many classes.
     classes: usize,
-    /// One a view.
+    /// One a view, of observations that the host brought.
     best: Option<Arc<[u32]>>,
+    /// How the device makes it itself, once it does.
+    held: Option<HeldEvidence>,
+    /// Whether that of the newest frame is made so.
+    is_held: bool,
     /// The class of each label, how many there are, the best of each view.
     pub(super) table: StagedBuffer,
     /// The bits of the codes of 32 pixels of a row, lowest first, `[group][class]` in the order of the scene's planes.
@@ -40,6 +45,8 @@ impl DeviceEvidence {
         Ok(Self {
             classes,
             best: None,
+            held: None,
+            is_held: false,
             table: StagedBuffer::new::<u32>(device, "evidence", table)?,
             planes: StagedBuffer::of(device, "observed evidence", &vec![[0_u32; Evidence::BITS]; groups * classes])?,
             sums,
@@ -64,21 +71,54 @@ impl DeviceEvidence {
         self.classes
     }
 
-    /// The best of each view.
+    /// The best of each view; of what the device makes itself, when it has.
     pub(super) fn best(&self) -> Option<&[u32]> {
-        self.best.as_deref()
+        match &self.held {
+            Some(held) if self.is_held => held.best(),
+            _ => self.best.as_deref(),
+        }
+    }
+
+    /// Takes what the device is to make evidence of, in as many classes, ahead of what runs next.
+    pub(super) fn observe_held(
+        &mut self,
+        scene: &DeviceScene,
+        frame: &HeldFrame,
+        colours: &ColourTables,
+    ) -> Result<()> {
+        let mut held = match self.held.take() {
+            Some(held) => held,
+            None => HeldEvidence::new(scene, self.classes)?,
+        };
+        held.observe(frame, colours)?;
+        self.held = Some(held);
+        self.is_held = true;
+        self.write_classes(colours.classes(), &[])
+    }
+
+    /// The classes of what the device makes itself.
+    pub(super) fn held_classes(&self) -> Option<&PartClasses> {
+        self.held.as_ref().filter(|_| self.is_held).and_then(HeldEvidence::part_classes)
+    }
+
+    /// Records how it is made of what is held of the views.
+    pub(super) fn record_held(&self, recorder: &mut Recorder, scene: &DeviceScene, views: &[HeldView]) -> Result<()> {
+        let held = self.held.as_ref().ok_or_else(no_evidence)?;
+        held.record(recorder, scene, (&self.table, &self.planes.buffer), views)
+    }
+
+    /// The codes of single pixels of what the device made, each a view and its place in the picture's rows.
+    pub(super) fn at(&mut self, scene: &DeviceScene, pixels: &[[usize; 2]]) -> Result<Vec<u32>> {
+        let held = self.held.as_mut().filter(|_| self.is_held).ok_or_else(no_evidence)?;
+        held.at(scene, &self.planes.buffer, pixels)
     }
 
     /// Takes the observations of a frame, which have evidence in as many classes.
     pub(super) fn observe(&mut self, scene: &DeviceScene, observations: &[Observation]) -> Result<()> {
         self.best = best_sums(observations);
-        let mut header: layout::EvidenceTableHeader = bytemuck::Zeroable::zeroed();
-        header.count = u32::try_from(self.classes)?;
+        self.is_held = false;
         for (view, first) in observations.iter().zip(scene.first_plane_words()) {
             let Some(evidence) = &view.evidence else { continue };
-            for (label, class) in (0..).zip(&mut header.classes) {
-                *class = u32::from(evidence.classes().of_label(label));
-            }
             // Stages that add up codes do not count what is ignored.
             let mut words = Cow::Borrowed(evidence.words());
             for at in view.ignored.iter().flat_map(|ignored| ignored.pixels()) {
@@ -91,9 +131,20 @@ impl DeviceEvidence {
             }
             self.planes.staging.write(Evidence::BITS * self.classes * first as usize, &planes)?;
         }
+        let classes = observations.iter().find_map(|view| view.evidence.as_ref()).map(Evidence::classes);
+        classes.map_or(Ok(()), |classes| self.write_classes(classes, self.best().unwrap_or_default()))
+    }
+
+    /// Writes the class of each label and the best of each view, where it is known.
+    fn write_classes(&self, classes: &PartClasses, best: &[u32]) -> Result<()> {
+        let mut header: layout::EvidenceTableHeader = bytemuck::Zeroable::zeroed();
+        header.count = u32::try_from(self.classes)?;
+        for (label, class) in (0..).zip(&mut header.classes) {
+            *class = u32::from(classes.of_label(label));
+        }
         self.table.staging.write(0, bytemuck::cast_slice::<u8, u32>(bytemuck::bytes_of(&header)))?;
         let first = size_of::<layout::EvidenceTableHeader>() / size_of::<u32>();
-        self.table.staging.write(first, self.best().unwrap_or_default())
+        self.table.staging.write(first, best)
     }
 
     /// Records the copies to the device's own memory.

@@ -1,10 +1,11 @@
-//! Observations that a device made itself and holds, brought to where the evaluator compares with them: on the device, without the host.
+//! Observations that a device made itself and holds, brought to where the evaluator compares with them, and their evidence made there: on
+//! the device, without the host.
 
 use anyhow::Result;
 
 use super::scene::DeviceScene;
 use crate::features::{HeldFrame, HeldView};
-use crate::gpu::{Recording, Timing};
+use crate::gpu::{Recorder, Recording, Timing};
 
 /// Memories that frames are held in whose recordings are kept: two take turns.
 const MOST: usize = 4;
@@ -19,11 +20,16 @@ pub(super) struct Handovers {
 }
 
 impl Handovers {
-    /// Has a frame's observations brought ahead of what runs next.
+    /// Has a frame's observations brought ahead of what runs next, and after that what `more` records for their views.
     ///
     /// # Errors
     /// When the device fails.
-    pub(super) fn take(&mut self, scene: &DeviceScene, frame: &HeldFrame) -> Result<()> {
+    pub(super) fn take(
+        &mut self,
+        scene: &DeviceScene,
+        frame: &HeldFrame,
+        more: impl FnOnce(&mut Recorder, &[HeldView]) -> Result<()>,
+    ) -> Result<()> {
         let is_it = |(views, _): &(Vec<HeldView>, Recording)| {
             let mut pairs = views.iter().zip(frame.views());
             views.len() == frame.views().len()
@@ -35,11 +41,24 @@ impl Handovers {
                 if self.recorded.len() == MOST {
                     self.recorded.remove(0);
                 }
-                self.recorded.push((frame.views().to_vec(), record(scene, frame.views())?));
+                let mut recorder = record(scene, frame.views())?;
+                more(&mut recorder, frame.views())?;
+                self.recorded.push((frame.views().to_vec(), recorder.finish()?));
             }
         }
         self.is_due = true;
         Ok(())
+    }
+
+    /// Forgets what was recorded: it brings observations to where they are looked for no longer.
+    pub(super) fn clear(&mut self) {
+        self.recorded.clear();
+        self.is_due = false;
+    }
+
+    /// Whether something is still to be brought.
+    pub(super) fn is_due(&self) -> bool {
+        self.is_due
     }
 
     /// Forgets what was to be brought: newer observations come from the host.
@@ -54,8 +73,8 @@ impl Handovers {
     }
 }
 
-/// Records the copies of all views, two passes.
-fn record(scene: &DeviceScene, views: &[HeldView]) -> Result<Recording> {
+/// Begins with the copies of all views, two passes.
+fn record(scene: &DeviceScene, views: &[HeldView]) -> Result<Recorder> {
     let mut recorder = scene.device.recorder(Timing::Off)?;
     let place = |first: u32, bytes: usize| u64::from(first) * bytes as u64;
     let planes: Vec<_> = views
@@ -70,5 +89,5 @@ fn record(scene: &DeviceScene, views: &[HeldView]) -> Result<Recording> {
         .collect();
     recorder.gather("hand planes over", &planes, &scene.planes.buffer)?;
     recorder.gather("hand pixels over", &pixels, &scene.pixels.buffer)?;
-    recorder.finish()
+    Ok(recorder)
 }

@@ -50,7 +50,7 @@ fn frame(extractors: &mut [Extractor; 2], number: u32) -> (Vec<Observation>, Hel
     let [host, held] = extractors;
     let (pictures, masks) = (pictures(number), [None, None]);
     let found = host.extract(&pictures, &masks).unwrap();
-    held.begin(&pictures, &masks).unwrap();
+    held.begin(&pictures, &masks, &[None, None]).unwrap();
     (found.into_iter().map(|view| view.observation).collect(), held.finish().unwrap())
 }
 

@@ -11,6 +11,7 @@ mod graphics;
 mod handover;
 #[cfg(test)]
 mod handover_tests;
+mod held_evidence;
 mod host_buffers;
 mod mesh;
 #[cfg(test)]

@@ -64,8 +64,18 @@ pub(crate) trait Rasteriser: Send {
     /// Takes what is known of observations that are handed over on the device.
     fn observe_handed(&mut self, _views: &[SeenView<'_>], _is_recorded: bool) {}
 
-    /// Records the copies that bring its own buffers to the device.
-    fn record_upload(&self, _recorder: &mut Recorder) -> Result<()> {
+    /// Records the copies that bring its own buffers to the device, but for observations where they are handed over.
+    fn record_upload(&self, _recorder: &mut Recorder, _is_handed: bool) -> Result<()> {
+        Ok(())
+    }
+
+    /// Records what it makes of evidence that was made on the device.
+    fn record_evidence(
+        &self,
+        _recorder: &mut Recorder,
+        _scene: &DeviceScene,
+        _evidence: &DeviceEvidence,
+    ) -> Result<()> {
         Ok(())
     }
 

@@ -54,7 +54,9 @@ impl Resources {
     pub(super) fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
         self.scene.record_upload(recorder)?;
         self.segments.as_ref().map_or(Ok(()), |segments| segments.record_upload(recorder))?;
-        self.evidence.as_ref().map_or(Ok(()), |evidence| evidence.record_upload(recorder))
+        // What is handed over comes with its evidence.
+        let evidence = self.evidence.as_ref().filter(|_| !self.scene.is_handed());
+        evidence.map_or(Ok(()), |evidence| evidence.record_upload(recorder))
     }
 
     /// Records the fitness of a run from its sums.

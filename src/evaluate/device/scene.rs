@@ -42,6 +42,21 @@ pub(super) struct Counted {
     pub(super) pixels: StagedBuffer,
 }
 
+impl Counted {
+    /// Takes which pixels of a view count, by column and row.
+    fn take(&self, camera: &layout::Camera, counts: impl Fn(u32, u32) -> bool) -> Result<()> {
+        let (mut planes, mut pixels) = (Vec::new(), Vec::new());
+        for row in 0..camera.size[1] {
+            let counts: Vec<u8> =
+                (0..camera.size[0]).map(|column| if counts(column, row) { 0xff } else { 0 }).collect();
+            planes.extend(counts.chunks(WORD_PIXELS).map(|pixels| bit_planes(pixels)[0]));
+            pixels.extend(packed(&counts));
+        }
+        self.planes.staging.write(camera.first_plane_word as usize, &planes)?;
+        self.pixels.staging.write(camera.first_pixel_word as usize, &pixels)
+    }
+}
+
 /// Body, cameras and observations on the device. The host's side is written at once; the device sees it when the passes of
 /// [`Self::record_upload`] have run.
 #[derive(Debug)]
@@ -184,9 +199,8 @@ impl DeviceScene {
             camera.area_obs = view.area();
         }
         if let Some(counted) = &self.counted {
-            // Every pixel counts.
-            for staged in [&counted.planes, &counted.pixels] {
-                staged.staging.write(0, &vec![u32::MAX; staged.buffer.size() as usize / size_of::<u32>()])?;
+            for (view, camera) in views.iter().zip(&self.camera_rows) {
+                counted.take(camera, |column, row| !view.ignores((row * camera.size[0] + column) as usize))?;
             }
         }
         self.cameras.staging.write(0, &self.camera_rows)
@@ -206,15 +220,7 @@ impl DeviceScene {
             self.planes.staging.write(8 * camera.first_plane_word as usize, &planes)?;
             self.pixels.staging.write(camera.first_pixel_word as usize, &pixels)?;
             if let Some(counted) = &self.counted {
-                let (mut planes, mut pixels) = (Vec::new(), Vec::new());
-                for row in 0..observation.height {
-                    let counts: Vec<u8> =
-                        (0..observation.width).map(|column| observation.counts(column, row)).collect();
-                    planes.extend(counts.chunks(WORD_PIXELS).map(|pixels| bit_planes(pixels)[0]));
-                    pixels.extend(packed(&counts));
-                }
-                counted.planes.staging.write(camera.first_plane_word as usize, &planes)?;
-                counted.pixels.staging.write(camera.first_pixel_word as usize, &pixels)?;
+                counted.take(camera, |column, row| observation.counts(column, row) != 0)?;
             }
         }
         self.cameras.staging.write(0, &self.camera_rows)

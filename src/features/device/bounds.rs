@@ -5,16 +5,21 @@ use anyhow::Result;
 use super::view::{DeviceView, Plane};
 use crate::features::Region;
 use crate::features::shaders::{bounds_comp, layout};
-use crate::gpu::Recorder;
+use crate::gpu::{Buffer, Recorder};
 
-/// Records it: a plane to `sides`.
+/// Records it: a plane to the views' own `sides`.
 pub(super) fn bounds(recorder: &mut Recorder, views: &[&DeviceView], image: Plane) -> Result<()> {
-    for view in views {
-        recorder.fill("bounds", &view.sides, 0)?;
+    bounds_of(recorder, &views.iter().map(|view| (*view, &view.sides)).collect::<Vec<_>>(), image)
+}
+
+/// Records it: a plane to the sides beside each view.
+pub(super) fn bounds_of(recorder: &mut Recorder, views: &[(&DeviceView, &Buffer)], image: Plane) -> Result<()> {
+    for (_, sides) in views {
+        recorder.fill("bounds", sides, 0)?;
     }
-    recorder.run_all(views.iter().map(|view| {
+    recorder.run_all(views.iter().map(|(view, sides)| {
         let (width, height, stride) = (view.picture.width, view.picture.height, view.picture.stride);
-        let bindings = bounds_comp::Bindings { image: view.plane(image), sides: &view.sides };
+        let bindings = bounds_comp::Bindings { image: view.plane(image), sides };
         bindings.dispatch(layout::Bounds { width, height, stride }, view.every_word())
     }))
 }

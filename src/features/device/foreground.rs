@@ -79,15 +79,26 @@ pub(super) fn bridge(recorder: &mut Recorder, views: &[&DeviceView], [from, clos
 
 /// Records the colours of the most probable components, on the light's `grid`.
 pub(super) fn probable(recorder: &mut Recorder, views: &[&DeviceView], settings: &MixtureSettings) -> Result<()> {
+    let grids: Vec<&Buffer> = views.iter().map(|view| &view.light.grid).collect();
+    probable_every(recorder, (views, &grids), RATIO_GRID, settings)
+}
+
+/// Records the same of `every` so many rows and columns, to a buffer beside each view.
+pub(super) fn probable_every(
+    recorder: &mut Recorder,
+    (views, to): (&[&DeviceView], &[&Buffer]),
+    every: u32,
+    settings: &MixtureSettings,
+) -> Result<()> {
     let constants = probable_comp::Constants { components: settings.components as u32 };
     for_each_band(views, |of_band| {
-        recorder.run_all(of_band.iter().map(|(_, view, band)| {
-            let push = layout::Probable { width: view.picture.width, rows: band.rows, first_row: band.first_row };
-            let columns = view.picture.width.div_ceil(RATIO_GRID);
-            probable_comp::Bindings { state: &band.state, background: &view.light.grid }.dispatch(
+        recorder.run_all(of_band.iter().map(|(at, view, band)| {
+            let width = view.picture.width;
+            let push = layout::Probable { width, rows: band.rows, first_row: band.first_row, every };
+            probable_comp::Bindings { state: &band.state, background: to[*at] }.dispatch(
                 constants,
                 push,
-                Groups::Over([columns, band.rows.div_ceil(RATIO_GRID), 1]),
+                Groups::Over([width.div_ceil(every), band.rows.div_ceil(every), 1]),
             )
         }))
     })

@@ -5,41 +5,51 @@
 use anyhow::Result;
 
 use super::bounds::bounds;
-use super::components::{Keep, components};
+use super::cleaning::clean;
 use super::edges::{edges, smooth};
-use super::foreground::{bridge, difference, mixture, probable, ratios};
-use super::morphology::{Operation, closing, morphology, opening};
-use super::view::{DeviceView, Input, Plane, copy_whole};
+use super::foreground::{difference, mixture, probable, probable_every, ratios};
+use super::likely::{LikelyView, likelihoods};
+use super::morphology::{Operation, morphology};
+use super::view::{Brings, DeviceView, Input, Plane, copy_whole};
 use crate::features::held::HeldView;
 use crate::features::shaders::{
     METRIC_CHESSBOARD, METRIC_CITY_BLOCK, METRIC_EUCLIDEAN, METRIC_QUASI_EUCLIDEAN, RATIO_STEPS, distance_comp,
-    pack_comp, reach_comp,
+    ignore_comp, layout, pack_comp, reach_comp,
 };
-use crate::features::{FeatureSettings, Metric};
+use crate::features::{FeatureSettings, ForegroundKind, Metric};
 use crate::gpu::{Buffer, Groups, Recorder};
 
-/// Records a frame, from what the host fills to what is `packed`, one a view: `masked` says which views bring their silhouette with
-/// them, `proximity` holds the 7-bit value of every code of a map.
+/// Records a frame, from what the host fills to what is `packed`, one a view: `brings` says what views bring with them, `proximity` holds the 7-bit value of every code of a map. What is `likely` is made where views are given for it.
 pub(super) fn record_frame(
     recorder: &mut Recorder,
-    views: &[DeviceView],
-    (inputs, masked): (&[Input], &[bool]),
+    (views, likely): (&[DeviceView], &[LikelyView]),
+    (inputs, brings): (&[Input], &[Brings]),
     settings: &FeatureSettings,
     proximity: &Buffer,
     packed: &[HeldView],
 ) -> Result<()> {
     let all: Vec<&DeviceView> = views.iter().collect();
     let of = |wanted: &dyn Fn(&DeviceView, bool) -> bool| -> Vec<&DeviceView> {
-        views.iter().zip(masked).filter(|&(view, &masked)| wanted(view, masked)).map(|(view, _)| view).collect()
+        views.iter().zip(brings).filter(|&(view, brings)| wanted(view, brings.mask)).map(|(view, _)| view).collect()
     };
-    let segmented = of(&|_, masked| !masked);
-    let with_plate = of(&|view, masked| !masked && view.plate().is_some());
-    let with_mixture = of(&|view, masked| !masked && view.plate().is_none());
-    for ((view, input), masked) in views.iter().zip(inputs).zip(masked) {
+    // By their likelihood silhouettes are found beside it.
+    let finds_otherwise = !likely.is_empty() && settings.foreground == ForegroundKind::Likelihood;
+    let segmented = of(&|_, masked| !masked && !finds_otherwise);
+    let with_plate = of(&|view, masked| !masked && !finds_otherwise && view.plate().is_some());
+    // Where likelihoods are made mixtures have made their step before.
+    let with_mixture = of(&|view, masked| !masked && likely.is_empty() && view.plate().is_none());
+    for ((view, input), brings) in views.iter().zip(inputs).zip(brings) {
         copy_whole(recorder, "upload", &input.colours, &view.colours)?;
-        if *masked {
+        if brings.mask {
             copy_whole(recorder, "upload", &input.mask, view.plane(Plane::Silhouette))?;
         }
+        if brings.ignored {
+            copy_whole(recorder, "upload", &input.ignored, view.plane(Plane::Ignored))?;
+        }
+    }
+    if !likely.is_empty() {
+        let held: Vec<_> = packed.iter().filter_map(|view| view.likelihood.as_ref()).collect();
+        likelihoods(recorder, (views, likely), (inputs, brings), &held, settings)?;
     }
     if settings.plate.gain {
         ratios(recorder, &with_plate)?;
@@ -47,27 +57,67 @@ pub(super) fn record_frame(
         with_plate.iter().try_for_each(|view| recorder.fill("gain", &view.light.gains, RATIO_STEPS))?;
     }
     difference(recorder, &with_plate, &settings.plate, &settings.shadow)?;
-    let of_mixture = |&((view, _), masked): &((&DeviceView, &Input), &bool)| !masked && view.plate().is_none();
-    let learning = views.iter().zip(inputs).zip(masked).filter(of_mixture);
+    let of_mixture = |&((view, _), brings): &((&DeviceView, &Input), &Brings)| {
+        !brings.mask && likely.is_empty() && view.plate().is_none()
+    };
+    let learning = views.iter().zip(inputs).zip(brings).filter(of_mixture);
     let rates: Vec<&Buffer> = learning.map(|((_, input), _)| &input.rates).collect();
     record_mixture(recorder, &with_mixture, &rates, settings)?;
-    record_cleaning(recorder, &segmented, &with_plate, settings)?;
+    clean(recorder, &segmented, &with_plate, settings)?;
     bounds(recorder, &all, Plane::Silhouette)?;
     smooth(recorder, &all, settings.edges.smooth)?;
     let near = [Plane::Silhouette, Plane::Near];
     morphology(recorder, &all, Operation::Dilate, settings.dilation(), near)?;
     edges(recorder, &all, &settings.edges)?;
+    let ignoring = views.iter().zip(brings).filter(|(_, brings)| brings.ignored);
+    recorder.run_all(ignoring.map(|(view, _)| {
+        ignore_comp::Bindings {
+            ignored: view.plane(Plane::Ignored),
+            silhouette: view.plane(Plane::Silhouette),
+            edges: view.plane(Plane::Edges),
+        }
+        .dispatch(layout::Ignore { words: view.words() }, view.every_word())
+    }))?;
     record_distance(recorder, &all, settings.distance.metric)?;
-    recorder.run_all(all.iter().zip(packed).map(|(view, packed)| {
+    recorder.run_all(all.iter().zip(packed).zip(brings).map(|((view, packed), brings)| {
+        let constants = pack_comp::Constants { ignores: brings.ignored };
         pack_comp::Bindings {
             silhouette: view.plane(Plane::Silhouette),
+            ignored: view.plane(Plane::Ignored),
             codes: &view.codes,
             proximity,
             pixels: &packed.pixels,
             planes: &packed.planes,
         }
-        .dispatch(view.picture, Groups::Flat(view.picture.width.div_ceil(32) * view.picture.height))
+        .dispatch(constants, view.picture, Groups::Flat(view.picture.width.div_ceil(32) * view.picture.height))
     }))
+}
+
+/// Records the step of the mixtures of views whose background the likelihoods have from there, from what the host fills, and what the host
+/// is told of that: whether there is any such view.
+pub(super) fn record_learning(
+    recorder: &mut Recorder,
+    (views, likely): (&[DeviceView], &[LikelyView]),
+    (inputs, brings): (&[Input], &[Brings]),
+    settings: &FeatureSettings,
+) -> Result<bool> {
+    let each = views.iter().zip(inputs).zip(likely).zip(brings);
+    let learning: Vec<_> = each
+        .filter(|(_, brings)| !brings.mask)
+        .filter_map(|(((view, input), likely), _)| Some((view, input, likely.learnt()?)))
+        .collect();
+    for (view, input, _) in &learning {
+        copy_whole(recorder, "upload", &input.colours, &view.colours)?;
+    }
+    let rates: Vec<&Buffer> = learning.iter().map(|(_, input, _)| &input.rates).collect();
+    let of_learning: Vec<&DeviceView> = learning.iter().map(|(view, ..)| *view).collect();
+    record_mixture(recorder, &of_learning, &rates, settings)?;
+    let colours: Vec<&Buffer> = learning.iter().map(|(.., learnt)| &learnt.colours).collect();
+    probable_every(recorder, (&of_learning, &colours), 1, &settings.mixture)?;
+    for (.., learnt) in &learning {
+        copy_whole(recorder, "readback", &learnt.colours, &learnt.out)?;
+    }
+    Ok(!learning.is_empty())
 }
 
 /// Records what views without a plate, each with what the host fills, learn from a frame of the empty scene.
@@ -94,24 +144,6 @@ fn record_mixture(
         ratios(recorder, views)?;
     }
     mixture(recorder, views, rates, &settings.mixture, &settings.shadow)
-}
-
-/// From foreground to silhouette; those with a plate have their hysteresis and bridges.
-fn record_cleaning(
-    recorder: &mut Recorder,
-    views: &[&DeviceView],
-    with_plate: &[&DeviceView],
-    settings: &FeatureSettings,
-) -> Result<()> {
-    use Plane::{Foreground, Silhouette, Strong, WorkA, WorkB, WorkC};
-    let holes = Keep::Holes(settings.silhouette.max_hole);
-    opening(recorder, views, settings.opening(), [Foreground, WorkA, WorkB])?;
-    components(recorder, with_plate, Keep::Touched, Strong, [WorkB, WorkA])?;
-    closing(recorder, with_plate, settings.bridge(), [WorkA, WorkB, WorkC])?;
-    bridge(recorder, with_plate, [WorkA, WorkC, WorkB])?;
-    closing(recorder, views, settings.closing(), [WorkB, WorkA, WorkC])?;
-    components(recorder, views, Keep::largest(&settings.silhouette), Strong, [WorkC, WorkA])?;
-    components(recorder, views, holes, Strong, [WorkA, Silhouette])
 }
 
 /// The twin of [`crate::features::DistanceMap::measure`]: vertical distances to the nearest edge, then distances from them.

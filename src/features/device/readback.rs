@@ -4,17 +4,30 @@ use anyhow::Result;
 
 use super::bounds::region;
 use super::view::{DeviceView, Plane, copy_whole};
-use crate::features::held::HeldView;
+use crate::features::held::{HeldLikelihood, HeldView};
 use crate::features::{BitImage, FeatureSettings, Region, ViewFeatures};
+use crate::geometry::LARGEST_SIDE;
 use crate::gpu::{Buffer, Device, Memory, Recorder};
 
-/// The memory of a frame's packed observations, one a view.
-pub(super) fn held_views(device: &Device, views: &[DeviceView]) -> Result<Vec<HeldView>> {
+/// The memory of a frame's packed observations, one a view; and of their likelihoods where these are made, with the room round what is
+/// found there.
+pub(super) fn held_views(device: &Device, views: &[DeviceView], motion: Option<u32>) -> Result<Vec<HeldView>> {
+    let likelihood = |view: &DeviceView, motion: u32| -> Result<HeldLikelihood> {
+        let pixels = view.picture.width as usize * view.picture.height as usize;
+        Ok(HeldLikelihood {
+            seen: device.buffer::<u32>("likelihoods", pixels, Memory::Device)?,
+            sides: device.buffer::<u32>("likelihoods' bounds", 4, Memory::Device)?,
+            motion: motion.min(LARGEST_SIDE),
+            empty: device.buffer::<u32>("empty pixels", view.words() as usize, Memory::Device)?,
+            empty_out: device.buffer::<u32>("empty pixels readback", view.words() as usize, Memory::Readback)?,
+        })
+    };
     let of_view = |view: &DeviceView| {
         let [pixels, planes] = view.packed_words();
         Ok(HeldView {
             pixels: device.buffer::<u32>("packed", pixels, Memory::Device)?,
             planes: device.buffer::<u32>("packed planes", planes, Memory::Device)?,
+            likelihood: motion.map(|motion| likelihood(view, motion)).transpose()?,
         })
     };
     views.iter().map(of_view).collect()

@@ -14,10 +14,13 @@ use crate::gpu::test_device::device;
 use crate::gpu::{Capabilities, DeviceSettings};
 
 /// Sizes round whole words, and one smaller than most elements.
-const SIZES: [[u32; 2]; 4] = [[131, 97], [64, 40], [3, 2], [150, 60]];
+pub(super) const SIZES: [[u32; 2]; 4] = [[131, 97], [64, 40], [3, 2], [150, 60]];
+
+/// Views in which every pixel counts.
+const NONE_IGNORED: [Option<Arc<BitImage>>; 4] = [const { None }; 4];
 
 /// Patches of one colour with noise on them.
-fn room([width, height]: [u32; 2], seed: u32) -> RgbImage {
+pub(super) fn room([width, height]: [u32; 2], seed: u32) -> RgbImage {
     RgbImage::from_fn(width, height, |x, y| {
         let mut hash = (x / 9 * 31 + y / 7 * 17 + 5).wrapping_mul(0x9e37_79b1);
         hash ^= hash >> 15;
@@ -27,13 +30,13 @@ fn room([width, height]: [u32; 2], seed: u32) -> RgbImage {
 }
 
 /// Two discs; none in the smallest view of even seeds.
-fn inside([width, height]: [u32; 2], seed: u32, x: u32, y: u32) -> bool {
+pub(super) fn inside([width, height]: [u32; 2], seed: u32, x: u32, y: u32) -> bool {
     let disc = |cx: u32, cy: u32, r: u32| x.abs_diff(cx).pow(2) + y.abs_diff(cy).pow(2) < r * r;
     (disc(width / 2, height / 2, 17) || disc(width - 1, 3 + seed, 9)) && (width > 3 || !seed.is_multiple_of(2))
 }
 
 /// The room with the discs in colours of their own, and specks, in slightly other light.
-fn picture(size: [u32; 2], seed: u32) -> RgbImage {
+pub(super) fn picture(size: [u32; 2], seed: u32) -> RgbImage {
     let mut picture = room(size, seed);
     for (x, y, pixel) in picture.enumerate_pixels_mut() {
         if inside(size, seed, x, y) || (x * 7 + y * 13 + seed).is_multiple_of(101) {
@@ -45,7 +48,7 @@ fn picture(size: [u32; 2], seed: u32) -> RgbImage {
     picture
 }
 
-fn mask(size: [u32; 2], seed: u32) -> GrayImage {
+pub(super) fn mask(size: [u32; 2], seed: u32) -> GrayImage {
     GrayImage::from_fn(size[0], size[1], |x, y| Luma([if inside(size, seed, x, y) { 255 } else { 0 }]))
 }
 
@@ -67,7 +70,7 @@ fn sources() -> Vec<ViewSource> {
     each.map(|(at, &size)| ViewSource { width: size[0], height: size[1], plate: plate(at, size) }).collect()
 }
 
-fn settings(case: usize) -> FeatureSettings {
+pub(super) fn settings(case: usize) -> FeatureSettings {
     let (operators, magnitudes, metrics) = (Operator::ALL, Magnitude::ALL, Metric::ALL);
     let normalisations = [Normalisation::Proportional, Normalisation::Exponential, Normalisation::Impulse];
     FeatureSettings {
@@ -140,7 +143,7 @@ fn features_are_the_processor_s(opened: DeviceSettings, cases: std::ops::Range<u
 }
 
 /// What a view's held buffers hold.
-fn fetched(device: &Device, buffer: &Buffer) -> Vec<u32> {
+pub(super) fn fetched(device: &Device, buffer: &Buffer) -> Vec<u32> {
     let words = (buffer.size() / 4) as usize;
     let seen = device.buffer::<u32>("seen", words, Memory::Readback).unwrap();
     let mut recorder = device.recorder(Timing::Off).unwrap();
@@ -152,7 +155,7 @@ fn fetched(device: &Device, buffer: &Buffer) -> Vec<u32> {
 }
 
 /// Bytes of rows that are padded to whole words, and bit planes of 32 pixels each.
-fn packed(observation: &Observation) -> [Vec<u32>; 2] {
+pub(super) fn packed(observation: &Observation) -> [Vec<u32>; 2] {
     let (mut pixels, mut planes) = (Vec::new(), Vec::new());
     for row in observation.bytes.chunks_exact(observation.width as usize) {
         let word = |four: &[u8]| four.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte));
@@ -176,7 +179,7 @@ fn frames_that_stay_on_the_device_are_the_processor_s() {
         let mut host = Extractor::new(settings(3), sources()).unwrap();
         let mut chain = Extractor::new(settings(3), sources()).unwrap();
         let (pictures, masks) = (SIZES.map(|size| picture(size, 1)), [const { None }; 4]);
-        let error = chain.begin(&pictures, &masks).unwrap_err().to_string();
+        let error = chain.begin(&pictures, &masks, &NONE_IGNORED).unwrap_err().to_string();
         assert!(error.contains("the processor makes the features"), "{error}");
         chain.hold_on(&device).unwrap();
         chain.measure_passes();
@@ -196,9 +199,9 @@ fn frames_that_stay_on_the_device_are_the_processor_s() {
             if kept.len() == 2 {
                 drop(kept.remove(0));
             }
-            chain.begin(&pictures, &masks).unwrap();
+            chain.begin(&pictures, &masks, &NONE_IGNORED).unwrap();
             if seed == 1 {
-                let error = chain.begin(&pictures, &masks).unwrap_err().to_string();
+                let error = chain.begin(&pictures, &masks, &NONE_IGNORED).unwrap_err().to_string();
                 assert!(error.contains("before the one before it was taken"), "{error}");
             }
             let found = chain.finish().unwrap();
@@ -228,9 +231,10 @@ fn frames_that_stay_on_the_device_are_the_processor_s() {
 #[test]
 fn what_the_processor_finds_keeps_frames_from_the_device() {
     let Some((device, _)) = device("what_the_processor_finds_keeps_frames", DeviceSettings::default()) else { return };
-    let likely = FeatureSettings { likelihoods: true, ..settings(0) };
-    let error = Extractor::new(likely, sources()).unwrap().hold_on(&device).unwrap_err().to_string();
-    assert!(error.contains("cannot stay on a device, since poses are compared"), "{error}");
+    let skin = "[[segment]]\nname = 'skin'\nlabels = [1]\nweight = 1.0\ncue = 'skin'";
+    let parts = FeatureSettings::from_table(&skin.parse().unwrap(), "sequence.toml").unwrap();
+    let error = Extractor::new(parts, sources()).unwrap().hold_on(&device).unwrap_err().to_string();
+    assert_eq!(error, "observations cannot stay on a device, since body parts are told apart");
 }
 
 #[test]

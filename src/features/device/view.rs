@@ -3,6 +3,7 @@
 use anyhow::Result;
 use image::RgbImage;
 
+use super::light_input::LightInput;
 use crate::features::MixtureSettings;
 use crate::features::shaders::layout::{Picture, Rates};
 use crate::features::shaders::{MIXTURE_FIELDS, RATIO_COUNTS, RATIO_GRID};
@@ -29,11 +30,17 @@ pub(super) enum Plane {
     Near,
     /// Edges near the silhouette.
     Edges,
+    /// What does not count.
+    Ignored,
+    /// What does not look like background by its likelihood.
+    LikelyForeground,
+    /// That, cleaned.
+    LikelySilhouette,
 }
 
 impl Plane {
     /// How many there are.
-    const COUNT: usize = Self::Edges as usize + 1;
+    const COUNT: usize = Self::LikelySilhouette as usize + 1;
 }
 
 /// The forest of connected components; most a node for every two pixels.
@@ -98,14 +105,27 @@ pub(super) struct DeviceView {
     pub(super) codes: Buffer,
 }
 
+/// What a view's recording is for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Brings {
+    /// Whether the frame brings its silhouette with it.
+    pub(super) mask: bool,
+    /// Whether it says which pixels do not count.
+    pub(super) ignored: bool,
+}
+
 /// What the host fills of a view for a frame.
 #[derive(Debug)]
 pub(super) struct Input {
     /// Red, green, blue bytes, row-major.
     pub(super) colours: Buffer,
     pub(super) mask: Buffer,
+    /// The pixels that do not count, a bit picture.
+    pub(super) ignored: Buffer,
     /// The rates of a mixture's step.
     pub(super) rates: Buffer,
+    /// The light of the picture, where likelihoods are made by it.
+    pub(super) light: Option<LightInput>,
 }
 
 impl Input {
@@ -114,7 +134,9 @@ impl Input {
         Ok(Self {
             colours: words("colours staging", view.colours.size())?,
             mask: words("mask staging", view.plane(Plane::Silhouette).size())?,
+            ignored: words("ignored pixels staging", view.plane(Plane::Ignored).size())?,
             rates: device.buffer::<Rates>("rates", 1, Memory::Upload)?,
+            light: None,
         })
     }
 }

@@ -6,6 +6,10 @@ use super::super::Region;
 use super::super::light::GRID;
 use super::super::plate::split_row;
 use super::LOG_STEPS;
+use super::picture_light::{
+    BRIGHTEST, DARKEST, Light, LightTables, OUTLIERS, REFLECTION_FALL, REFLECTION_LOG, SHADOW_FALL, SHADOW_LOG,
+    SHADOWED, SLOPES, Widths, shadow_share, widths,
+};
 
 /// A colour as luma, blue less luma and red less luma: a shadow changes the first and scales the other two.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,27 +35,8 @@ impl Luminance {
 const LEAST_NOISE: [f32; 3] = [1.5, 1.0, 1.0];
 /// A standard deviation over the median of absolute deviations of normal numbers.
 const DEVIATION: f32 = 1.4826;
-/// Standard deviation that a slope of the background adds, of luma and of the other two: a picture is never sampled twice at the same place.
-const SLOPE: [f32; 2] = [0.35, 0.2];
-/// Steps in which a slope is kept, one a grey level.
-const SLOPES: usize = 64;
-/// The share of pixels that no hypothesis explains.
-const OUTLIERS: f32 = 0.002;
-/// The share of pixels in shadow that is assumed before a picture is looked at, and how many pixels that is worth.
-const SHADOWED: f32 = 0.2;
-const PRIOR_PIXELS: f32 = 200.0;
-/// The darkest shadow and the brightest reflection, as multiples of the background's luma.
-const DARKEST: f32 = 0.45;
-const BRIGHTEST: f32 = 1.15;
 /// A camera sees in grey where no pixel's differences are larger than this, grey levels.
 const GREY: f32 = 2.5;
-/// How fast the density falls below 1 and above.
-const SHADOW_FALL: f32 = 0.12;
-const REFLECTION_FALL: f32 = 0.04;
-/// The logarithms of the densities of brightness on both sides of 1: of (1 - 0.3) / 0.12 and of 0.3 / 0.04.
-const SHADOW_LOG: f32 = 1.763_588_6;
-const REFLECTION_LOG: f32 = 2.014_903;
-
 /// The background's colours in one view, a plane a number.
 #[derive(Clone, Debug)]
 pub(crate) struct BackgroundColours {
@@ -78,35 +63,6 @@ struct OfLight {
     c: Vec<f32>,
     lit: Vec<f32>,
     shadow: Vec<f32>,
-}
-
-/// The constants of one picture for a slope of the background.
-#[derive(Clone, Copy, Debug, Default)]
-struct Widths {
-    /// 1 / variance of luma, and of the other two.
-    y: f32,
-    c: f32,
-    /// Log density of the lit background's own colour, and that of a shadow but for its luma, over the uniform one.
-    lit: f32,
-    shadow: f32,
-}
-
-/// Noise and share of shadows of a picture, in steps so coarse that pictures taken one after the other have the same.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Light {
-    /// Standard deviation a channel, grey levels.
-    noise: [f32; 3],
-    shadowed: f32,
-    /// Whether neither the picture nor the background has any colour: then luma alone tells them apart.
-    is_grey: bool,
-}
-
-impl Light {
-    fn new(noise: [f32; 3], shadowed: f32, is_grey: bool) -> Self {
-        // Steps of an eighth of a grey level and of a factor of 1.19.
-        let coarse = |shadowed: f32| 2.0_f32.powf((4.0 * shadowed.log2()).round() / 4.0);
-        Self { noise: noise.map(|noise| (8.0 * noise).round() / 8.0), shadowed: coarse(shadowed), is_grey }
-    }
 }
 
 /// What a picture says before its pixels are judged one by one.
@@ -161,10 +117,44 @@ impl BackgroundColours {
         is_grey: bool,
         near: Option<Region>,
     ) -> PictureLight {
-        let dim = gain.map(|gain| 1.0 / gain.max(1e-3));
-        let mut deviations = [const { Vec::new() }; 3];
+        let dim = dim(gain);
+        let noise = self.noise(picture, dim);
         let rows = || picture.as_raw().chunks_exact(self.width * 3).enumerate();
-        for (y, row) in rows().step_by(GRID) {
+        let (mut in_shadow, mut all) = (0, 0);
+        if let Some(near) = near {
+            let widths = widths(noise, SHADOWED, is_grey);
+            let (columns, lines) = (near.x0 as usize..near.x1 as usize, near.y0 as usize..near.y1 as usize);
+            for (y, row) in rows().take(lines.end).skip(lines.start).step_by(GRID / 2) {
+                for x in columns.clone().step_by(GRID / 2) {
+                    let at = y * self.width + x;
+                    let seen = lit(row.as_chunks::<3>().0[x], dim);
+                    let known = [self.y[at], self.b[at], self.r[at], self.inverse[at], self.log[at]];
+                    let [lit, shadow] = hypotheses(seen, known, widths[usize::from(self.slopes[at])]);
+                    if lit.max(shadow) > 0.0 {
+                        all += 1;
+                        in_shadow += u32::from(shadow > lit);
+                    }
+                }
+            }
+        }
+        PictureLight { dim, light: Light::new(noise, shadow_share(in_shadow, all), is_grey) }
+    }
+
+    /// [`Self::light`] for a device that counts the shadows itself.
+    pub(super) fn light_tables(&self, picture: &RgbImage, gain: [f32; 3]) -> LightTables {
+        let dim = dim(gain);
+        LightTables::new(dim, self.noise(picture, dim), self.is_grey(picture))
+    }
+
+    /// Of each pixel the logarithm of its luma, at least 4, and the change of luma to its neighbours, below [`SLOPES`].
+    pub(crate) fn planes(&self) -> (&[f32], &[u8]) {
+        (&self.log, &self.slopes)
+    }
+
+    /// The noise of a picture whose channels are multiplied with `dim`, a standard deviation a channel.
+    fn noise(&self, picture: &RgbImage, dim: [f32; 3]) -> [f32; 3] {
+        let mut deviations = [const { Vec::new() }; 3];
+        for (y, row) in picture.as_raw().chunks_exact(self.width * 3).enumerate().step_by(GRID) {
             for (x, seen) in row.as_chunks::<3>().0.iter().enumerate().step_by(GRID) {
                 let (colour, at) = (lit(*seen, dim), y * self.width + x);
                 let off = [colour.y - self.y[at], colour.b - self.b[at], colour.r - self.r[at]];
@@ -179,24 +169,7 @@ impl BackgroundColours {
                 *noise = noise.max(DEVIATION * *median);
             }
         }
-        let (mut shadowed, mut all) = (SHADOWED * PRIOR_PIXELS, PRIOR_PIXELS);
-        if let Some(near) = near {
-            let widths = widths(noise, SHADOWED, is_grey);
-            let (columns, lines) = (near.x0 as usize..near.x1 as usize, near.y0 as usize..near.y1 as usize);
-            for (y, row) in rows().take(lines.end).skip(lines.start).step_by(GRID / 2) {
-                for x in columns.clone().step_by(GRID / 2) {
-                    let at = y * self.width + x;
-                    let seen = lit(row.as_chunks::<3>().0[x], dim);
-                    let known = [self.y[at], self.b[at], self.r[at], self.inverse[at], self.log[at]];
-                    let [lit, shadow] = hypotheses(seen, known, widths[usize::from(self.slopes[at])]);
-                    if lit.max(shadow) > 0.0 {
-                        all += 1.0;
-                        shadowed += f32::from(u8::from(shadow > lit));
-                    }
-                }
-            }
-        }
-        PictureLight { dim, light: Light::new(noise, (shadowed / all).clamp(0.02, 0.5), is_grey) }
+        noise
     }
 
     /// The log densities of the pixels of `region` of a picture as background; `planes` is room for one row's channels.
@@ -260,35 +233,14 @@ fn judge_row(planes: &[Vec<f32>; 3], dim: [f32; 3], known: [&[f32]; 9], densitie
     }
 }
 
+/// What to multiply a picture's channels with that is `gain` times as bright as the background.
+fn dim(gain: [f32; 3]) -> [f32; 3] {
+    gain.map(|gain| 1.0 / gain.max(1e-3))
+}
+
 #[inline]
 fn lit(seen: [u8; 3], dim: [f32; 3]) -> Luminance {
     Luminance::of([f32::from(seen[0]) * dim[0], f32::from(seen[1]) * dim[1], f32::from(seen[2]) * dim[2]])
-}
-
-/// The constants for every slope, with this noise a channel and share of shadows.
-fn widths([y, b, r]: [f32; 3], shadowed: f32, is_grey: bool) -> [Widths; SLOPES] {
-    // A colour's cube in luma and differences is as large as in red, green and blue times the weight of green.
-    let uniform = (256.0_f32.powi(3) * 0.587).ln();
-    let normal = 0.5 * std::f32::consts::TAU.ln();
-    std::array::from_fn(|slope| {
-        let slope = slope as f32;
-        let [vy, vc] = [y * y + (SLOPE[0] * slope).powi(2), b * r + (SLOPE[1] * slope).powi(2)];
-        if is_grey {
-            // Over the uniform density of greys.
-            return Widths {
-                y: 1.0 / vy,
-                c: 0.0,
-                lit: 256.0_f32.ln() - normal - 0.5 * vy.ln() + (1.0 - shadowed - OUTLIERS).ln(),
-                shadow: 256.0_f32.ln() + shadowed.ln(),
-            };
-        }
-        Widths {
-            y: 1.0 / vy,
-            c: 1.0 / vc,
-            lit: uniform - 3.0 * normal - 0.5 * vy.ln() - vc.ln() + (1.0 - shadowed - OUTLIERS).ln(),
-            shadow: uniform - 2.0 * normal - vc.ln() + shadowed.ln(),
-        }
-    })
 }
 
 /// The log density of a colour as lit background and as background in another light, over the uniform one; of the background luma, the two

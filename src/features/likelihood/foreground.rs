@@ -9,10 +9,8 @@ use super::super::morphology::Morphology;
 use super::super::{BitImage, FeatureSettings, Region};
 use super::background::BackgroundColours;
 use super::smooth::smooth_rows;
-use super::{ColourBin, LOG_STEPS, Likelihood};
-
-/// The log-likelihood ratio from which a pixel is the person's, against colours of which nothing is known.
-const FOREGROUND: f32 = 1.0;
+use super::{ColourBin, LightTables, Likelihood, MOST_RATIO};
+use crate::features::shaders::LIKELIHOOD_FOREGROUND;
 
 /// Where a view's background comes from.
 #[derive(Debug)]
@@ -23,6 +21,14 @@ enum Known {
     },
     /// From the mixture that the view learns, when it has learnt.
     Learnt,
+}
+
+/// A picture's light, as a device is told of it.
+#[derive(Debug)]
+pub(crate) struct Lit {
+    pub(crate) tables: LightTables,
+    /// The background's colours, where it is learnt.
+    pub(crate) learnt: Option<BackgroundColours>,
 }
 
 /// Makes the likelihoods of one view.
@@ -56,6 +62,28 @@ impl LikelySilhouette {
     /// Whether the background has to come from what the view learns.
     pub(crate) fn learns(&self) -> bool {
         matches!(self.known, Known::Learnt)
+    }
+
+    /// The background's colours, where a picture of the empty scene is given.
+    pub(crate) fn known(&self) -> Option<&BackgroundColours> {
+        match &self.known {
+            Known::Plate { colours, .. } => Some(colours),
+            Known::Learnt => None,
+        }
+    }
+
+    /// What a device that makes the likelihoods of a picture is to know of its light; `learnt` is as in [`Self::find`]. None of a view
+    /// without a background.
+    pub(crate) fn lit(&self, picture: &RgbImage, learnt: Option<&RgbImage>, settings: &FeatureSettings) -> Option<Lit> {
+        let tables = |image: &RgbImage, colours: &BackgroundColours| {
+            let gain = if settings.plate.gain { gains(picture, image) } else { [1.0; 3] };
+            colours.light_tables(picture, gain)
+        };
+        if let Known::Plate { image, colours } = &self.known {
+            return Some(Lit { tables: tables(image, colours), learnt: None });
+        }
+        let colours = BackgroundColours::new(learnt?);
+        Some(Lit { tables: tables(learnt?, &colours), learnt: Some(colours) })
     }
 
     /// The likelihoods of a picture; `learnt` is what a view without a plate knows of its background by now.
@@ -132,13 +160,13 @@ impl LikelySilhouette {
 fn threshold(likelihood: &Likelihood, flags: &mut Vec<u8>, foreground: &mut BitImage) {
     let width = likelihood.width as usize;
     flags.resize(width, 0);
-    let most = (5.0 * LOG_STEPS) as i16;
+    let most = MOST_RATIO as i16;
     let ratio = |y: usize, row: &mut [i16]| {
         let densities = &likelihood.background[y * width..][..width];
         row.iter_mut().zip(densities).for_each(|(ratio, &density)| *ratio = (-density).clamp(-most, most));
     };
     // Smoothed sums are sixteen times the ratio.
-    let least = (16.0 * FOREGROUND * LOG_STEPS) as i16;
+    let least = 16 * LIKELIHOOD_FOREGROUND as i16;
     smooth_rows(width, likelihood.height as usize, ratio, |y, sums| {
         flags.iter_mut().zip(sums).for_each(|(flag, &sum)| *flag = u8::from(sum > least));
         foreground.pack_row(y, flags);

@@ -6,17 +6,23 @@
 mod background;
 mod colour;
 mod foreground;
+mod picture_light;
 mod smooth;
 
+pub(super) use background::BackgroundColours;
 pub use colour::ColourBin;
-pub(super) use foreground::LikelySilhouette;
+pub(super) use foreground::{LikelySilhouette, Lit};
+pub(super) use picture_light::{LightTables, SHADOWS, WidthTables, Widths};
 
 pub(crate) use smooth::smooth_rows;
 
 use super::Region;
+use super::shaders::{LIKELIHOOD_MASKED, LIKELIHOOD_MOST, LIKELIHOOD_STEPS, LIKELIHOOD_SURE};
 
 /// Steps of a logarithm in [`Likelihood`], a unit.
-pub const LOG_STEPS: f32 = 64.0;
+pub const LOG_STEPS: f32 = LIKELIHOOD_STEPS as f32;
+/// The largest log-likelihood ratio that is believed, in steps.
+pub(crate) const MOST_RATIO: i32 = LIKELIHOOD_MOST as i32;
 
 /// What one picture says of each of its pixels. Densities are relative to the uniform one of all colours, natural logarithms in steps
 /// of 1/[`LOG_STEPS`].
@@ -41,7 +47,7 @@ pub struct Likelihood {
 
 impl Likelihood {
     /// How surely a pixel inside of a ready mask is the person's, in steps.
-    pub const MASKED: i16 = (3.0 * LOG_STEPS) as i16;
+    pub const MASKED: i16 = LIKELIHOOD_MASKED as i16;
     /// The log density of what is surely background, in steps.
-    pub const SURE: i16 = i16::MAX / 2;
+    pub const SURE: i16 = LIKELIHOOD_SURE as i16;
 }

@@ -6,16 +6,15 @@ mod colours;
 use std::sync::Arc;
 
 use anyhow::Result;
+use image::RgbImage;
 use rayon::prelude::*;
 
 use self::classes::{Groups, grouped};
 use self::colours::{Colours, LogTable};
 use crate::body::Body;
-use crate::features::likelihood::{LOG_STEPS, smooth_rows};
-use crate::features::{BitImage, Evidence, Likelihood, Observation, PartClasses};
+use crate::features::likelihood::{ColourBin, LOG_STEPS, MOST_RATIO as MOST, smooth_rows};
+use crate::features::{BitImage, ColourTables, Evidence, Likelihood, Observation, PartClasses, SeenView};
 
-/// The largest log-likelihood ratio that is believed, in steps.
-const MOST: i32 = (5.0 * LOG_STEPS) as i32;
 /// The uniform share of the person's colours as a whole, and of a class's.
 const UNKNOWN_PERSON: f32 = 0.35;
 const UNKNOWN_PART: f32 = 0.15;
@@ -39,12 +38,21 @@ pub struct Appearance {
 /// What one view of a frame teaches.
 #[derive(Clone, Copy, Debug)]
 pub struct Lesson<'a> {
-    /// Its likelihoods.
-    pub likelihood: &'a Likelihood,
     /// The frame's pose drawn there: a byte a pixel, bits 0 to 6 the label of the visible part, bit 7 an edge.
     pub drawn: &'a [u8],
     /// What was seen there: pixels that it ignores teach nothing.
-    pub observation: &'a Observation,
+    pub seen: SeenView<'a>,
+    /// Its colours.
+    pub colours: SeenColours<'a>,
+}
+
+/// The colours of a view, and which pixels show none of the person's.
+#[derive(Clone, Copy, Debug)]
+pub enum SeenColours<'a> {
+    /// By its likelihoods.
+    Likely(&'a Likelihood),
+    /// By its picture, and what surely is background as the device found that made evidence by the same colours.
+    Pictured(&'a RgbImage, &'a BitImage),
 }
 
 impl Appearance {
@@ -65,24 +73,28 @@ impl Appearance {
         &self.classes
     }
 
+    /// What is known of her colours, for a device that makes evidence of likelihoods.
+    pub fn tables(&self) -> ColourTables {
+        let tables = || [&self.person].into_iter().chain(&self.tables);
+        let of = |is_grey: bool| tables().map(move |table| table.values(is_grey));
+        ColourTables::new(&self.classes, of(false).chain(of(true)))
+    }
+
     /// Learns from a frame whose pose is known. What was seen before counts `kept` times (0 to 1), so that old colours fade.
     ///
     /// # Errors
     /// When a part's label is no label.
     pub fn learn(&mut self, views: &[Lesson<'_>], kept: f32) -> Result<()> {
         self.seen.iter_mut().for_each(|colours| colours.fade(kept));
-        for Lesson { likelihood, drawn, observation } in views {
-            let person = self.person.values(likelihood.is_grey);
-            let pixels = likelihood.background.iter().zip(&likelihood.colours).zip(*drawn);
-            for (at, ((&background, colour), &byte)) in pixels.enumerate() {
+        for Lesson { drawn, seen, colours } in views {
+            for (at, &byte) in drawn.iter().enumerate() {
                 // A border pixel may be its neighbour's, and what surely is background is nobody's colour.
-                let looks_empty = i32::from(background) - i32::from(person[colour.index()]) > MOST;
                 if byte & 0x80 == 0
-                    && !looks_empty
                     && let Some(group) = self.groups.of_label(byte)
-                    && !observation.ignores(at)
+                    && let Some(colour) = self.shown(*colours, at)
+                    && !seen.ignores(at)
                 {
-                    self.seen[group].add(*colour);
+                    self.seen[group].add(colour);
                 }
             }
         }
@@ -97,6 +109,23 @@ impl Appearance {
         self.tables = of_classes.iter().map(|colours| colours.table(UNKNOWN_PART, Some(&person))).collect();
         self.classes = Arc::new(classes);
         Ok(())
+    }
+
+    /// The colour of a pixel by its place in the picture's rows; none of what surely is background.
+    #[inline]
+    fn shown(&self, colours: SeenColours<'_>, at: usize) -> Option<ColourBin> {
+        match colours {
+            SeenColours::Likely(likelihood) => {
+                let colour = likelihood.colours[at];
+                let person = self.person.values(likelihood.is_grey)[colour.index()];
+                (i32::from(likelihood.background[at]) - i32::from(person) <= MOST).then_some(colour)
+            }
+            SeenColours::Pictured(picture, empty) => {
+                let width = picture.width() as usize;
+                let (x, y) = ((at % width) as u32, (at / width) as u32);
+                (!empty.get(x, y)).then(|| ColourBin::of(picture.get_pixel(x, y).0))
+            }
+        }
     }
 
     /// Gives a frame's observations the evidence of its likelihoods, one a view; none where there are none. What an observation
@@ -175,7 +204,6 @@ fn code(sum: i32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::features::likelihood::ColourBin;
     use crate::features::{Region, evidence};
 
     #[test]
@@ -208,7 +236,8 @@ mod tests {
         let drawn: Vec<u8> = (0..96).map(|at| if at % 12 < 6 { head } else { thigh }).collect();
         let observation = Observation::empty(12, 8);
         for _ in 0..40 {
-            appearance.learn(&[Lesson { likelihood: &view, drawn: &drawn, observation: &observation }], 1.0).unwrap();
+            let (seen, colours) = (SeenView::Whole(&observation), SeenColours::Likely(&view));
+            appearance.learn(&[Lesson { drawn: &drawn, seen, colours }], 1.0).unwrap();
         }
         let after = appearance.view_evidence(&view, None).unwrap();
         let at = |pixel: usize, label: u8| {

@@ -10,7 +10,7 @@ use crate::features::SeenView;
 use crate::geometry::Camera;
 use crate::search::SearchSpace;
 use crate::track::glance::Glances;
-use crate::track::sight::{pixel, said};
+use crate::track::sight::{Place, pixel, said_of};
 
 /// What a frame by itself says of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -84,8 +84,8 @@ impl JointProbe {
             return Ok(vec![JointHints::default(); self.bones.len()]);
         };
         let looseness = self.looseness(evaluator, objective, pose, &levers)?;
-        let support = self.support(views, &levers.bones);
-        let elsewhere = self.glances.elsewhere(pose, views)?;
+        let support = self.support(evaluator, objective, views, &levers.bones)?;
+        let elsewhere = self.glances.elsewhere(evaluator, objective, pose, views)?;
         let hints = levers.joints.iter().zip(looseness).zip(support).zip(&self.bones);
         let hints = hints.map(|(((&joint, looseness), support), bones)| {
             let elsewhere = bones.iter().map(|&bone| elsewhere[bone]).fold(0.0, f32::max);
@@ -139,23 +139,38 @@ impl JointProbe {
     }
 
     /// What the pictures say of the limbs that meet in each joint.
-    fn support(&self, views: &[SeenView<'_>], bones: &[glam::DAffine3]) -> Vec<f32> {
+    fn support(
+        &self,
+        evaluator: &mut dyn Evaluator,
+        objective: &Objective,
+        views: &[SeenView<'_>],
+        bones: &[glam::DAffine3],
+    ) -> Result<Vec<f32>> {
         let mut sums = vec![[0.0, 0.0]; self.body.bones.len()];
-        for part in &self.body.parts {
-            let [a, b] = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
-            for place in 0..PLACES {
-                let at = a.lerp(b, (place as f64 + 0.5) / PLACES as f64);
-                for (camera, view) in self.cameras.iter().zip(views) {
-                    if let Some(pixel) = pixel(camera, *view, at) {
-                        let sum = &mut sums[part.bone];
-                        *sum = [sum[0] + said(*view, pixel, part.label), sum[1] + 1.0];
-                    }
-                }
-            }
+        let (of_bones, places): (Vec<usize>, Vec<Place>) = self.places(views, bones).into_iter().unzip();
+        for (bone, said) in of_bones.into_iter().zip(said_of(evaluator, objective, views, &places)?) {
+            let sum = &mut sums[bone];
+            *sum = [sum[0] + said, sum[1] + 1.0];
         }
         let of_bone = |bone: &usize| if sums[*bone][1] > 0.0 { sums[*bone][0] / sums[*bone][1] } else { 0.0 };
         let worse = |bones: &Vec<usize>| bones.iter().map(of_bone).reduce(f32::min).unwrap_or(0.0);
-        self.bones.iter().map(worse).collect()
+        Ok(self.bones.iter().map(worse).collect())
+    }
+
+    /// Where the views show the axes of the body's parts, and the bones of these.
+    fn places(&self, views: &[SeenView<'_>], bones: &[glam::DAffine3]) -> Vec<(usize, Place)> {
+        let mut places = Vec::new();
+        for part in &self.body.parts {
+            let [a, b] = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
+            for nth in 0..PLACES {
+                let at = a.lerp(b, (nth as f64 + 0.5) / PLACES as f64);
+                for (view, (camera, seen)) in self.cameras.iter().zip(views).enumerate() {
+                    let pixel = pixel(camera, *seen, at);
+                    places.extend(pixel.map(|pixel| (part.bone, Place { view, pixel, label: part.label })));
+                }
+            }
+        }
+        places
     }
 
     fn seen(&self, views: &[SeenView<'_>], joint: DVec3) -> f32 {

@@ -207,7 +207,7 @@ impl<'a> Run<'a> {
             self.observe(&mut prepared)?;
             if frame < next {
                 let result = self.frames.get(frame - self.plan.range.start).cloned();
-                result.map_or(Ok(()), |result| self.learn(&prepared, &result))?;
+                result.map_or(Ok(()), |result| self.learn_again(&prepared, &result))?;
                 continue;
             }
             self.note_features(&prepared, waited)?;
@@ -336,6 +336,17 @@ impl<'a> Run<'a> {
             }
             _ => Ok(()),
         }
+    }
+
+    /// [`Self::learn`] from a frame that an earlier run searched: what a device holds becomes evidence when something is compared with it.
+    fn learn_again(&mut self, prepared: &Prepared, result: &FrameResult) -> Result<()> {
+        let since = result.frame.saturating_sub(self.plan.range.start);
+        if prepared.held.is_some() && self.appearance.is_some() && RunAppearance::is_lesson(since) {
+            let evaluator = self.plan.backend.evaluator.as_mut();
+            evaluator.observe_seen(prepared.seen())?;
+            evaluator.view_counts(&result.pose, &self.plan.objective)?;
+        }
+        self.learn(prepared, result)
     }
 
     /// What became of a frame whose device was lost, and what the user can do; other errors stay as they are.

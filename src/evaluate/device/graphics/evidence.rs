@@ -12,9 +12,11 @@ use super::readback::Pictures;
 use crate::evaluate::device::evidence::DeviceEvidence;
 use crate::evaluate::device::scene::{DeviceScene, Share};
 use crate::evaluate::device::workspace::Workspace;
-use crate::evaluate::shaders::{evidence_comp, objective_evidence_comp, raster_evidence_comp};
+use crate::evaluate::shaders::{
+    evidence_comp, evidence_words_comp, layout, objective_evidence_comp, raster_evidence_comp,
+};
 use crate::features::{Evidence, Observation};
-use crate::gpu::{Recorder, StagedBuffer};
+use crate::gpu::{Groups, Recorder, StagedBuffer};
 
 /// Pixels that a stage reads together: rows are filled up to a whole number of them.
 const TOGETHER: usize = 4;
@@ -80,6 +82,27 @@ impl GraphicsEvidence {
             self.pixels.staging.write(first, &rows)?;
         }
         Ok(())
+    }
+
+    /// Records what it is of the evidence that the device made itself.
+    pub(super) fn record_made(
+        &self,
+        recorder: &mut Recorder,
+        scene: &DeviceScene,
+        made: &DeviceEvidence,
+    ) -> Result<()> {
+        let classes = u32::try_from(made.classes())?;
+        let constants = evidence_words_comp::Constants { ignores: scene.counted.is_some() };
+        let each = scene.sizes.iter().zip(scene.first_plane_words()).zip(scene.first_pixel_words());
+        recorder.run_all(each.map(|((&[width, height], first_group), first_word)| {
+            let push = layout::EvidenceWords { width, height, first_group, first_word, classes };
+            evidence_words_comp::Bindings {
+                evidence_planes: &made.planes.buffer,
+                counted_planes: scene.counted_planes(),
+                evidence_pixels: &self.pixels.buffer,
+            }
+            .dispatch(constants, push, Groups::Flat(width.div_ceil(4) * height))
+        }))
     }
 
     /// Records the copies to the device's own memory.

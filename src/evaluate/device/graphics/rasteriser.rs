@@ -303,10 +303,15 @@ impl Rasteriser for GraphicsRasteriser {
         }
     }
 
-    fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
+    fn record_upload(&self, recorder: &mut Recorder, is_handed: bool) -> Result<()> {
         self.segments.as_ref().map_or(Ok(()), |segments| segments.record_upload(recorder))?;
-        self.evidence.as_ref().map_or(Ok(()), |evidence| evidence.record_upload(recorder))?;
+        let evidence = self.evidence.as_ref().filter(|_| !is_handed);
+        evidence.map_or(Ok(()), |evidence| evidence.record_upload(recorder))?;
         self.drawn.record_upload(recorder)
+    }
+
+    fn record_evidence(&self, recorder: &mut Recorder, scene: &DeviceScene, evidence: &DeviceEvidence) -> Result<()> {
+        self.evidence.as_ref().map_or(Ok(()), |own| own.record_made(recorder, scene, evidence))
     }
 
     /// With tiles of the size that the newest observations or candidates told; images that outgrow them later are still scored,
