@@ -5,9 +5,9 @@ use anyhow::Result;
 use glam::DAffine3;
 use rayon::prelude::*;
 
-use super::sight::{Place, pixel, said, said_of};
+use super::sight::{Place, pixel, said};
 use crate::body::Body;
-use crate::evaluate::{Evaluator, Objective, Reference};
+use crate::evaluate::Reference;
 use crate::features::SeenView;
 use crate::geometry::Camera;
 use crate::search::SearchSpace;
@@ -16,8 +16,6 @@ use crate::search::SearchSpace;
 const PLACES: usize = 4;
 /// By how many pixels of a view one of the pictures of the rest of the body is wide.
 const COARSE: u32 = 4;
-/// Poses of a limb that are looked at to learn whether it could be elsewhere.
-const FEW: usize = 128;
 
 /// A body's limbs, for looking at where they might be.
 #[derive(Clone, Debug)]
@@ -85,73 +83,9 @@ impl Glances {
         let covered = (0..self.cameras.len()).map(|view| limb.rest.draw(pose, view).bytes).collect();
         Ok(Glance { glances: self, limb, pose: pose.to_vec(), bones, views, covered })
     }
-
-    /// By how much more the pictures say of each bone's limb elsewhere than where it is in a pose, 0 to 2; 0 of bones that are no limb's.
-    ///
-    /// # Errors
-    /// As [`Self::at`]; when the evaluator's device, which may hold the evidence, fails.
-    pub(super) fn elsewhere(
-        &self,
-        evaluator: &mut dyn Evaluator,
-        objective: &Objective,
-        pose: &[f32],
-        views: &[SeenView<'_>],
-    ) -> Result<Vec<f32>> {
-        let of_limb = |limb| {
-            let glance = self.at(limb, pose, views)?;
-            let mut looks = Looks::default();
-            // Where it is, and where it could be.
-            glance.look(pose, &mut looks);
-            self.lattice(limb, pose, FEW).iter().for_each(|row| glance.look(row, &mut looks));
-            Ok(looks)
-        };
-        let looks = (0..self.limbs.len()).into_par_iter().map(of_limb).collect::<Result<Vec<Looks>>>()?;
-        let places: Vec<Place> = looks.iter().flat_map(|looks| &looks.places).copied().collect();
-        let said = said_of(evaluator, objective, views, &places)?;
-        let mut of_bones = vec![0.0; self.body.bones.len()];
-        let mut said = &*said;
-        for (limb, looks) in self.limbs.iter().zip(&looks) {
-            let (own, others) = said.split_at(looks.places.len());
-            said = others;
-            let supports = looks.supports(own);
-            let best = supports.iter().skip(1).copied().fold(-1.0, f32::max);
-            let more = (best - supports[0]).max(0.0);
-            limb.bones.iter().for_each(|(bone, _)| of_bones[*bone] = more);
-        }
-        Ok(of_bones)
-    }
-
-    /// A pose with a limb at the first `count` points of a lattice over its limits.
-    fn lattice(&self, limb: usize, pose: &[f32], count: usize) -> Vec<Vec<f32>> {
-        lattice(&self.space, &self.limbs[limb].dofs, pose, 0, count)
-    }
 }
 
-/// Places that poses of a limb are looked at in.
-#[derive(Clone, Debug, Default)]
-struct Looks {
-    /// Those that the rest of the body does not cover.
-    places: Vec<Place>,
-    /// Of each pose, where its places end, and how many they are with those that are covered.
-    poses: Vec<(usize, usize)>,
-    /// Memory that posing uses again.
-    bones: Vec<DAffine3>,
-}
-
-impl Looks {
-    /// What is said of the limb in each pose, from -1 to 1, from what is said in the places: nothing where the rest of the body is anyway.
-    fn supports(&self, said: &[f32]) -> Vec<f32> {
-        let mut begin = 0;
-        let of_pose = |&(end, count): &(usize, usize)| {
-            let sum: f32 = said[begin..end].iter().sum();
-            begin = end;
-            if count > 0 { sum / count as f32 } else { 0.0 }
-        };
-        self.poses.iter().map(of_pose).collect()
-    }
-}
-
-/// What a frame says of a limb, with the rest of the body where it is.
+/// What a frame says of a limb in views that the host knows, with the rest of the body where it is.
 pub(super) struct Glance<'a> {
     glances: &'a Glances,
     limb: &'a Limb,
@@ -164,8 +98,9 @@ pub(super) struct Glance<'a> {
 }
 
 impl Glance<'_> {
-    /// Looks at the limb as `row` has it.
-    fn look(&self, row: &[f32], Looks { places, poses, bones }: &mut Looks) {
+    /// What is said of the limb as `row` has it: the mean over places along its axes and views, from -1 to 1, and nothing where the rest of
+    /// the body is anyway. `bones` is memory that is used again.
+    fn support(&self, row: &[f32], bones: &mut Vec<DAffine3>) -> f32 {
         let Glances { body, cameras, .. } = self.glances;
         bones.clone_from(&self.bones);
         for &(bone, first) in &self.limb.bones {
@@ -177,7 +112,7 @@ impl Glance<'_> {
             let moved = posed.parent_from_bone(&values);
             bones[bone] = posed.parent.map_or(moved, |parent| bones[parent] * moved);
         }
-        let mut count = 0;
+        let (mut sum, mut count) = (0.0, 0);
         for part in self.limb.parts.iter().map(|&part| &body.parts[part]) {
             let [a, b] = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
             for nth in 0..PLACES {
@@ -188,29 +123,20 @@ impl Glance<'_> {
                     let width = camera.size[0] as usize;
                     let [x, y] = [pixel % width, pixel / width].map(|at| at / COARSE as usize);
                     if self.covered[view][y * width.div_ceil(COARSE as usize) + x] == 0 {
-                        places.push(Place { view, pixel, label: part.label });
+                        sum += said(self.views, &Place { view, pixel, label: part.label });
                     }
                 }
             }
         }
-        poses.push((places.len(), count));
-    }
-
-    /// What is said of the limb as a row has it, in views that the host knows.
-    fn support(&self, row: &[f32], looks: &mut Looks) -> f32 {
-        looks.places.clear();
-        looks.poses.clear();
-        self.look(row, looks);
-        let said: Vec<f32> = looks.places.iter().map(|place| said(self.views, place)).collect();
-        looks.supports(&said).first().copied().unwrap_or(0.0)
+        if count > 0 { sum / count as f32 } else { 0.0 }
     }
 
     /// The `most` poses of the limb of which most is said, and what, in falling order, of `count` on a lattice over its limits; of equals the
-    /// first. The host knows the views, as in [`Self::elsewhere`].
+    /// first.
     pub(super) fn best(&self, count: usize, most: usize) -> Vec<(f32, Vec<f32>)> {
         let rows = lattice(&self.glances.space, &self.limb.dofs, &self.pose, 0, count);
         let supports: Vec<f32> =
-            rows.par_iter().with_min_len(64).map_init(Looks::default, |looks, row| self.support(row, looks)).collect();
+            rows.par_iter().with_min_len(64).map_init(Vec::new, |bones, row| self.support(row, bones)).collect();
         let mut ranked: Vec<(f32, Vec<f32>)> = supports.into_iter().zip(rows).collect();
         ranked.sort_by(|(a, _), (b, _)| b.total_cmp(a));
         ranked.truncate(most);
@@ -220,7 +146,7 @@ impl Glance<'_> {
     /// By how much more is said of the limb in the best of `count` poses elsewhere than where it is, 0 to 2.
     pub(super) fn elsewhere(&self, count: usize) -> f32 {
         let best = self.best(count, 1).first().map_or(-1.0, |(support, _)| *support);
-        (best - self.support(&self.pose, &mut Looks::default())).max(0.0)
+        (best - self.support(&self.pose, &mut Vec::new())).max(0.0)
     }
 }
 

@@ -46,7 +46,7 @@ impl FrameResult {
     /// A line of the journal: the frame, the bits of every number in hexadecimal, a checksum of all that.
     fn to_line(&self) -> String {
         let mut line = format!("{} {:08x}", self.frame, self.fitness.to_bits());
-        let joints = self.joints.iter().flat_map(|hints| [hints.seen, hints.looseness, hints.support, hints.elsewhere]);
+        let joints = self.joints.iter().flat_map(|hints| [hints.seen, hints.looseness, hints.support]);
         let values = self.pose.iter().chain(&self.spread).chain(self.views.as_flattened()).copied();
         for value in values.chain(joints) {
             line.push_str(&format!(" {:08x}", value.to_bits()));
@@ -68,7 +68,7 @@ impl FrameResult {
             words.map(|word| Some(f32::from_bits(u32::from_str_radix(word, 16).ok()?))).collect();
         let bits = bits?;
         let Extent { dofs, views, joints } = extent;
-        if bits.len() != 1 + 2 * dofs + 2 * views + 4 * joints {
+        if bits.len() != 1 + 2 * dofs + 2 * views + 3 * joints {
             return None;
         }
         let (pose, rest) = bits[1..].split_at(dofs);
@@ -81,7 +81,7 @@ impl FrameResult {
             spread: spread.to_vec(),
             views: views.as_chunks().0.to_vec(),
             joints: (joints.as_chunks().0.iter())
-                .map(|&[seen, looseness, support, elsewhere]| JointHints { seen, looseness, support, elsewhere })
+                .map(|&[seen, looseness, support]| JointHints { seen, looseness, support })
                 .collect(),
         })
     }
@@ -198,8 +198,8 @@ mod tests {
             spread: vec![1.0 / 3.0, 0.0, 7.0],
             views: vec![[0.5, 0.25], [at, 1.0]],
             joints: vec![
-                JointHints { seen: 0.75, looseness: at, support: -0.25, elsewhere: 0.5 },
-                JointHints { seen: at, looseness: 7.0, support: 1.0, elsewhere: 0.0 },
+                JointHints { seen: 0.75, looseness: at, support: -0.25 },
+                JointHints { seen: at, looseness: 7.0, support: 1.0 },
             ],
         }
     }
@@ -217,8 +217,7 @@ mod tests {
         let (_folder, path) = written(4..9);
         let (_, results) = Journal::resume(&path, Numbering::EachFrom(4), EXTENT).unwrap();
         let bits = |r: &FrameResult| -> Vec<u32> {
-            let joints =
-                r.joints.iter().flat_map(|hints| [hints.seen, hints.looseness, hints.support, hints.elsewhere]);
+            let joints = r.joints.iter().flat_map(|hints| [hints.seen, hints.looseness, hints.support]);
             let values = r.pose.iter().chain(&r.spread).chain(r.views.as_flattened()).copied();
             values.chain(joints).map(f32::to_bits).collect()
         };

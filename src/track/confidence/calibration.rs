@@ -67,7 +67,7 @@ pub(super) fn wrong_probability(expected: impl Iterator<Item = f64>, agreement: 
 mod tests {
     use super::*;
 
-    const SURE: JointHints = JointHints { seen: 1.0, looseness: 20.0, support: 1.0, elsewhere: 0.0 };
+    const SURE: JointHints = JointHints { seen: 1.0, looseness: 20.0, support: 1.0 };
 
     #[test]
     fn what_is_loose_unsupported_or_badly_explained_is_expected_further_off() {
@@ -86,7 +86,7 @@ mod tests {
         }
         let unknown = expected_error("tail", &SURE, 1.0, 0.9);
         assert!((5.0..100.0).contains(&unknown), "{unknown}");
-        let nothing = JointHints { seen: f32::NAN, looseness: f32::INFINITY, support: f32::NAN, elsewhere: f32::NAN };
+        let nothing = JointHints { seen: f32::NAN, looseness: f32::INFINITY, support: f32::NAN };
         assert_eq!(expected_error("head", &nothing, f64::INFINITY, 0.0), LIMITS[1]);
     }
 

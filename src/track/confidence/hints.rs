@@ -8,8 +8,6 @@ use crate::body::Body;
 use crate::evaluate::{Evaluator, Objective};
 use crate::features::SeenView;
 use crate::geometry::Camera;
-use crate::search::SearchSpace;
-use crate::track::glance::Glances;
 use crate::track::sight::{Place, pixel, said_of};
 
 /// What a frame by itself says of a joint.
@@ -22,8 +20,6 @@ pub struct JointHints {
     /// What the pictures say of the limbs that meet in it, from -1 (surely background) to 1 (surely those limbs): the mean along the axes
     /// of the worse of the two.
     pub support: f32,
-    /// By how much more they say of the limb that the joint belongs to elsewhere than where it is, from 0 to 2.
-    pub elsewhere: f32,
 }
 
 /// How far a degree of freedom moves the joint that it moves most, to see what the fitness makes of it, mm.
@@ -49,11 +45,10 @@ pub(in crate::track) struct JointProbe {
     upper: Vec<f64>,
     /// Whether a degree of freedom is a rotation.
     is_turn: Vec<bool>,
-    glances: Glances,
 }
 
 impl JointProbe {
-    pub(in crate::track) fn new(body: &Body, cameras: &[Camera], space: &SearchSpace) -> Self {
+    pub(in crate::track) fn new(body: &Body, cameras: &[Camera]) -> Self {
         let has_parts = |bone: &usize| body.parts.iter().any(|part| part.bone == *bone);
         let of_bone =
             |bone: usize| [Some(bone), body.bones[bone].parent].into_iter().flatten().filter(has_parts).collect();
@@ -63,7 +58,6 @@ impl JointProbe {
             lower: body.dofs().map(|(_, dof)| dof.limits[0]).collect(),
             upper: body.dofs().map(|(_, dof)| dof.limits[1]).collect(),
             is_turn: body.dofs().map(|(_, dof)| dof.axis.is_rotation()).collect(),
-            glances: Glances::new(body, cameras, space),
             body: body.clone(),
             cameras: cameras.to_vec(),
         }
@@ -85,11 +79,11 @@ impl JointProbe {
         };
         let looseness = self.looseness(evaluator, objective, pose, &levers)?;
         let support = self.support(evaluator, objective, views, &levers.bones)?;
-        let elsewhere = self.glances.elsewhere(evaluator, objective, pose, views)?;
-        let hints = levers.joints.iter().zip(looseness).zip(support).zip(&self.bones);
-        let hints = hints.map(|(((&joint, looseness), support), bones)| {
-            let elsewhere = bones.iter().map(|&bone| elsewhere[bone]).fold(0.0, f32::max);
-            JointHints { seen: self.seen(views, joint), looseness, support, elsewhere }
+        let hints = levers.joints.iter().zip(looseness).zip(support);
+        let hints = hints.map(|((&joint, looseness), support)| JointHints {
+            seen: self.seen(views, joint),
+            looseness,
+            support,
         });
         Ok(hints.collect())
     }
@@ -198,7 +192,7 @@ mod tests {
         let pose = body.standing_pose();
         let mut observations = seen(&body, &cameras, &pose);
         let single: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
-        let probe = JointProbe::new(&body, &cameras, &SearchSpace::of(&body).unwrap());
+        let probe = JointProbe::new(&body, &cameras);
         let mut evaluator = Reference::new(&body, &cameras);
         let objective = Objective::of(ObjectiveKind::Ws);
         let mut ask = |observations: &[Observation], pose: &[f32]| {
@@ -216,8 +210,6 @@ mod tests {
         lifted[body.dof_names().iter().position(|name| name == "left_shoulder.rx").unwrap()] = 1.5;
         let wrong = ask(&observations, &lifted);
         assert!(wrong[wrist].support < 0.0 && wrong[ankle].support > 0.9, "{:?}", wrong[wrist]);
-        assert!(wrong[wrist].elsewhere > all[wrist].elsewhere + 0.3, "{:?} {:?}", all[wrist], wrong[wrist]);
-        assert_eq!(wrong[joint("pelvis")].elsewhere, 0.0);
         // Fewer views see less, and hold less.
         observations[1].bytes.fill(0);
         observations[2].bytes.fill(0);

@@ -85,7 +85,7 @@ impl<'a> Run<'a> {
         let delayed = (delay > 0).then(|| Delayed::new(body, sequence.fps, delay));
         Ok(Self {
             confidence: Confidence::new(body, LossRule::default()),
-            probe: JointProbe::new(body, cameras, &plan.space),
+            probe: JointProbe::new(body, cameras),
             recovery,
             appearance,
             motion,
