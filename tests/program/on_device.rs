@@ -159,18 +159,19 @@ fn evidence_that_a_device_makes_gives_the_processor_s_files() {
         ("forward", 1, &["--search", "maes", "--passes", "forward"], &["compute"]),
         ("host", 0, &["--search", "cmaes", "--passes", "forward"], &["graphics"]),
         ("learnt", 2, &["--search", "maes", "--passes", "forward"], &["compute"]),
+        // A filter keeps what it has recorded, whatever classes are learnt.
+        ("filter", 0, &["--search", "pf", "--passes", "forward"], &["compute", "graphics"]),
         ("refined", 0, &["--search", "pso", "--refine", "20", "--passes", "forward"], &["compute"]),
     ] {
         let sequence = sequences[sequence];
         let more = [more, &["--objective", "evidence"]].concat();
         let expected = folder.path().join(name);
         tracked_of(sequence, &expected, &[&more[..], &["--backend", "cpu"]].concat());
-        for backend in backends {
-            let found = folder.path().join(format!("{name}_{backend}"));
-            let device = ["--backend", backend, "--features", "device"];
-            tracked_of(sequence, &found, &[&more[..], &device].concat());
+        for (backend, maker) in backends.iter().flat_map(|backend| [(backend, "cpu"), (backend, "device")]) {
+            let found = folder.path().join(format!("{name}_{backend}_{maker}"));
+            tracked_of(sequence, &found, &[&more[..], &["--backend", backend, "--features", maker]].concat());
             same(&found, &expected);
-            assert_eq!(machine(&found, "features_made_by"), "device");
+            assert_eq!(machine(&found, "features_made_by"), maker);
         }
         if let Some(before) = before.replace(expected.clone()) {
             let read = |folder: &Path| fs::read(folder.join("poses.csv")).unwrap();

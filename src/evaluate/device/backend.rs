@@ -166,11 +166,18 @@ impl<R: Rasteriser> DeviceBackend<R> {
         Ok(())
     }
 
-    /// Has room for the evidence of these classes from now on.
+    /// Has the evidence of these classes from now on.
     fn set_evidence(&mut self, classes: Option<&PartClasses>) -> Result<()> {
         let count = classes.map(PartClasses::count);
-        if self.resources.evidence.as_ref().map(DeviceEvidence::classes) == count {
-            return Ok(());
+        match (&mut self.resources.evidence, count) {
+            (None, None) => return Ok(()),
+            (Some(evidence), Some(count)) => {
+                if evidence.set_classes(count) {
+                    self.handovers.clear();
+                }
+                return Ok(());
+            }
+            _ => (),
         }
         // As with segments.
         self.runs.clear();

@@ -17,7 +17,7 @@ use crate::gpu::{Buffer, Memory, Recorder, StagedBuffer};
 /// The evidence of a frame's observations, and the sums of a run.
 #[derive(Debug)]
 pub(crate) struct DeviceEvidence {
-    /// Room is for so many classes.
+    /// How many classes there are. Room is for as many as there may be, so that what a search recorded serves whatever is learnt.
     classes: usize,
     /// One a view, of observations that the host brought.
     best: Option<Arc<[u32]>>,
@@ -35,9 +35,10 @@ pub(crate) struct DeviceEvidence {
 }
 
 impl DeviceEvidence {
-    /// For so many classes and runs of so many candidates.
+    /// For so many classes at first and runs of so many candidates.
     pub(super) fn new(scene: &DeviceScene, classes: usize, candidates: u32) -> Result<Self> {
         let device = &scene.device;
+        let most = PartClasses::MOST;
         // The scene has eight planes a group.
         let groups = scene.planes.buffer.size() as usize / size_of::<[u32; 8]>();
         let table = size_of::<layout::EvidenceTableHeader>() / size_of::<u32>() + scene.sizes.len();
@@ -48,7 +49,7 @@ impl DeviceEvidence {
             held: None,
             is_held: false,
             table: StagedBuffer::new::<u32>(device, "evidence", table)?,
-            planes: StagedBuffer::of(device, "observed evidence", &vec![[0_u32; Evidence::BITS]; groups * classes])?,
+            planes: StagedBuffer::of(device, "observed evidence", &vec![[0_u32; Evidence::BITS]; groups * most])?,
             sums,
             sums_out,
         })
@@ -66,9 +67,20 @@ impl DeviceEvidence {
         Ok(())
     }
 
-    /// How many classes it has room for.
+    /// How many classes there are.
     pub(super) fn classes(&self) -> usize {
         self.classes
+    }
+
+    /// Has so many classes from now on; whether there were others.
+    pub(super) fn set_classes(&mut self, classes: usize) -> bool {
+        let is_new = self.classes != classes;
+        if is_new {
+            self.classes = classes;
+            // What it has recorded is for the others.
+            self.held = None;
+        }
+        is_new
     }
 
     /// The best of each view; of what the device makes itself, when it has.
