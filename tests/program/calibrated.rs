@@ -20,10 +20,11 @@ const COUNT: usize = KINDS.len() + TERMS.len();
 /// Share of the joints that are to be within their expected error.
 const SHARE: f64 = 0.6827;
 /// How scenes are tracked: as by default, and worse, so that there are wrong poses.
-const RUNS: [&[&str]; 3] = [
+const RUNS: [&[&str]; 4] = [
     &[],
     &["--particles", "100", "--iterations", "8", "--seed", "2", "--objective", "sp"],
     &["--particles", "64", "--iterations", "8", "--seed", "3"],
+    &["--passes", "forward"],
 ];
 
 /// A joint in a frame.
@@ -139,7 +140,7 @@ fn read(track: &Path, truth: &Path, [scene, run]: [usize; 2], frame: usize, join
             let of = |what: &str| value(&format!("{name}.{what}"));
             terms[KINDS.len()..].copy_from_slice(&[
                 (of("looseness") + 5.0).ln(),
-                1.0 - of("support"),
+                (1.0 - of("support")) * ((of("looseness") + 5.0) / 30.0).max(1.0).ln(),
                 1.0 - value("fitness"),
                 1.0 - of("seen"),
                 (of("spread") + 1.0).ln(),

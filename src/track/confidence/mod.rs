@@ -27,11 +27,15 @@ pub struct LossRule {
     pub lost_below: f64,
     /// After a loss, an agreement of at least this is a find.
     pub found_from: f64,
+    /// A probability of a wrong pose of at least this is a loss too.
+    pub wrong_from: f64,
+    /// After a loss, it must be below this for a find.
+    pub right_below: f64,
 }
 
 impl Default for LossRule {
     fn default() -> Self {
-        Self { lost_below: 0.8, found_from: 0.9 }
+        Self { lost_below: 0.8, found_from: 0.9, wrong_from: 0.7, right_below: 0.5 }
     }
 }
 
@@ -50,7 +54,7 @@ impl Default for LossRule {
 /// How far a joint is expected to be off, and with which probability the pose is wrong, is calibrated (METHOD A13): by how far the joint
 /// could lie elsewhere before the fitness told, what the pictures say of its limbs, the fitness, and the agreement.
 ///
-/// Loss goes by the agreement: a view's `sqrt(f1 f2)` over its average in the sure frames so far (exponentially, 25 frames),
+/// Loss goes by that probability, and by the agreement: a view's `sqrt(f1 f2)` over its average in the sure frames so far (exponentially, 25 frames),
 /// at most 1, and of that the mean over the views that have such a reference, less the worst where three or more do.
 #[derive(Clone, Debug)]
 pub struct Confidence {
@@ -134,8 +138,7 @@ impl Confidence {
         let balance = if mean > 0.0 { (f1().fold(f64::INFINITY, f64::min) / mean).clamp(0.0, 1.0).sqrt() } else { 0.0 };
         let position_spread = root_mean_square(&result.spread, &self.root);
         let agreement = self.agreement(result);
-        let spreads = Levers::of(&self.body, &result.pose).map(|levers| levers.joint_spreads(&result.spread));
-        let spreads = spreads.unwrap_or_default();
+        let spreads = self.spreads(result);
         let (sigmas, wrong) = self.expected(result, &spreads, agreement);
         let joints = spreads.into_iter().zip(&result.joints).zip(sigmas);
         let joints = joints.map(|((spread, hints), sigma)| {
@@ -143,7 +146,7 @@ impl Confidence {
             JointConfidence { spread, seen, confidence: relative * balance * settled(spread) * seen, sigma }
         });
         let joints = joints.collect();
-        self.judge(result, agreement);
+        self.judge(result, agreement, wrong);
         FrameConfidence {
             position_spread,
             angle_spread: root_mean_square(&result.spread, &self.angles).to_degrees(),
@@ -165,18 +168,31 @@ impl Confidence {
         (sigmas, wrong)
     }
 
-    /// Whether the next frame would be a loss with this result, without taking note of it.
-    pub(super) fn is_loss_at(&self, result: &FrameResult) -> bool {
-        self.is_loss(self.agreement(result))
+    /// Standard deviation of the candidates' positions of each joint, mm; none where the pose does not fit the body.
+    fn spreads(&self, result: &FrameResult) -> Vec<f64> {
+        let levers = Levers::of(&self.body, &result.pose);
+        levers.map(|levers| levers.joint_spreads(&result.spread)).unwrap_or_default()
     }
 
-    fn is_loss(&self, agreement: f64) -> bool {
-        agreement < if self.is_lost { self.rule.found_from } else { self.rule.lost_below }
+    /// Whether the next frame would be a loss with this result, without taking note of it.
+    pub(super) fn is_loss_at(&self, result: &FrameResult) -> bool {
+        let agreement = self.agreement(result);
+        let (_, wrong) = self.expected(result, &self.spreads(result), agreement);
+        self.is_loss(agreement, wrong)
+    }
+
+    fn is_loss(&self, agreement: f64, wrong: f64) -> bool {
+        let LossRule { lost_below, found_from, wrong_from, right_below } = self.rule;
+        if self.is_lost {
+            agreement < found_from || wrong >= right_below
+        } else {
+            agreement < lost_below || wrong >= wrong_from
+        }
     }
 
     /// Judges the next frame, and learns from it if it is a sure one.
-    fn judge(&mut self, result: &FrameResult, agreement: f64) {
-        self.is_lost = self.is_loss(agreement);
+    fn judge(&mut self, result: &FrameResult, agreement: f64, wrong: f64) {
+        self.is_lost = self.is_loss(agreement, wrong);
         if !self.is_lost {
             self.sure_frames += 1;
             let share = 1.0 / (self.sure_frames as f64).min(MEMORY);
