@@ -25,11 +25,11 @@ impl Ratios {
     #[inline]
     pub(super) fn add(&mut self, seen: [u8; 3], background: [u8; 3]) {
         for channel in 0..3 {
-            let (seen, background) = (usize::from(seen[channel]), usize::from(background[channel]));
+            let (seen, background) = (u32::from(seen[channel]), u32::from(background[channel]));
             // Dark pixels say nothing about a ratio, and saturated ones lie.
             if (32..=235).contains(&background) && seen <= 250 {
-                let ratio = (seen * STEPS + background / 2) / background;
-                if let Some(count) = self.counts[channel].get_mut(ratio) {
+                let ratio = (seen * RATIO_STEPS + background / 2) / background;
+                if let Some(count) = self.counts[channel].get_mut(ratio as usize) {
                     *count += 1;
                 }
             }

@@ -47,7 +47,6 @@ impl Morphology {
         if element.radius == 0 {
             return;
         }
-        let height = image.height() as usize;
         self.result.resize(image.width(), image.height());
         self.widened.copy_from(image);
         let mut half_width = 0;
@@ -57,14 +56,13 @@ impl Morphology {
             let wanted = element.half_width(dy);
             widen(&mut self.widened, wanted - half_width);
             half_width = wanted;
-            let dy = dy as usize;
-            for y in 0..height {
-                if y + dy < height {
-                    or_row(self.result.row_mut(y), self.widened.row(y + dy));
-                }
-                if y >= dy {
-                    or_row(self.result.row_mut(y), self.widened.row(y - dy));
-                }
+            // Rows follow each other, so many of them are joined as one.
+            let moved = dy as usize * image.stride();
+            let (into, from) = (self.result.words_mut(), self.widened.words());
+            if moved < from.len() {
+                let (first, last) = (&from[..from.len() - moved], &from[moved..]);
+                or_words(&mut into[..last.len()], last);
+                or_words(&mut into[moved..], first);
             }
         }
         std::mem::swap(image, &mut self.result);
@@ -90,7 +88,8 @@ impl Morphology {
     }
 }
 
-fn or_row(into: &mut [u64], from: &[u64]) {
+#[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn or_words(into: &mut [u64], from: &[u64]) {
     into.iter_mut().zip(from).for_each(|(a, b)| *a |= b);
 }
 

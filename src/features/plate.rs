@@ -92,28 +92,42 @@ impl Plate {
         shadow: &ShadowSettings,
         flags: &mut DifferenceRow,
     ) {
-        split_row(rgb, &mut self.seen);
         let row = y * self.width..(y + 1) * self.width;
-        let [pr, pg, pb] = &self.planes;
-        let plate = pr[row.clone()].iter().zip(&pg[row.clone()]).zip(&pb[row]);
-        let seen = self.seen[0].iter().zip(&self.seen[1]).zip(&self.seen[2]);
-        let flags = flags.weak.iter_mut().zip(&mut flags.strong).zip(&mut flags.faint);
-        let [least_weak, least_strong, least_faint] =
-            [settings.weak, settings.strong, settings.faint].map(|distance| distance * distance);
-        for ((((&pr, &pg), &pb), ((&r, &g), &b)), ((weak, strong), faint)) in plate.zip(seen).zip(flags) {
-            let background = [pr * gain[0], pg * gain[1], pb * gain[2]];
-            let (dr, dg, db) = (r - background[0], g - background[1], b - background[2]);
-            let distance = dr * dr + dg * dg + db * db;
-            let differs = !shadow.covers([r, g, b], background);
-            let both_dark = (background[0] + background[1] + background[2]).max(r + g + b) < DARK;
-            *weak = u8::from(differs & (distance >= least_weak));
-            *strong = u8::from(differs & (distance >= least_strong));
-            *faint = u8::from(both_dark | differs & (distance >= least_faint));
-        }
+        let plate = self.planes.each_ref().map(|plane| &plane[row.clone()]);
+        flag_row(rgb, (plate, gain), (settings, shadow), &mut self.seen, flags);
+    }
+}
+
+/// [`Plate::compare_row`] with the plate's own row; `planes` is room for the picture's channels. Compiled for the wider vectors too: no
+/// operation is fused, so that every version gives the same flags.
+#[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn flag_row(
+    rgb: &[u8],
+    ([pr, pg, pb], gain): ([&[f32]; 3], [f32; 3]),
+    (settings, shadow): (&PlateSettings, &ShadowSettings),
+    planes: &mut [Vec<f32>; 3],
+    flags: &mut DifferenceRow,
+) {
+    split_row(rgb, planes);
+    let plate = pr.iter().zip(pg).zip(pb);
+    let seen = planes[0].iter().zip(&planes[1]).zip(&planes[2]);
+    let flags = flags.weak.iter_mut().zip(&mut flags.strong).zip(&mut flags.faint);
+    let [least_weak, least_strong, least_faint] =
+        [settings.weak, settings.strong, settings.faint].map(|distance| distance * distance);
+    for ((((&pr, &pg), &pb), ((&r, &g), &b)), ((weak, strong), faint)) in plate.zip(seen).zip(flags) {
+        let background = [pr * gain[0], pg * gain[1], pb * gain[2]];
+        let (dr, dg, db) = (r - background[0], g - background[1], b - background[2]);
+        let distance = dr * dr + dg * dg + db * db;
+        let differs = !shadow.covers([r, g, b], background);
+        let both_dark = (background[0] + background[1] + background[2]).max(r + g + b) < DARK;
+        *weak = u8::from(differs & (distance >= least_weak));
+        *strong = u8::from(differs & (distance >= least_strong));
+        *faint = u8::from(both_dark | differs & (distance >= least_faint));
     }
 }
 
 /// Splits a row of interleaved bytes into one plane a channel.
+#[inline(always)]
 pub(super) fn split_row(rgb: &[u8], planes: &mut [Vec<f32>; 3]) {
     let (pixels, _) = rgb.as_chunks::<3>();
     for (channel, plane) in planes.iter_mut().enumerate() {

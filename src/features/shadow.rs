@@ -25,7 +25,7 @@ impl Default for ShadowSettings {
 impl ShadowSettings {
     /// Whether `seen` is `background` in another light: the multiple of the background nearest to it is within the
     /// allowed brightness, and what is left between them is within the chroma tolerance (all in grey levels).
-    #[inline]
+    #[inline(always)]
     pub(super) fn covers(&self, seen: [f32; 3], background: [f32; 3]) -> bool {
         let product = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let (along, length) = (product(seen, background), product(background, background));

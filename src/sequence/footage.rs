@@ -59,7 +59,7 @@ impl Footage {
             bail!("{why}: name a video or numbered pictures (frames/cam01_%04d.png)");
         }
         let VideoInfo { size, frame_count, turn, fps, times, made } = probe_video(file)?;
-        let source = Source::Video(Video { path: file.to_path_buf(), turn });
+        let source = Source::Video(Video { path: file.to_path_buf(), stored: size, turn });
         let size = turn.turned(size);
         Ok(Self { shown, source, size, frame_count, marked: turn, fps, times, made, picks: None })
     }
@@ -126,7 +126,7 @@ impl Footage {
                 Some(picks) => {
                     let chosen = (1..=count).filter_map(|next| picks.get(last_of_share(next, self.frame_count, count)));
                     let chosen: Arc<[u32]> = chosen.copied().collect();
-                    VideoDecoder::open(video, Some(&chosen), 0..chosen.len(), size, PixelFormat::Rgb)?
+                    VideoDecoder::open(video, Some(&chosen), 0..chosen.len(), size, PixelFormat::Rgb, 1)?
                 }
             }),
             Source::Pictures(pattern) => Frames::Pictures(pattern.clone()),

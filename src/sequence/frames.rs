@@ -89,7 +89,7 @@ impl Sequence {
             return Ok(reader);
         }
         for (view, &size) in self.views.iter().zip(&self.sizes) {
-            let mut stream = ViewStream::open(view, range.clone(), size)?;
+            let mut stream = ViewStream::open(view, range.clone(), size, self.views.len())?;
             let (sender, frames) = sync_channel(READ_AHEAD);
             let decoders = stream.stoppers();
             let thread = thread::Builder::new()
@@ -199,9 +199,18 @@ enum Stream {
 }
 
 impl Stream {
-    fn open(view: &View, source: &Source, frames: Range<usize>, size: [u32; 2], format: PixelFormat) -> Result<Self> {
+    fn open(
+        (view, source): (&View, &Source),
+        frames: Range<usize>,
+        size: [u32; 2],
+        format: PixelFormat,
+        side_by_side: usize,
+    ) -> Result<Self> {
         Ok(match source {
-            Source::Video(video) => Self::Video(VideoDecoder::open(video, view.picks.as_ref(), frames, size, format)?),
+            Source::Video(video) => {
+                let picks = view.picks.as_ref();
+                Self::Video(VideoDecoder::open(video, picks, frames, size, format, side_by_side)?)
+            }
             Source::Pictures(pattern) => Self::Pictures(pattern.clone()),
             Source::Live(live) => bail!("{} is live, which only `track --realtime` reads", live.address),
         })
@@ -214,12 +223,13 @@ fn picked(picks: Option<&[u32]>, frame: usize) -> usize {
 }
 
 impl ViewStream {
-    fn open(view: &View, frames: Range<usize>, size: [u32; 2]) -> Result<Self> {
-        let pictures = Stream::open(view, &view.source, frames.clone(), size, PixelFormat::Rgb)?;
+    /// The pictures of a view, one of `views` that are read side by side.
+    fn open(view: &View, frames: Range<usize>, size: [u32; 2], views: usize) -> Result<Self> {
+        let pictures = Stream::open((view, &view.source), frames.clone(), size, PixelFormat::Rgb, views)?;
         let masks = match &view.mask {
             // At the stored size: a silhouette is thinned out by us, never averaged.
             Some((mask, stored)) => {
-                Some((Stream::open(view, mask, frames.clone(), *stored, PixelFormat::Grey)?, *stored))
+                Some((Stream::open((view, mask), frames.clone(), *stored, PixelFormat::Grey, views)?, *stored))
             }
             None => None,
         };

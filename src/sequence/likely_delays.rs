@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     fn view(frames: u32, first: f64, made: Option<&str>) -> Recorded {
-        let source = Source::Video(Video { path: "v.mp4".into(), turn: Turn::None });
+        let source = Source::Video(Video { path: "v.mp4".into(), stored: [64, 48], turn: Turn::None });
         let times = (0..frames).map(|frame| first + f64::from(frame) / 30.0).collect();
         let footage = Footage {
             fps: Some(30.0),

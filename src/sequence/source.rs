@@ -32,6 +32,8 @@ impl Source {
 pub struct Video {
     /// The file.
     pub path: PathBuf,
+    /// Size of its pictures as they are stored, pixels, width then height.
+    pub stored: [u32; 2],
     /// How its stored pictures are turned.
     pub turn: Turn,
 }

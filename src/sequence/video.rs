@@ -137,6 +137,8 @@ pub(super) struct VideoDecoder {
     next: usize,
     end: usize,
     frame_bytes: usize,
+    /// Room for a picture whose colours come one plane after the other: green, blue, red. None where pixels come whole.
+    planes: Option<Vec<u8>>,
     /// Which picture each frame is; none: its own.
     picks: Option<Picked>,
 }
@@ -156,6 +158,9 @@ impl VideoDecoder {
     /// Starts decoding the frames of `range`, each delivered at `size` (width, height). `picks` holds the number of each frame's picture,
     /// ascending; without it they are the same.
     ///
+    /// So many decoders, this one included, run side by side: each takes its share of the processors, since threads of a decoder cost more
+    /// than they bring where all processors are at work anyway.
+    ///
     /// Everything before the range is decoded and dropped: seeking by time lands on the wrong frame in files whose time
     /// stamps are not regular, and here frame A has to be the A-th picture of the file in every view.
     ///
@@ -167,10 +172,11 @@ impl VideoDecoder {
         range: Range<usize>,
         size: [u32; 2],
         format: PixelFormat,
+        side_by_side: usize,
     ) -> Result<Self> {
         let Some(picks) = picks else {
             let (first, count) = (range.start, range.len());
-            return Self::select(video, &format!("gte(n\\,{first})"), count, range, size, format);
+            return Self::select(video, &format!("gte(n\\,{first})"), count, range, size, (format, side_by_side));
         };
         let picked = picks.get(range.clone()).unwrap_or_default();
         let (Some(&first), Some(&last)) = (picked.first(), picked.last()) else {
@@ -178,7 +184,8 @@ impl VideoDecoder {
         };
         let count = (last - first) as usize + 1;
         let picks = Picked { picks: Arc::clone(picks), coming: first, last: Vec::new() };
-        let decoder = Self::select(video, &format!("gte(n\\,{first})"), count, range, size, format)?;
+        let which = format!("gte(n\\,{first})");
+        let decoder = Self::select(video, &which, count, range, size, (format, side_by_side))?;
         Ok(Self { picks: Some(picks), ..decoder })
     }
 
@@ -189,7 +196,7 @@ impl VideoDecoder {
     pub(super) fn open_spread(video: &Video, total: usize, count: usize, size: [u32; 2]) -> Result<Self> {
         // Frame n is one of them where n count / total passes a whole number before the next frame.
         let select = format!("gt(floor((n+1)*{count}/{total})\\,floor(n*{count}/{total}))");
-        Self::select(video, &select, count, 0..count, size, PixelFormat::Rgb)
+        Self::select(video, &select, count, 0..count, size, (PixelFormat::Rgb, 1))
     }
 
     /// Starts decoding the first `count` pictures that `select` lets through, for the frames of `range`.
@@ -199,18 +206,22 @@ impl VideoDecoder {
         count: usize,
         range: Range<usize>,
         size: [u32; 2],
-        format: PixelFormat,
+        (format, side_by_side): (PixelFormat, usize),
     ) -> Result<Self> {
         let path = video.path.as_path();
         let program = ffmpeg_sidecar::paths::ffmpeg_path();
         let [width, height] = size;
+        let stored = video.turn.turned(video.stored);
         let (pixels, channels) = match format {
+            PixelFormat::Rgb if comes_in_planes(stored, size) => ("gbrp", 3),
             PixelFormat::Rgb => ("rgb24", 3),
             PixelFormat::Grey => ("gray", 1),
         };
+        let frame_bytes = width as usize * height as usize * channels;
         let mut command = Command::new(&program);
         // A picture that could not be decoded would shift all later ones against the other views, so it ends the run.
         command.args(["-v", "error", "-nostdin", "-xerror", "-noautorotate"]);
+        command.arg("-threads").arg(threads_of_one(side_by_side).to_string());
         // A change of format inside the file must not restart the count of `select`.
         command.args(["-reinit_filter", "0", "-protocol_whitelist", "file", "-i"]).arg(file_url(path));
         command.args(["-map", "0:v:0", "-an", "-sn", "-dn"]).args(passthrough_option(&program)?);
@@ -225,7 +236,8 @@ impl VideoDecoder {
             process: Process::spawn(command)?,
             next: range.start,
             end: range.end,
-            frame_bytes: width as usize * height as usize * channels,
+            frame_bytes,
+            planes: (pixels == "gbrp").then(|| vec![0; frame_bytes]),
             picks: None,
         })
     }
@@ -268,8 +280,11 @@ impl VideoDecoder {
     /// The picture that comes next, called `number` in messages.
     fn next_picture(&mut self, number: usize) -> Result<Vec<u8>> {
         let mut bytes = vec![0; self.frame_bytes];
-        match self.process.output.read_exact(&mut bytes) {
-            Ok(()) => Ok(bytes),
+        match self.process.output.read_exact(self.planes.as_mut().unwrap_or(&mut bytes)) {
+            Ok(()) => {
+                self.planes.iter().for_each(|planes| interleave(planes, &mut bytes));
+                Ok(bytes)
+            }
             Err(error) if error.kind() == ErrorKind::UnexpectedEof => {
                 let ended = self.process.finish();
                 let last = self.picks.as_ref().map_or(self.end - 1, |picked| picked.picks[self.end - 1] as usize);
@@ -280,6 +295,29 @@ impl VideoDecoder {
             }
             Err(error) => Err(error).with_context(|| format!("cannot read frame {number} of {}", self.path.display())),
         }
+    }
+}
+
+/// Threads of one of so many decoders that run side by side. More than 16 bring nothing and cost memory.
+fn threads_of_one(side_by_side: usize) -> usize {
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    (processors / side_by_side.max(1)).clamp(1, 16)
+}
+
+/// Whether colours are asked for plane by plane. ffmpeg's scaler adds up the rows of a pixel by the same whole numbers then, but in vector
+/// code. Of two rows or fewer, whole pixels take short cuts of their own; a picture that is made less than half as high has more.
+fn comes_in_planes(stored: [u32; 2], size: [u32; 2]) -> bool {
+    2 * u64::from(size[1]) < u64::from(stored[1])
+}
+
+/// Pixels of red, green and blue from planes of green, blue and red.
+#[multiversion::multiversion(targets("x86_64+avx2"))]
+fn interleave(planes: &[u8], pixels: &mut [u8]) {
+    let (green, rest) = planes.split_at(planes.len() / 3);
+    let (blue, red) = rest.split_at(rest.len() / 2);
+    let (pixels, _) = pixels.as_chunks_mut::<3>();
+    for (((pixel, &red), &green), &blue) in pixels.iter_mut().zip(red).zip(green).zip(blue) {
+        *pixel = [red, green, blue];
     }
 }
 

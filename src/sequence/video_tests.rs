@@ -25,11 +25,11 @@ pub(crate) fn make_video(path: &Path, size: &str, frames: usize, options: &[&str
 }
 
 fn as_stored(path: &Path) -> Video {
-    Video { path: path.to_path_buf(), turn: Turn::None }
+    Video { path: path.to_path_buf(), stored: probe_video(path).unwrap().size, turn: Turn::None }
 }
 
 fn decode(path: &Path, range: Range<usize>, size: [u32; 2]) -> Result<Vec<Vec<u8>>> {
-    let mut decoder = VideoDecoder::open(&as_stored(path), None, range, size, PixelFormat::Rgb)?;
+    let mut decoder = VideoDecoder::open(&as_stored(path), None, range, size, PixelFormat::Rgb, 1)?;
     let mut frames = Vec::new();
     while let Some(frame) = decoder.next_frame()? {
         frames.push(frame);
@@ -66,6 +66,69 @@ fn every_frame_is_found_by_its_number() {
     }
 }
 
+/// Pictures that come in planes are those that come in pixels, byte for byte, whatever is stored and whatever the scale.
+#[test]
+fn planes_hold_the_same_pixels() {
+    if !ffmpeg_is_here("planes_hold_the_same_pixels") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let in_pixels = |path: &Path, [width, height]: [u32; 2]| {
+        let scale = format!("scale={width}:{height}:flags=area+accurate_rnd+full_chroma_int+bitexact,format=rgb24");
+        let mut command = Command::new("ffmpeg");
+        command.args(["-v", "error", "-nostdin", "-i"]).arg(path).args([
+            "-vf",
+            &scale,
+            "-bitexact",
+            "-f",
+            "rawvideo",
+            "-",
+        ]);
+        command.output().unwrap().stdout
+    };
+    for (name, options) in [
+        ("420", ["-c:v", "libx264", "-pix_fmt", "yuv420p"]),
+        ("444", ["-c:v", "ffv1", "-pix_fmt", "yuv444p"]),
+        ("full", ["-c:v", "mjpeg", "-pix_fmt", "yuvj422p"]),
+        ("deep", ["-c:v", "ffv1", "-pix_fmt", "yuv420p10le"]),
+        ("grey", ["-c:v", "ffv1", "-pix_fmt", "gray"]),
+        ("colours", ["-c:v", "png", "-pix_fmt", "rgb24"]),
+    ] {
+        let path = folder.path().join(format!("{name}.mkv"));
+        make_video(&path, "322x246", 3, &options);
+        for size in [[161, 122], [160, 120], [80, 61], [81, 37], [322, 30], [23, 5]] {
+            assert!(comes_in_planes([322, 246], size));
+            let expected = in_pixels(&path, size);
+            let found = decode(&path, 0..3, size).unwrap().concat();
+            assert!(found == expected, "{name} at {size:?}: {} bytes, {} expected", found.len(), expected.len());
+        }
+    }
+    assert!(![[322, 246], [161, 123], [10, 200]].into_iter().any(|size| comes_in_planes([322, 246], size)));
+    // Red, green and blue are told apart, and each pixel from its neighbour.
+    let mut pixels = [0; 6];
+    interleave(&[1, 2, 3, 4, 5, 6], &mut pixels);
+    assert_eq!(pixels, [5, 1, 3, 6, 2, 4]);
+}
+
+/// How many decoders share the processors is nothing that a picture tells.
+#[test]
+fn threads_do_not_change_pictures() {
+    assert!(threads_of_one(1) >= 1 && threads_of_one(1) <= 16);
+    assert_eq!([threads_of_one(0), threads_of_one(100_000)], [threads_of_one(1), 1]);
+    if !ffmpeg_is_here("threads_do_not_change_pictures") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("video.mp4");
+    make_video(&path, "320x240", 20, &["-bf", "2", "-g", "7"]);
+    let mut alone = VideoDecoder::open(&as_stored(&path), None, 3..20, [80, 60], PixelFormat::Rgb, 1).unwrap();
+    let mut one_of_many = VideoDecoder::open(&as_stored(&path), None, 3..20, [80, 60], PixelFormat::Rgb, 64).unwrap();
+    for _ in 3..20 {
+        let frame = alone.next_frame().unwrap();
+        assert!(frame.is_some() && frame == one_of_many.next_frame().unwrap());
+    }
+}
+
 /// A matrix in a header says how a video is shown; one that mirrors was taken for half a turn once.
 #[test]
 fn mirrored_videos_are_known_by_their_matrix() {
@@ -92,9 +155,9 @@ fn mirrored_videos_are_known_by_their_matrix() {
         fs::write(&path, marked).unwrap();
         let info = probe_video(&path).unwrap();
         assert_eq!((info.turn, info.size), (turn, [64, 48]), "{rows:?}");
-        let video = Video { path: path.clone(), turn };
+        let video = Video { path: path.clone(), stored: info.size, turn };
         let shown = |video: &Video, size| {
-            VideoDecoder::open(video, None, 0..1, size, PixelFormat::Rgb).unwrap().next_frame().unwrap().unwrap()
+            VideoDecoder::open(video, None, 0..1, size, PixelFormat::Rgb, 1).unwrap().next_frame().unwrap().unwrap()
         };
         let stored = image::RgbImage::from_raw(64, 48, shown(&as_stored(&path), [64, 48])).unwrap();
         let expected = turn.of(stored.into()).into_rgb8();
@@ -207,7 +270,7 @@ fn a_dropped_decoder_ends_its_process() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("long.mp4");
     make_video(&path, "320x240", 200, &[]);
-    let mut decoder = VideoDecoder::open(&as_stored(&path), None, 0..200, [320, 240], PixelFormat::Rgb).unwrap();
+    let mut decoder = VideoDecoder::open(&as_stored(&path), None, 0..200, [320, 240], PixelFormat::Rgb, 1).unwrap();
     decoder.next_frame().unwrap();
     let entry = format!("/proc/{}", lock(&decoder.process.child).id());
     assert!(!Path::new("/proc/self").exists() || Path::new(&entry).exists());

@@ -3,7 +3,7 @@
 use std::arch::x86_64::*;
 
 use super::instruction_set::Avx512;
-use super::simd::{Lanes, Ramp, Sides, Simd, Spans, with_token};
+use super::simd::{BEFORE, Lanes, Ramp, Sides, Simd, Spans, with_token};
 
 impl Simd for Avx512 {
     const SKIPS_EDGES: bool = false;
@@ -119,6 +119,23 @@ impl Simd for Avx512 {
         )))
     }
     #[inline(always)]
+    fn places(self, values: &[i32; 16]) -> [u32; 16] {
+        // In memory, or the compiler makes gathers of it.
+        static TABLE: [Lanes; 16] = BEFORE;
+        let mut places = Lanes::default();
+        with_token!({
+            let all = _mm512_loadu_si512(values.as_ptr().cast());
+            let mut sum = _mm512_setzero_si512();
+            for other in 0..16 {
+                let bound = _mm512_add_epi32(all, _mm512_load_si512(TABLE[other].0.as_ptr().cast()));
+                let comes_before = _mm512_cmpgt_epi32_mask(bound, _mm512_set1_epi32(values[other]));
+                sum = _mm512_mask_add_epi32(sum, comes_before, sum, _mm512_set1_epi32(1));
+            }
+            _mm512_store_si512(places.0.as_mut_ptr().cast(), sum);
+        });
+        places.0
+    }
+    #[inline(always)]
     fn least(self, values: &[i32; 16]) -> i32 {
         with_token!(_mm512_reduce_min_epi32(_mm512_loadu_si512(values.as_ptr().cast())))
     }
@@ -179,5 +196,25 @@ impl Simd for Avx512 {
     #[inline(always)]
     fn total(self, sum: __m512i) -> u32 {
         with_token!(_mm512_reduce_add_epi32(sum)) as u32
+    }
+    #[inline(always)]
+    fn totals(self, [a, b, c]: [__m512i; 3], [first, digits @ ..]: [__m512i; 7]) -> ([u32; 3], u32) {
+        let mut totals = [0; 4];
+        with_token!({
+            let mut number = _mm512_setzero_si512();
+            for digit in digits.into_iter().rev() {
+                number = _mm512_slli_epi32::<1>(_mm512_add_epi32(number, digit));
+            }
+            let number = _mm512_add_epi32(number, first);
+            // Each step adds halves and puts what is left of two sums side by side.
+            let ab = _mm512_add_epi32(_mm512_unpacklo_epi32(a, b), _mm512_unpackhi_epi32(a, b));
+            let cn = _mm512_add_epi32(_mm512_unpacklo_epi32(c, number), _mm512_unpackhi_epi32(c, number));
+            let all = _mm512_add_epi32(_mm512_unpacklo_epi64(ab, cn), _mm512_unpackhi_epi64(ab, cn));
+            let all = _mm256_add_epi32(_mm512_castsi512_si256(all), _mm512_extracti64x4_epi64::<1>(all));
+            let all = _mm_add_epi32(_mm256_castsi256_si128(all), _mm256_extracti128_si256::<1>(all));
+            _mm_storeu_si128(totals.as_mut_ptr().cast(), all);
+        });
+        let [a, b, c, number] = totals;
+        ([a, b, c], number)
     }
 }

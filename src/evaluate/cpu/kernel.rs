@@ -90,7 +90,7 @@ impl<P: Pixels> Canvas<P> {
         planes: &Planes,
         tally: &mut impl Tally<S>,
     ) -> Option<(Range<usize>, Range<usize>)> {
-        self.sort(quads);
+        self.sort(simd, quads);
         let (width, height) = (planes.width as i32, planes.height as i32);
         let (mut left, mut right, mut top, mut bottom) = (width, 0, height, 0);
         for (outline, quad) in self.outlines.iter_mut().zip(quads) {
@@ -124,17 +124,12 @@ impl<P: Pixels> Canvas<P> {
 
     /// Brings the parts into order, nearest first; of two at equal depth the later one in the body is nearer.
     #[inline(always)]
-    fn sort(&mut self, quads: &[QuadChunk]) {
+    fn sort<S: Simd>(&mut self, simd: S, quads: &[QuadChunk]) {
         if let ([quad], Ok(order)) = (quads, <&mut [usize; LANES]>::try_from(&mut self.order[..])) {
             // Each part's place is the number of parts nearer than it, counted for all at once. The bits compare as the
             // depths do, and give every part a place of its own even where a depth is no number.
             let depths = quad.depth_squared.map(|depth| (depth.to_bits() as i32).min(i32::MAX - 1));
-            let mut place = [0_u32; LANES];
-            for other in 0..LANES {
-                for lane in 0..LANES {
-                    place[lane] += u32::from(depths[other] < depths[lane].wrapping_add(AT_TIE[other][lane]));
-                }
-            }
+            let place = simd.places(&depths);
             for lane in 0..LANES {
                 order[place[lane] as usize % LANES] = lane;
             }
@@ -210,29 +205,9 @@ impl<P: Pixels> Canvas<P> {
                 simd.store(simd.splat(0), &mut cell.edge);
             }
         }
-        sums.area_model = simd.total(area);
-        sums.overlap = simd.total(overlap);
-        sums.edges = simd.total(edges);
-        for (bit, sum) in proximity.into_iter().enumerate() {
-            sums.proximity += simd.total(sum) << bit;
-        }
+        ([sums.area_model, sums.overlap, sums.edges], sums.proximity) = simd.totals([area, overlap, edges], proximity);
     }
 }
-
-/// `AT_TIE[other][part]` is 1 where part `other` is nearer than `part` at equal depth.
-const AT_TIE: [[i32; LANES]; LANES] = {
-    let mut at_tie = [[0; LANES]; LANES];
-    let mut part = 0;
-    while part < LANES {
-        let mut other = part + 1;
-        while other < LANES {
-            at_tie[other][part] = 1;
-            other += 1;
-        }
-        part += 1;
-    }
-    at_tie
-};
 
 /// Sorts nearest first, and at equal depth the part listed later first. Squared distances are not negative, so their bits
 /// sort as they do.

@@ -198,7 +198,7 @@ impl Cpu {
         let segments = self.segments.as_ref().map_or(0, |segments| segments.as_slice().len());
         let groups = Mutex::new(poses.chunks(LANES * dof_count).zip(results.chunks_mut(LANES * per_pose)));
         let (model, code, sums) = (&self.model, self.code, &self.sums);
-        let completed = self.workers.run(&|worker| {
+        let completed = self.workers.run(poses.len().div_ceil(LANES * dof_count), &|worker| {
             let mut sums = sums[worker].lock().unwrap_or_else(PoisonError::into_inner);
             loop {
                 let Some((poses, results)) = groups.lock().unwrap_or_else(PoisonError::into_inner).next() else {

@@ -8,6 +8,21 @@
 #[repr(C, align(64))]
 pub(super) struct Lanes(pub(super) [u32; 16]);
 
+/// `BEFORE[other][lane]` is 1 where `other` comes before `lane` though their values are equal, else 0.
+pub(super) const BEFORE: [Lanes; 16] = {
+    let mut before = [Lanes([0; 16]); 16];
+    let mut other = 0;
+    while other < 16 {
+        let mut lane = 0;
+        while lane < other {
+            before[other].0[lane] = 1;
+            lane += 1;
+        }
+        other += 1;
+    }
+    before
+};
+
 /// What is compiled anew for every instruction set.
 pub(super) trait Task {
     /// Does it with the operations of `simd`; has to be inlined into a function that is compiled for these.
@@ -104,6 +119,17 @@ pub(super) trait Simd: Copy + Send + Sync + 'static {
     fn line(self, rows: Self::Rows, slope: f64, offset: f64) -> Self::Words;
     /// [`Self::line`] in single precision.
     fn short_line(self, rows: Self::ShortRows, slope: f32, offset: f32) -> Self::Words;
+    /// The place of each of sixteen values, none of them the largest there is, from the least up; equal ones come last first.
+    #[inline(always)]
+    fn places(self, values: &[i32; 16]) -> [u32; 16] {
+        let mut places = [0; 16];
+        for other in 0..16 {
+            for lane in 0..16 {
+                places[lane] += u32::from(values[other] < values[lane].wrapping_add(BEFORE[other].0[lane] as i32));
+            }
+        }
+        places
+    }
     /// The smallest of sixteen values.
     fn least(self, values: &[i32; 16]) -> i32;
     /// The largest of sixteen values.
@@ -112,6 +138,12 @@ pub(super) trait Simd: Copy + Send + Sync + 'static {
     /// The sum plus the number of bits set in `words`.
     fn count(self, sum: Self::Sum, words: Self::Words) -> Self::Sum;
     fn total(self, sum: Self::Sum) -> u32;
+    /// The totals of sums, and of seven that are the digits of a binary number, the lowest first.
+    #[inline(always)]
+    fn totals(self, sums: [Self::Sum; 3], digits: [Self::Sum; 7]) -> ([u32; 3], u32) {
+        let number = digits.into_iter().enumerate().fold(0, |number, (bit, sum)| number + (self.total(sum) << bit));
+        (sums.map(|sum| self.total(sum)), number)
+    }
 
     /// The spans of the eight rows from `first` on between the floors of the lines of `sides`; a bit for each row that has a pixel. Those
     /// of the others are anything.
@@ -147,3 +179,55 @@ macro_rules! with_token {
 }
 #[cfg(target_arch = "x86_64")]
 pub(super) use with_token;
+
+#[cfg(test)]
+mod tests {
+    use super::super::instruction_set::{Code, InstructionSet};
+    use super::*;
+
+    struct Places([i32; 16]);
+
+    impl Task for Places {
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) {
+            let Self(values) = self;
+            let before = |other: usize, lane: usize| (values[other], lane) < (values[lane], other);
+            let expected: Vec<u32> =
+                (0..16).map(|lane| (0..16).filter(|&other| before(other, lane)).count() as u32).collect();
+            assert_eq!(simd.places(&values).to_vec(), expected, "{values:?}");
+        }
+    }
+
+    struct Totals([Lanes; 10]);
+
+    impl Task for Totals {
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) {
+            let bits = |at: usize| self.0[at].0.iter().map(|word| word.count_ones()).sum::<u32>();
+            let sum = |at: usize| simd.count(simd.no_bits(), simd.load(&self.0[at]));
+            let (sums, number) =
+                simd.totals([sum(0), sum(1), sum(2)], [sum(3), sum(4), sum(5), sum(6), sum(7), sum(8), sum(9)]);
+            assert_eq!(sums, [bits(0), bits(1), bits(2)]);
+            assert_eq!(number, (0..7).map(|bit| bits(3 + bit) << bit).sum::<u32>());
+        }
+    }
+
+    /// On every instruction set that is here; of values many are equal.
+    #[test]
+    fn places_and_totals_are_those_of_their_definitions() {
+        let mut state = 5_u32;
+        let mut random = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            state >> 8
+        };
+        let codes: Vec<Code> = InstructionSet::ALL.into_iter().filter_map(Code::of).collect();
+        for range in [1, 2, 5, 40, 1 << 24] {
+            let values = std::array::from_fn(|_| (random() % range) as i32);
+            codes.iter().for_each(|code| code.run(Places(values)));
+            let words = std::array::from_fn(|_| Lanes(std::array::from_fn(|_| random().wrapping_mul(range))));
+            codes.iter().for_each(|code| code.run(Totals(words)));
+        }
+        codes.iter().for_each(|code| code.run(Places([i32::MAX - 1; 16])));
+        codes.iter().for_each(|code| code.run(Places(std::array::from_fn(|lane| -(lane as i32)))));
+    }
+}

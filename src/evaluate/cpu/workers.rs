@@ -12,7 +12,7 @@ use super::processors::claimed;
 /// A task as the workers see it: called with the worker's number.
 type Task = dyn Fn(usize) + Sync;
 
-/// A team of `count` workers; the calling thread is worker 0, the others have threads of their own.
+/// A team of `count` workers; the calling thread is worker 0, the others have threads of their own and help where they come in time.
 #[derive(Debug)]
 pub(super) struct Workers {
     shared: Arc<Shared>,
@@ -26,13 +26,14 @@ struct Shared {
     /// Counts the batches; a waiting worker spins on it for a moment before it sleeps, because the next batch usually
     /// follows within microseconds.
     epoch: AtomicUsize,
-    /// Helpers still at work on the current batch.
+    /// Helpers at work on the current batch. They are counted in under the lock.
     busy: AtomicUsize,
     failed: AtomicBool,
 }
 
 #[derive(Debug)]
 struct State {
+    /// What there is to help with; nothing once the caller has found no work left in it.
     task: Option<TaskPointer>,
     stop: bool,
 }
@@ -83,32 +84,35 @@ impl Workers {
         Ok(Self { shared, threads })
     }
 
-    /// Calls `task` once on every worker, each with its number, and returns when all have returned. False when one
-    /// panicked.
-    pub(super) fn run(&mut self, task: &(dyn Fn(usize) + Sync)) -> bool {
+    /// Calls `task` on the calling thread, with number 0, and once on each helper that comes to it before that call has returned; returns
+    /// when all have. So `task` shares out its work as it goes, and whoever is held up by other work of the machine is not waited for.
+    /// `shares` is how many could be at work at once: with one nobody else is woken. False when one panicked.
+    pub(super) fn run(&mut self, shares: usize, task: &(dyn Fn(usize) + Sync)) -> bool {
         let shared = &self.shared;
-        shared.busy.store(self.threads.len(), Ordering::Relaxed);
+        let calls_helpers = shares > 1 && !self.threads.is_empty();
         shared.failed.store(false, Ordering::Relaxed);
-        let pointer: *const (dyn Fn(usize) + Sync) = task;
-        // SAFETY: only the lifetime changes. Helpers use the task before they count down `busy`, and this function does
-        // not return before `busy` is zero, whatever happens in `task`.
-        let pointer = unsafe { std::mem::transmute::<*const (dyn Fn(usize) + Sync), *const Task>(pointer) };
-        {
+        if calls_helpers {
+            let pointer: *const (dyn Fn(usize) + Sync) = task;
+            // SAFETY: only the lifetime changes. Helpers take the task under the lock and are counted in there, the task is taken back
+            // under the lock, and this function does not return before all that were counted are done, whatever happens in `task`.
+            let pointer = unsafe { std::mem::transmute::<*const (dyn Fn(usize) + Sync), *const Task>(pointer) };
             // Under the lock, so that no helper falls asleep between its last look at the epoch and the wake-up.
             let mut state = shared.lock();
             state.task = Some(TaskPointer(pointer));
             shared.epoch.fetch_add(1, Ordering::Release);
-        }
-        if !self.threads.is_empty() {
+            drop(state);
             shared.wake.notify_all();
         }
         if catch_unwind(AssertUnwindSafe(|| task(0))).is_err() {
             shared.failed.store(true, Ordering::Relaxed);
         }
-        let mut looks = 0;
-        while shared.busy.load(Ordering::Acquire) != 0 {
-            looks += 1;
-            if looks < SPINS { std::hint::spin_loop() } else { std::thread::yield_now() }
+        if calls_helpers {
+            shared.lock().task = None;
+            let mut looks = 0;
+            while shared.busy.load(Ordering::Acquire) != 0 {
+                looks += 1;
+                if looks < SPINS { std::hint::spin_loop() } else { std::thread::yield_now() }
+            }
         }
         !shared.failed.load(Ordering::Relaxed)
     }
@@ -135,15 +139,14 @@ impl Shared {
             if state.stop {
                 return;
             }
-            let task = state.task;
-            drop(state);
             seen = self.epoch.load(Ordering::Acquire);
-            if let Some(TaskPointer(task)) = task {
-                // SAFETY: `run` waits for this worker to count down `busy` before the task can go away.
-                let task = unsafe { &*task };
-                if catch_unwind(AssertUnwindSafe(|| task(worker))).is_err() {
-                    self.failed.store(true, Ordering::Relaxed);
-                }
+            let Some(TaskPointer(task)) = state.task else { continue };
+            self.busy.fetch_add(1, Ordering::Relaxed);
+            drop(state);
+            // SAFETY: `run` waits for this worker to count down `busy` before the task can go away.
+            let task = unsafe { &*task };
+            if catch_unwind(AssertUnwindSafe(|| task(worker))).is_err() {
+                self.failed.store(true, Ordering::Relaxed);
             }
             self.busy.fetch_sub(1, Ordering::Release);
         }
@@ -165,22 +168,54 @@ impl Drop for Workers {
 mod tests {
     use super::*;
 
+    /// Every share of a batch is done once, by the caller and by whoever comes in time, at most once each; that helpers do come shows
+    /// where the caller waits for them.
     #[test]
-    fn every_worker_is_called_once_a_batch() {
+    fn the_shares_of_a_batch_are_done_once_each() {
+        let mut workers = Workers::new(3).unwrap();
+        for batch in 0..1000 {
+            let calls = [const { AtomicUsize::new(0) }; 3];
+            let (next, done) = (AtomicUsize::new(0), [const { AtomicUsize::new(0) }; 20]);
+            assert!(workers.run(done.len(), &|worker| {
+                calls[worker].fetch_add(1, Ordering::Relaxed);
+                while batch % 100 == 0 && worker == 0 && calls.iter().any(|calls| calls.load(Ordering::Relaxed) == 0) {
+                    std::thread::yield_now();
+                }
+                while let Some(share) = done.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    share.fetch_add(1, Ordering::Relaxed);
+                }
+            }));
+            let [caller, helpers @ ..] = calls.map(AtomicUsize::into_inner);
+            assert!(caller == 1 && helpers.iter().all(|calls| *calls <= 1), "{caller} and {helpers:?}");
+            assert!(batch % 100 != 0 || helpers == [1; 2]);
+            assert_eq!(done.map(AtomicUsize::into_inner), [1; 20]);
+        }
+    }
+
+    #[test]
+    fn what_is_in_one_piece_wakes_nobody() {
         let mut workers = Workers::new(3).unwrap();
         let calls = [const { AtomicUsize::new(0) }; 3];
         for _ in 0..1000 {
-            assert!(workers.run(&|worker| {
+            assert!(workers.run(1, &|worker| {
                 calls[worker].fetch_add(1, Ordering::Relaxed);
             }));
         }
-        assert_eq!(calls.map(AtomicUsize::into_inner), [1000; 3]);
+        assert_eq!(calls.map(AtomicUsize::into_inner), [1000, 0, 0]);
     }
 
     #[test]
     fn a_panic_is_reported_and_the_team_goes_on() {
         let mut workers = Workers::new(2).unwrap();
-        assert!(!workers.run(&|worker| assert!(worker == 0, "planned")));
-        assert!(workers.run(&|_| ()));
+        let came = AtomicBool::new(false);
+        assert!(!workers.run(2, &|worker| {
+            came.fetch_or(worker == 1, Ordering::Relaxed);
+            while !came.load(Ordering::Relaxed) {
+                std::thread::yield_now();
+            }
+            assert!(worker == 0, "planned");
+        }));
+        assert!(!workers.run(1, &|_| panic!("planned")));
+        assert!(workers.run(2, &|_| ()));
     }
 }

@@ -303,7 +303,7 @@ mod tests {
     use crate::sequence::{Source, Turn, Video};
 
     fn footage(fps: Option<f64>) -> Footage {
-        let source = Source::Video(Video { path: "v.mp4".into(), turn: Turn::None });
+        let source = Source::Video(Video { path: "v.mp4".into(), stored: [64, 48], turn: Turn::None });
         let (shown, size) = ("v.mp4".into(), [8, 8]);
         Footage { shown, source, size, frame_count: 9, marked: Turn::None, fps, times: None, made: None, picks: None }
     }

@@ -280,19 +280,32 @@ fn count_segments(window: &Window<'_, u8>, numbers: &ByteNumbers) -> [[u32; 2]; 
 /// The same, the counts of a row without branches, for the compiler to take many pixels at a time.
 #[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
 fn count_segments_simd(window: &Window<'_, u8>, numbers: &ByteNumbers, segments: usize) -> [[u32; 2]; Segments::MOST] {
+    let number = |drawn: u32| numbers[drawn as usize & 0xff];
+    sum_segments(window, segments, number, |seen, number| u32::from(seen == number))
+}
+
+/// Pixels of each segment and the sum of their values, row by row: `number` tells the segment of what is drawn, in the lowest byte of its
+/// word, and `value` what a pixel with this behind it is worth to a segment.
+#[inline(always)]
+fn sum_segments(
+    window: &Window<'_, u8>,
+    segments: usize,
+    number: impl Fn(u32) -> u8,
+    value: impl Fn(u8, u8) -> u32,
+) -> [[u32; 2]; Segments::MOST] {
     let mut sums = [[0; 2]; Segments::MOST];
     let mut shown = vec![0_u8; window.width];
     for y in 0..window.height {
         let texels = &window.texels[y * window.pitch..][..window.width];
         let seen = &window.seen[y * window.seen_pitch..][..window.width];
         for (shown, texel) in shown.iter_mut().zip(texels) {
-            *shown = numbers[(texel >> window.shift) as usize & 0xff];
+            *shown = number(texel >> window.shift);
         }
         for (number, sums) in (1..).zip(&mut sums[..segments]) {
             for (&shown, &seen) in shown.iter().zip(seen) {
                 let own = u32::from(shown == number);
                 sums[0] += own;
-                sums[1] += own & u32::from(seen == number);
+                sums[1] += own.wrapping_neg() & value(seen, number);
             }
         }
     }
@@ -323,24 +336,8 @@ fn count_segment_edges_simd(
     (numbers, segments): (&ByteNumbers, usize),
     edge_bit: u32,
 ) -> [[u32; 2]; Segments::MOST] {
-    let mut sums = [[0; 2]; Segments::MOST];
-    let mut shown = vec![0_u8; window.width];
-    for y in 0..window.height {
-        let texels = &window.texels[y * window.pitch..][..window.width];
-        let seen = &window.seen[y * window.seen_pitch..][..window.width];
-        for (shown, texel) in shown.iter_mut().zip(texels) {
-            let drawn = texel >> window.shift;
-            *shown = numbers[drawn as usize & 0xff] * (drawn >> edge_bit & 1) as u8;
-        }
-        for (number, sums) in (1..).zip(&mut sums[..segments]) {
-            for (&shown, &seen) in shown.iter().zip(seen) {
-                let own = u32::from(shown == number);
-                sums[0] += own;
-                sums[1] += own * u32::from(seen & Observation::PROXIMITY);
-            }
-        }
-    }
-    sums
+    let number = |drawn: u32| numbers[drawn as usize & 0xff] * (drawn >> edge_bit & 1) as u8;
+    sum_segments(window, segments, number, |seen, _| u32::from(seen & Observation::PROXIMITY))
 }
 
 /// The evidence of what is drawn, a pixel after the other.
