@@ -5,7 +5,7 @@ use anyhow::Result;
 use glam::DAffine3;
 use rayon::prelude::*;
 
-use super::sight::{Place, pixel, said};
+use super::sight::{along, said};
 use crate::body::Body;
 use crate::evaluate::Reference;
 use crate::features::SeenView;
@@ -68,8 +68,13 @@ impl Glances {
     }
 
     /// The degrees of freedom of each limb, root to end.
-    pub(super) fn limbs(&self) -> impl Iterator<Item = &[usize]> {
+    pub(super) fn limbs(&self) -> impl ExactSizeIterator<Item = &[usize]> {
         self.limbs.iter().map(|limb| &*limb.dofs)
+    }
+
+    /// Those of one.
+    pub(super) fn limb(&self, limb: usize) -> &[usize] {
+        &self.limbs[limb].dofs
     }
 
     /// Looks at a frame for a limb of a pose.
@@ -114,30 +119,29 @@ impl Glance<'_> {
         }
         let (mut sum, mut count) = (0.0, 0);
         for part in self.limb.parts.iter().map(|&part| &body.parts[part]) {
-            let [a, b] = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
-            for nth in 0..PLACES {
-                let at = a.lerp(b, (nth as f64 + 0.5) / PLACES as f64);
-                for (view, (camera, seen)) in cameras.iter().zip(self.views).enumerate() {
-                    let Some(pixel) = pixel(camera, *seen, at) else { continue };
-                    count += 1;
-                    let width = camera.size[0] as usize;
-                    let [x, y] = [pixel % width, pixel / width].map(|at| at / COARSE as usize);
-                    if self.covered[view][y * width.div_ceil(COARSE as usize) + x] == 0 {
-                        sum += said(self.views, &Place { view, pixel, label: part.label });
-                    }
+            let axis = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
+            for place in along(cameras, self.views, axis, part.label, PLACES) {
+                count += 1;
+                let width = cameras[place.view].size[0] as usize;
+                let [x, y] = [place.pixel % width, place.pixel / width].map(|at| at / COARSE as usize);
+                if self.covered[place.view][y * width.div_ceil(COARSE as usize) + x] == 0 {
+                    sum += said(self.views, &place);
                 }
             }
         }
         if count > 0 { sum / count as f32 } else { 0.0 }
     }
 
+    /// What is said of the limb in `count` poses on a lattice over its limits, with the poses.
+    fn looked_at(&self, count: usize) -> Vec<(f32, Vec<f32>)> {
+        let rows = lattice(&self.glances.space, &self.limb.dofs, &self.pose, 0, count).into_par_iter();
+        rows.with_min_len(64).map_init(Vec::new, |bones, row| (self.support(&row, bones), row)).collect()
+    }
+
     /// The `most` poses of the limb of which most is said, and what, in falling order, of `count` on a lattice over its limits; of equals the
     /// first.
     pub(super) fn best(&self, count: usize, most: usize) -> Vec<(f32, Vec<f32>)> {
-        let rows = lattice(&self.glances.space, &self.limb.dofs, &self.pose, 0, count);
-        let supports: Vec<f32> =
-            rows.par_iter().with_min_len(64).map_init(Vec::new, |bones, row| self.support(row, bones)).collect();
-        let mut ranked: Vec<(f32, Vec<f32>)> = supports.into_iter().zip(rows).collect();
+        let mut ranked = self.looked_at(count);
         ranked.sort_by(|(a, _), (b, _)| b.total_cmp(a));
         ranked.truncate(most);
         ranked
@@ -145,7 +149,7 @@ impl Glance<'_> {
 
     /// By how much more is said of the limb in the best of `count` poses elsewhere than where it is, 0 to 2.
     pub(super) fn elsewhere(&self, count: usize) -> f32 {
-        let best = self.best(count, 1).first().map_or(-1.0, |(support, _)| *support);
+        let best = self.looked_at(count).iter().fold(-1.0, |best, (support, _)| support.max(best));
         (best - self.support(&self.pose, &mut Vec::new())).max(0.0)
     }
 }
@@ -155,10 +159,11 @@ impl Glance<'_> {
 pub(super) fn lattice(space: &SearchSpace, moved: &[usize], pose: &[f32], first: usize, count: usize) -> Vec<Vec<f32>> {
     let (lower, upper) = (space.lower(), space.upper());
     let root = plastic(moved.len());
+    let steps: Vec<f64> = (1..).take(moved.len()).map(|power: i32| root.powi(-power)).collect();
     let row = |at: usize| {
         let mut row = pose.to_vec();
-        for (dimension, &d) in moved.iter().enumerate() {
-            let share = (0.5 + (first + at + 1) as f64 * root.powi(-(dimension as i32 + 1))).fract();
+        for (&d, step) in moved.iter().zip(&steps) {
+            let share = (0.5 + (first + at + 1) as f64 * step).fract();
             row[d] = lower[d] + share as f32 * (upper[d] - lower[d]);
         }
         row

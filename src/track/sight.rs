@@ -26,6 +26,23 @@ pub(super) fn pixel(camera: &Camera, view: SeenView<'_>, point: DVec3) -> Option
     (!view.ignores(at)).then_some(at)
 }
 
+/// Where the views show a part, of which `axis` is the axis in space: so many places along it, each in all views that show it.
+pub(super) fn along<'a>(
+    cameras: &'a [Camera],
+    views: &'a [SeenView<'a>],
+    axis: [DVec3; 2],
+    label: u8,
+    places: usize,
+) -> impl Iterator<Item = Place> + 'a {
+    (0..places).flat_map(move |nth| {
+        let at = axis[0].lerp(axis[1], (nth as f64 + 0.5) / places as f64);
+        let of_views = cameras.iter().zip(views).enumerate();
+        of_views.filter_map(move |(view, (camera, seen))| {
+            pixel(camera, *seen, at).map(|pixel| Place { view, pixel, label })
+        })
+    })
+}
+
 /// What each place says of its part being there, from -1 (surely background) to 1 (surely this part). Evidence that the evaluator's device
 /// made is asked of it, all at once.
 ///

@@ -4,11 +4,11 @@ use anyhow::Result;
 use glam::DVec3;
 
 use super::levers::Levers;
-use crate::body::Body;
+use crate::body::{Body, Part};
 use crate::evaluate::{Evaluator, Objective};
 use crate::features::SeenView;
 use crate::geometry::Camera;
-use crate::track::sight::{Place, pixel, said_of};
+use crate::track::sight::{Place, along, pixel, said_of};
 
 /// What a frame by itself says of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -141,7 +141,7 @@ impl JointProbe {
         bones: &[glam::DAffine3],
     ) -> Result<Vec<f32>> {
         let mut sums = vec![[0.0, 0.0]; self.body.bones.len()];
-        let (of_bones, places): (Vec<usize>, Vec<Place>) = self.places(views, bones).into_iter().unzip();
+        let (of_bones, places): (Vec<usize>, Vec<Place>) = self.places(views, bones).unzip();
         for (bone, said) in of_bones.into_iter().zip(said_of(evaluator, objective, views, &places)?) {
             let sum = &mut sums[bone];
             *sum = [sum[0] + said, sum[1] + 1.0];
@@ -152,19 +152,16 @@ impl JointProbe {
     }
 
     /// Where the views show the axes of the body's parts, and the bones of these.
-    fn places(&self, views: &[SeenView<'_>], bones: &[glam::DAffine3]) -> Vec<(usize, Place)> {
-        let mut places = Vec::new();
-        for part in &self.body.parts {
-            let [a, b] = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
-            for nth in 0..PLACES {
-                let at = a.lerp(b, (nth as f64 + 0.5) / PLACES as f64);
-                for (view, (camera, seen)) in self.cameras.iter().zip(views).enumerate() {
-                    let pixel = pixel(camera, *seen, at);
-                    places.extend(pixel.map(|pixel| (part.bone, Place { view, pixel, label: part.label })));
-                }
-            }
-        }
-        places
+    fn places<'a>(
+        &'a self,
+        views: &'a [SeenView<'a>],
+        bones: &'a [glam::DAffine3],
+    ) -> impl Iterator<Item = (usize, Place)> + 'a {
+        let of_part = |part: &'a Part| {
+            let axis = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
+            along(&self.cameras, views, axis, part.label, PLACES).map(|place| (part.bone, place))
+        };
+        self.body.parts.iter().flat_map(of_part)
     }
 
     fn seen(&self, views: &[SeenView<'_>], joint: DVec3) -> f32 {

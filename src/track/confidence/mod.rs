@@ -54,8 +54,9 @@ impl Default for LossRule {
 /// How far a joint is expected to be off, and with which probability the pose is wrong, is calibrated (METHOD A13): by how far the joint
 /// could lie elsewhere before the fitness told, what the pictures say of its limbs, the fitness, and the agreement.
 ///
-/// Loss goes by that probability, and by the agreement: a view's `sqrt(f1 f2)` over its average in the sure frames so far (exponentially, 25 frames),
-/// at most 1, and of that the mean over the views that have such a reference, less the worst where three or more do.
+/// Loss goes by that probability, and by the agreement: a view's `sqrt(f1 f2)` over its average in the sure frames so far
+/// (exponentially, 25 frames), at most 1, and of that the mean over the views that have such a reference, less the worst where three
+/// or more do.
 #[derive(Clone, Debug)]
 pub struct Confidence {
     body: Body,

@@ -13,19 +13,18 @@ use crate::track::glance::{Glances, lattice};
 
 /// Poses of a limb tried all over its limits, and generations that go on from the best of them.
 const SCATTERED: usize = 96;
+const GENERATIONS: usize = 4;
+/// Width of that search, as a share of the limits.
+const WIDTH: f32 = 0.12;
 /// Poses of a limb that are looked at, and how many of them are tried, those that the pictures say most for.
 const LOOKED_AT: usize = 2048;
 const SIGHTED: usize = 48;
 /// By how much more must be said of a limb elsewhere than of where it is thought, for it to be looked for.
 const SUSPICIOUS: f32 = 0.2;
-const GENERATIONS: usize = 4;
-/// Width of that search, as a share of the limits.
-const WIDTH: f32 = 0.12;
 
-/// The limbs of a body: the degrees of freedom of each, root to end.
+/// The limbs of a body.
 #[derive(Clone, Debug)]
 pub(super) struct Limbs {
-    limbs: Vec<Vec<usize>>,
     glances: Glances,
     /// Pairs of limbs with the same joints on either side.
     pub(super) twins: Vec<[usize; 2]>,
@@ -34,36 +33,35 @@ pub(super) struct Limbs {
 impl Limbs {
     pub(super) fn new(body: &Body, cameras: &[Camera], space: &SearchSpace) -> Self {
         let glances = Glances::new(body, cameras, space);
-        let limbs: Vec<Vec<usize>> = glances.limbs().map(<[usize]>::to_vec).collect();
         let names = body.dof_names();
         let side = |limb: &[usize], side: &str| -> Option<Vec<String>> {
             limb.iter().map(|&d| names[d].strip_prefix(side).map(str::to_string)).collect()
         };
         let mut twins = Vec::new();
-        for (one, limb) in limbs.iter().enumerate() {
+        for (one, limb) in glances.limbs().enumerate() {
             let Some(left) = side(limb, "left_") else { continue };
-            if let Some(other) = limbs.iter().position(|limb| side(limb, "right_").as_ref() == Some(&left)) {
+            if let Some(other) = glances.limbs().position(|limb| side(limb, "right_").as_ref() == Some(&left)) {
                 twins.push([one, other]);
             }
         }
-        Self { limbs, glances, twins }
+        Self { glances, twins }
     }
 
     pub(super) fn count(&self) -> usize {
-        self.limbs.len()
+        self.glances.limbs().len()
     }
 
     /// `pose` with a limb of `other`.
     pub(super) fn with(&self, limb: usize, pose: &[f32], other: &[f32]) -> Vec<f32> {
         let mut mixed = pose.to_vec();
-        self.limbs[limb].iter().for_each(|&d| mixed[d] = other[d]);
+        self.glances.limb(limb).iter().for_each(|&d| mixed[d] = other[d]);
         mixed
     }
 
     /// `pose` with the limbs of the sides exchanged: each is held as the other was, as far as the limits let it.
     pub(super) fn exchanged(&self, [one, other]: [usize; 2], pose: &[f32], space: &SearchSpace) -> Vec<f32> {
         let mut exchanged = pose.to_vec();
-        for (&a, &b) in self.limbs[one].iter().zip(&self.limbs[other]) {
+        for (&a, &b) in self.glances.limb(one).iter().zip(self.glances.limb(other)) {
             (exchanged[a], exchanged[b]) = (pose[b], pose[a]);
         }
         space.clamp(&mut exchanged);
@@ -98,7 +96,7 @@ impl Limbs {
         pose: &[f32],
         turn: u64,
     ) -> Result<Candidate> {
-        self.with_end_anywhere(scorer, frame, [limb, self.limbs[limb].len()], &[], pose, turn)
+        self.with_end_anywhere(scorer, frame, [limb, self.glances.limb(limb).len()], &[], pose, turn)
     }
 
     /// As [`Self::anywhere`], beginning also where the pictures say most of it, and with its end alone looked for, beginning with the last
@@ -114,7 +112,7 @@ impl Limbs {
         pose: &[f32],
         turn: u64,
     ) -> Result<Candidate> {
-        let whole = &self.limbs[limb];
+        let whole = self.glances.limb(limb);
         let views = SeenView::all(&seen.observations);
         let glance = self.glances.at(limb, pose, &views)?;
         let sighted = glance.best(scorer.generations(LOOKED_AT), scorer.generations(SIGHTED));
@@ -140,7 +138,7 @@ impl Limbs {
         pose: &[f32],
         turn: u64,
     ) -> Result<Candidate> {
-        let whole = &self.limbs[limb];
+        let whole = self.glances.limb(limb);
         let moved = &whole[whole.len() - ends..];
         let count = scorer.generations(SCATTERED);
         // Shifted from frame to frame.
