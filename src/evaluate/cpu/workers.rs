@@ -26,7 +26,7 @@ struct Shared {
     /// Counts the batches; a waiting worker spins on it for a moment before it sleeps, because the next batch usually
     /// follows within microseconds.
     epoch: AtomicUsize,
-    /// Helpers at work on the current batch. They are counted in under the lock.
+    /// Helpers that are starting or at work on the current batch. For a batch they are counted in under the lock.
     busy: AtomicUsize,
     failed: AtomicBool,
 }
@@ -55,7 +55,7 @@ unsafe impl Send for TaskPointer {}
 const SPINS: u32 = 2_000;
 
 impl Workers {
-    /// A team of `count` (at least 1); each helper thread is bound to a processor of its own, while there are such.
+    /// A team of `count` (at least 1), all of it started; each helper thread is bound to a processor of its own, while there are such.
     pub(super) fn new(count: usize) -> Result<Self> {
         let shared = Arc::new(Shared {
             state: Mutex::new(State { task: None, stop: false }),
@@ -68,19 +68,22 @@ impl Workers {
         let mut processors = claimed(count - 1).into_iter();
         let mut threads = Vec::new();
         for worker in 1..count {
-            let shared = Arc::clone(&shared);
-            let processor = processors.next();
+            shared.busy.fetch_add(1, Ordering::Relaxed);
+            let (shared, processor) = (Arc::clone(&shared), processors.next());
             let thread = std::thread::Builder::new()
                 .name(format!("pantin-cpu-{worker}"))
                 .spawn(move || {
                     if let Some(processor) = &processor {
                         processor.bind();
                     }
+                    shared.busy.fetch_sub(1, Ordering::Release);
                     shared.serve(worker);
                 })
                 .with_context(|| format!("cannot start worker thread {worker} of {count}"))?;
             threads.push(thread);
         }
+        // A thread allocates while it starts, and no batch is to: a helper that starts late could do so during any of them.
+        shared.wait_for_helpers();
         Ok(Self { shared, threads })
     }
 
@@ -108,11 +111,7 @@ impl Workers {
         }
         if calls_helpers {
             shared.lock().task = None;
-            let mut looks = 0;
-            while shared.busy.load(Ordering::Acquire) != 0 {
-                looks += 1;
-                if looks < SPINS { std::hint::spin_loop() } else { std::thread::yield_now() }
-            }
+            shared.wait_for_helpers();
         }
         !shared.failed.load(Ordering::Relaxed)
     }
@@ -122,6 +121,14 @@ impl Shared {
     fn lock(&self) -> MutexGuard<'_, State> {
         // The state is two plain values, whole at every moment; a panic elsewhere does not spoil it.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn wait_for_helpers(&self) {
+        let mut looks = 0;
+        while self.busy.load(Ordering::Acquire) != 0 {
+            looks += 1;
+            if looks < SPINS { std::hint::spin_loop() } else { std::thread::yield_now() }
+        }
     }
 
     fn serve(&self, worker: usize) {
