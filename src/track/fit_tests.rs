@@ -130,6 +130,35 @@ fn a_drawn_person_is_measured() {
     assert!(first.proportions.is_none());
 }
 
+/// Lower legs that no view shows, as white ones before a white floor, do not end where the thighs do: the person is as tall as was said.
+#[test]
+fn a_person_is_as_tall_as_was_said() {
+    let adult = Body::adult(1700.0).unwrap();
+    let mut shown = adult.clone();
+    shown.parts.retain(|part| !["calf", "foot"].iter().any(|hidden| part.name.ends_with(hidden)));
+    let mut pose = adult.standing_pose();
+    for (name, degrees) in [("left_shoulder.rx", 80.0_f64), ("right_shoulder.rx", -80.0)] {
+        pose[adult.dof_names().iter().position(|dof| dof == name).unwrap()] = degrees.to_radians();
+    }
+    let cameras = cameras_around();
+    let folder = tempfile::tempdir().unwrap();
+    write_sequence(folder.path(), &cameras, &seen(&shown, &cameras, &pose));
+    let start = folder.path().join("start.csv");
+    let table = PoseTable { frames: vec![0], poses: vec![pose] };
+    table.write(&start, crate::files::Overwrite::Refuse, &adult).unwrap();
+    let sequence = Sequence::open_unfitted(folder.path()).unwrap();
+    let (height, start) = (Some(1700.0), Some(start));
+    let settings = FitSettings { height, start, particles: 150, iterations: 20, ..FitSettings::default() };
+    let found = fit(&sequence, &settings).unwrap();
+    let stature = |body: &Body| {
+        let joints = body.joint_positions(&body.world_from_bones(&vec![0.0; body.dof_count()]).unwrap());
+        let z = |name: &str| joints[body.joint_names().iter().position(|joint| joint == name).unwrap()].z;
+        z("head_top") - z("right_ankle")
+    };
+    let share = stature(&found.body) / stature(&adult);
+    assert!((0.94..1.02).contains(&share), "{share} of the height: {:?}", found.proportions);
+}
+
 #[test]
 fn what_cannot_be_measured_is_said() {
     let cameras = cameras_around();

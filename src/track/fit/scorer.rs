@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use rayon::prelude::*;
 
 use crate::body::{Body, Proportions};
@@ -14,6 +14,9 @@ use crate::geometry::Camera;
 /// What a proportion one standard deviation off the tables costs in fitness: enough to settle what the silhouettes leave
 /// open (where a straight leg has its knee), too little to work against them.
 const PRIOR: f64 = 2e-4;
+/// Deviation of a stated height, or of a hull's, as a fraction of it: shoes, hair, voxels. It costs as a proportion's does, and keeps legs that
+/// are white before a white floor from ending where they were last seen.
+const STATURE: f64 = 0.01;
 
 /// How well the drawn and the seen silhouettes of a view cover each other, over all frames used.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -82,7 +85,7 @@ impl Scorer {
 
     /// Mean fitness over the frames of rows of proportions and poses, less what unusual proportions cost.
     pub(super) fn people(&self, body: &Body, dofs: usize, rows: &[f32], results: &mut [f32]) -> Result<()> {
-        let frames = self.frame_count();
+        let (frames, tall) = (self.frame_count(), stature(body)?);
         self.share(rows, Proportions::COUNT + frames * dofs, results, |cpus, rows, results| {
             for (row, result) in rows.chunks_exact(Proportions::COUNT + frames * dofs).zip(results) {
                 let (factors, poses) = row.split_at(Proportions::COUNT);
@@ -95,7 +98,8 @@ impl Scorer {
                     cpu.fitness(pose, &self.objective, &mut fitness)?;
                     sum += f64::from(fitness[0]);
                 }
-                *result = (sum / frames as f64 - cost(&proportions)) as f32;
+                let stature = (stature(&stretched)? / tall - 1.0) / STATURE;
+                *result = (sum / frames as f64 - cost(&proportions) - PRIOR * stature * stature) as f32;
             }
             Ok(())
         })
@@ -157,6 +161,17 @@ pub(super) fn proportions(factors: &[f32]) -> Proportions {
         *factor = f64::from(*value);
     }
     proportions
+}
+
+/// How high the crown is above the ankles of a person who stands upright, mm.
+fn stature(body: &Body) -> Result<f64> {
+    let names = body.joint_names();
+    let joints = body.joint_positions(&body.world_from_bones(&vec![0.0; body.dof_count()])?);
+    let level = |name: &str| -> Result<f64> {
+        let at = names.iter().position(|joint| joint == name);
+        Ok(joints[at.with_context(|| format!("the body has no {name}, expected the joints of the default body"))?].z)
+    };
+    Ok(level("head_top")? - level("left_ankle")?)
 }
 
 /// What proportions off the tables cost.
