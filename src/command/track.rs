@@ -79,7 +79,8 @@ pub(super) struct TrackOptions {
     /// How often the run goes over its frames. Without: both with the search maes, forward with the others and in real time.
     #[arg(long, value_name = "NAME")]
     passes: Option<Passes>,
-    /// Search wider for a person who is lost, and leave frames without a find as gaps in the results: yes or no.
+    /// Search wider for a person who is lost, and leave frames without a find as gaps in the results; in a run of one pass with the search
+    /// maes, look for limbs that show elsewhere too: yes or no.
     #[arg(long, value_name = "yes|no", default_value = "yes", value_parser = yes_or_no, action = ArgAction::Set)]
     recover: bool,
     /// Seed of all random numbers.

@@ -7,6 +7,7 @@ use image::{GrayImage, Luma, Rgb, RgbImage};
 
 use super::appearance::RunAppearance;
 use super::fit_tests::cameras_around;
+use super::glance::{Glances, Seer};
 use super::prepared::Prepared;
 use super::timings::Span;
 use crate::body::Body;
@@ -17,6 +18,7 @@ use crate::geometry::Camera;
 use crate::gpu::test_device::device;
 use crate::gpu::{Device, DeviceSettings};
 use crate::observe::{take_likelihoods, take_observations};
+use crate::search::SearchSpace;
 
 fn room(size: [u32; 2]) -> RgbImage {
     RgbImage::from_fn(size[0], size[1], |x, y| Rgb([90 + (x % 31) as u8, 120 + (y % 17) as u8, 100]))
@@ -100,6 +102,8 @@ fn frames_are_the_processor_s(device: &Device, mut evaluator: Box<dyn Evaluator>
     let [mut by_host, mut by_device] = [(); 2].map(|()| RunAppearance::new(&body, &cameras));
     let mut classes = Vec::new();
     let mut before: Option<Told> = None;
+    let glances = Glances::new(&body, &cameras, &SearchSpace::of(&body).unwrap());
+    let mut sights = Vec::new();
     for frame in 0..5 {
         let mut pose: Vec<f32> = body.standing_pose().iter().map(|value| *value as f32).collect();
         pose[0] += 40.0 * frame as f32;
@@ -140,6 +144,24 @@ fn frames_are_the_processor_s(device: &Device, mut evaluator: Box<dyn Evaluator>
         evaluator.observe_seen(there.seen()).unwrap();
         assert!(evaluator.best_evidence().is_none(), "what is not made yet is not known");
         assert_eq!(told(evaluator.as_mut(), &poses), expected, "frame {frame}");
+        let objective = Objective::of(ObjectiveKind::Evidence);
+        let (known, asked) = (own.seen().views(), there.seen().views());
+        let mut lifted = pose.clone();
+        for (name, value) in body.dof_names().iter().zip(&mut lifted) {
+            *value += if name.ends_with("shoulder.rx") { 0.3 * (frame + 1) as f32 } else { 0.0 };
+        }
+        for limb in 0..glances.limbs().len() {
+            let [expected, found] = [&known, &asked].map(|views| {
+                let glance = glances.at(limb, &lifted, views).unwrap();
+                let evaluator = evaluator.as_mut();
+                let elsewhere =
+                    glance.elsewhere(Seer { evaluator: &mut *evaluator, objective: &objective }, 40).unwrap();
+                let best = glance.best(Seer { evaluator, objective: &objective }, 40, 5).unwrap();
+                (best, elsewhere.to_bits())
+            });
+            assert_eq!(found, expected, "frame {frame}, limb {limb}");
+            sights.push(expected);
+        }
         for (view, camera) in cameras.iter().enumerate() {
             let pixels = camera.size[0] as usize * camera.size[1] as usize;
             let asked: Vec<[usize; 2]> = (0..pixels).map(|at| [view, at]).collect();
@@ -157,6 +179,7 @@ fn frames_are_the_processor_s(device: &Device, mut evaluator: Box<dyn Evaluator>
         assert_eq!(by_device.tables(), by_host.tables(), "frame {frame}");
     }
     assert!(classes[0] == 1 && classes[4] > 2, "{classes:?}");
+    assert!(sights.iter().any(|sight| sight.1 != sights[0].1), "limbs are seen elsewhere by as much in every frame");
 }
 
 #[test]

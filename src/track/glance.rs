@@ -5,9 +5,9 @@ use anyhow::Result;
 use glam::DAffine3;
 use rayon::prelude::*;
 
-use super::sight::{along, said};
+use super::sight::{Place, along, is_known, said, said_of};
 use crate::body::Body;
-use crate::evaluate::Reference;
+use crate::evaluate::{Evaluator, Objective, Reference};
 use crate::features::SeenView;
 use crate::geometry::Camera;
 use crate::search::SearchSpace;
@@ -90,7 +90,7 @@ impl Glances {
     }
 }
 
-/// What a frame says of a limb in views that the host knows, with the rest of the body where it is.
+/// What a frame says of a limb, with the rest of the body where it is.
 pub(super) struct Glance<'a> {
     glances: &'a Glances,
     limb: &'a Limb,
@@ -102,10 +102,16 @@ pub(super) struct Glance<'a> {
     covered: Vec<Vec<u8>>,
 }
 
+/// Who scored the frame last, and by what: asked where the host does not know what was seen.
+pub(super) struct Seer<'a> {
+    pub(super) evaluator: &'a mut dyn Evaluator,
+    pub(super) objective: &'a Objective,
+}
+
 impl Glance<'_> {
-    /// What is said of the limb as `row` has it: the mean over places along its axes and views, from -1 to 1, and nothing where the rest of
-    /// the body is anyway. `bones` is memory that is used again.
-    fn support(&self, row: &[f32], bones: &mut Vec<DAffine3>) -> f32 {
+    /// Shows `look` all places along the axes of the limb as `row` has it, in all views; none of one that the rest of the body covers. `bones`
+    /// is memory that is used again.
+    fn places(&self, row: &[f32], bones: &mut Vec<DAffine3>, mut look: impl FnMut(Option<Place>)) {
         let Glances { body, cameras, .. } = self.glances;
         bones.clone_from(&self.bones);
         for &(bone, first) in &self.limb.bones {
@@ -117,40 +123,77 @@ impl Glance<'_> {
             let moved = posed.parent_from_bone(&values);
             bones[bone] = posed.parent.map_or(moved, |parent| bones[parent] * moved);
         }
-        let (mut sum, mut count) = (0.0, 0);
         for part in self.limb.parts.iter().map(|&part| &body.parts[part]) {
             let axis = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
             for place in along(cameras, self.views, axis, part.label, PLACES) {
-                count += 1;
                 let width = cameras[place.view].size[0] as usize;
                 let [x, y] = [place.pixel % width, place.pixel / width].map(|at| at / COARSE as usize);
-                if self.covered[place.view][y * width.div_ceil(COARSE as usize) + x] == 0 {
-                    sum += said(self.views, &place);
-                }
+                let is_covered = self.covered[place.view][y * width.div_ceil(COARSE as usize) + x] != 0;
+                look((!is_covered).then_some(place));
             }
         }
-        if count > 0 { sum / count as f32 } else { 0.0 }
     }
 
-    /// What is said of the limb in `count` poses on a lattice over its limits, with the poses.
-    fn looked_at(&self, count: usize) -> Vec<(f32, Vec<f32>)> {
-        let rows = lattice(&self.glances.space, &self.limb.dofs, &self.pose, 0, count).into_par_iter();
-        rows.with_min_len(64).map_init(Vec::new, |bones, row| (self.support(&row, bones), row)).collect()
+    /// What is said of the limb as each row has it: the mean over places along its axes and views, from -1 to 1, and nothing where the rest of
+    /// the body is anyway.
+    fn support(&self, seer: Seer<'_>, rows: &[Vec<f32>]) -> Result<Vec<f32>> {
+        let mean = |sum: f32, count: usize| if count > 0 { sum / count as f32 } else { 0.0 };
+        let Seer { evaluator, objective } = seer;
+        if is_known(objective, self.views) {
+            let support = |bones: &mut Vec<DAffine3>, row: &Vec<f32>| {
+                let (mut sum, mut count) = (0.0, 0);
+                self.places(row, bones, |place| {
+                    count += 1;
+                    sum += place.map_or(0.0, |place| said(self.views, &place));
+                });
+                mean(sum, count)
+            };
+            return Ok(rows.par_iter().with_min_len(64).map_init(Vec::new, support).collect());
+        }
+        // A device knows, and is asked of all of them at once.
+        let places = |bones: &mut Vec<DAffine3>, row: &Vec<f32>| {
+            let mut places = Vec::new();
+            self.places(row, bones, |place| places.push(place));
+            places
+        };
+        let of_rows: Vec<Vec<Option<Place>>> = rows.par_iter().with_min_len(64).map_init(Vec::new, places).collect();
+        let asked: Vec<Place> = of_rows.iter().flatten().flatten().copied().collect();
+        let mut said = said_of(evaluator, objective, self.views, &asked)?.into_iter();
+        let support = |places: &Vec<Option<Place>>| {
+            let said = places.iter().map(|place| place.and_then(|_| said.next()).unwrap_or(0.0));
+            mean(said.fold(0.0, |sum, said| sum + said), places.len())
+        };
+        Ok(of_rows.iter().map(support).collect())
     }
 
-    /// The `most` poses of the limb of which most is said, and what, in falling order, of `count` on a lattice over its limits; of equals the
-    /// first.
-    pub(super) fn best(&self, count: usize, most: usize) -> Vec<(f32, Vec<f32>)> {
-        let mut ranked = self.looked_at(count);
+    /// `count` poses of the limb on a lattice over its limits.
+    fn lattice(&self, count: usize) -> Vec<Vec<f32>> {
+        lattice(&self.glances.space, &self.limb.dofs, &self.pose, 0, count)
+    }
+
+    /// The `most` poses of the limb of which most is said, in falling order, of `count` on a lattice over its limits; of equals the first.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(super) fn best(&self, seer: Seer<'_>, count: usize, most: usize) -> Result<Vec<Vec<f32>>> {
+        let rows = self.lattice(count);
+        let support = self.support(seer, &rows)?;
+        let mut ranked: Vec<(f32, Vec<f32>)> = support.into_iter().zip(rows).collect();
         ranked.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        ranked.truncate(most);
-        ranked
+        Ok(ranked.into_iter().take(most).map(|(_, row)| row).collect())
     }
 
     /// By how much more is said of the limb in the best of `count` poses elsewhere than where it is, 0 to 2.
-    pub(super) fn elsewhere(&self, count: usize) -> f32 {
-        let best = self.looked_at(count).iter().fold(-1.0, |best, (support, _)| support.max(best));
-        (best - self.support(&self.pose, &mut Vec::new())).max(0.0)
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(super) fn elsewhere(&self, seer: Seer<'_>, count: usize) -> Result<f32> {
+        let mut rows = self.lattice(count);
+        rows.push(self.pose.clone());
+        let mut support = self.support(seer, &rows)?;
+        let here = support.pop().unwrap_or(0.0);
+        let best = support.into_iter().fold(-1.0, f32::max);
+        Ok((best - here).max(0.0))
     }
 }
 

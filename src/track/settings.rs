@@ -121,6 +121,11 @@ impl TrackSettings {
         self.recover && self.realtime.is_none()
     }
 
+    /// Whether a frame's limbs are looked for by themselves: where no second pass does.
+    pub(super) fn may_look_for_limbs(&self) -> bool {
+        self.recover && self.search.kind == SearchKind::MaEs && self.passes() == Passes::Forward
+    }
+
     /// How the journal of a run from frame `first` on counts: real time leaves frames out.
     pub(super) fn numbering(&self, first: usize) -> Numbering {
         if self.realtime.is_some() { Numbering::Rising } else { Numbering::EachFrom(first) }

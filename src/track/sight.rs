@@ -43,6 +43,11 @@ pub(super) fn along<'a>(
     })
 }
 
+/// Whether the host knows what was seen; else the evaluator's device does.
+pub(super) fn is_known(objective: &Objective, views: &[SeenView<'_>]) -> bool {
+    !objective.weighs_evidence() || views.iter().all(|view| view.evidence().is_some())
+}
+
 /// What each place says of its part being there, from -1 (surely background) to 1 (surely this part). Evidence that the evaluator's device
 /// made is asked of it, all at once.
 ///
@@ -54,7 +59,7 @@ pub(super) fn said_of(
     views: &[SeenView<'_>],
     places: &[Place],
 ) -> Result<Vec<f32>> {
-    if !objective.weighs_evidence() || views.iter().all(|view| view.evidence().is_some()) {
+    if is_known(objective, views) {
         return Ok(places.iter().map(|place| said(views, place)).collect());
     }
     let pixels: Vec<[usize; 2]> = places.iter().map(|place| [place.view, place.pixel]).collect();

@@ -71,17 +71,32 @@ impl Limbs {
     /// The limbs of which the pictures say much more elsewhere than where a pose has them.
     ///
     /// # Errors
-    /// When the pose does not fit the body.
-    pub(super) fn suspicious(&self, scorer: &Scorer<'_>, seen: &Seen, pose: &[f32]) -> Result<Vec<usize>> {
+    /// As [`Self::is_suspicious`].
+    pub(super) fn suspicious(&self, scorer: &mut Scorer<'_>, seen: &Seen, pose: &[f32]) -> Result<Vec<usize>> {
         let views = SeenView::all(&seen.observations);
         let mut suspicious = Vec::new();
         for limb in 0..self.count() {
-            let more = self.glances.at(limb, pose, &views)?.elsewhere(scorer.generations(LOOKED_AT));
-            if more > SUSPICIOUS {
+            if self.is_suspicious(scorer, &views, limb, pose, LOOKED_AT)? {
                 suspicious.push(limb);
             }
         }
         Ok(suspicious)
+    }
+
+    /// Whether the pictures say much more of a limb in the best of `looks` poses than where a pose has it.
+    ///
+    /// # Errors
+    /// When the pose does not fit the body, or the evaluator fails.
+    pub(super) fn is_suspicious(
+        &self,
+        scorer: &mut Scorer<'_>,
+        views: &[SeenView<'_>],
+        limb: usize,
+        pose: &[f32],
+        looks: usize,
+    ) -> Result<bool> {
+        let looks = scorer.generations(looks);
+        Ok(self.glances.at(limb, pose, views)?.elsewhere(scorer.seer(), looks)? > SUSPICIOUS)
     }
 
     /// A limb of a frame's pose looked for everywhere within its limits.
@@ -107,19 +122,19 @@ impl Limbs {
     pub(super) fn ends_inward(
         &self,
         scorer: &mut Scorer<'_>,
-        seen: &Seen,
+        views: &[SeenView<'_>],
+        frame: usize,
         limb: usize,
         pose: &[f32],
         turn: u64,
     ) -> Result<Candidate> {
         let whole = self.glances.limb(limb);
-        let views = SeenView::all(&seen.observations);
-        let glance = self.glances.at(limb, pose, &views)?;
-        let sighted = glance.best(scorer.generations(LOOKED_AT), scorer.generations(SIGHTED));
-        let sighted: Vec<Vec<f32>> = sighted.into_iter().map(|(_, row)| row).collect();
-        let mut best = self.with_end_anywhere(scorer, seen.index, [limb, whole.len()], &sighted, pose, turn)?;
+        let glance = self.glances.at(limb, pose, views)?;
+        let [looks, most] = [LOOKED_AT, SIGHTED].map(|usual| scorer.generations(usual));
+        let sighted = glance.best(scorer.seer(), looks, most)?;
+        let mut best = self.with_end_anywhere(scorer, frame, [limb, whole.len()], &sighted, pose, turn)?;
         for ends in (2..whole.len()).step_by(2) {
-            let found = self.with_end_anywhere(scorer, seen.index, [limb, ends], &[], pose, turn)?;
+            let found = self.with_end_anywhere(scorer, frame, [limb, ends], &[], pose, turn)?;
             if found.worth > best.worth {
                 best = found;
             }

@@ -4,6 +4,7 @@
 
 mod delayed;
 mod hypotheses;
+mod limb_search;
 mod mending;
 mod path;
 mod refining;
@@ -16,6 +17,7 @@ use anyhow::{Context, Result};
 use image::RgbImage;
 
 pub(super) use self::delayed::Delayed;
+pub(super) use self::limb_search::{LimbSearch, SearchedFrame};
 use self::mending::Mending;
 use self::refining::Settled;
 use self::scorer::Scorer;

@@ -10,6 +10,7 @@ use super::shape::{Posed, Shape};
 use crate::evaluate::{Evaluator, Objective};
 use crate::features::Observation;
 use crate::search::{Estimate, SearchKind, SearchSettings, SearchSpace};
+use crate::track::glance::Seer;
 
 /// Samples of a generation, where a run has as many particles.
 const GENERATION: usize = 50;
@@ -73,6 +74,8 @@ pub(super) struct Scorer<'a> {
     share: f64,
     /// Samples of a generation.
     pub(super) generation: usize,
+    /// Poses scored so far.
+    pub(super) scored: usize,
 }
 
 /// How widely and for how long to search.
@@ -111,12 +114,18 @@ impl<'a> Scorer<'a> {
             seed: settings.seed,
             share,
             generation: GENERATION.min(settings.particles),
+            scored: 0,
         }
     }
 
     /// What is `usual` where a run scores as many poses as it usually does, at least 1.
     pub(super) fn generations(&self, usual: usize) -> usize {
         ((usual as f64 * self.share).round() as usize).max(1)
+    }
+
+    /// For looks at what was observed.
+    pub(super) fn seer(&mut self) -> Seer<'_> {
+        Seer { evaluator: &mut *self.evaluator, objective: self.objective }
     }
 
     pub(super) fn observe(&mut self, observations: &[Observation]) -> Result<()> {
@@ -142,6 +151,7 @@ impl<'a> Scorer<'a> {
         if !poses.is_empty() {
             self.evaluator.fitness(&poses.concat(), self.objective, &mut fitness)?;
         }
+        self.scored += poses.len();
         let mut posed = Posed::default();
         let candidates = poses.iter().zip(fitness).map(|(pose, fitness)| {
             self.shape.pose(pose, &mut posed);
@@ -203,6 +213,7 @@ impl<'a> Scorer<'a> {
             self.weigh(&whole, pull, worth);
             Ok(())
         })?;
+        self.scored += estimate.evaluations;
         let mut pose = centre.to_vec();
         let mut spread = vec![0.0; dofs];
         for (at, &d) in moved.iter().enumerate() {

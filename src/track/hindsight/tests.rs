@@ -1,6 +1,9 @@
+use std::time::{Duration, Instant};
+
 use rayon::ThreadPoolBuilder;
 
 use super::hypotheses::Limbs;
+use super::limb_search::{LimbSearch, SearchedFrame};
 use super::mending::Mending;
 use super::refining::Settled;
 use super::scorer::Scorer;
@@ -8,9 +11,11 @@ use super::shape::{Posed, Shape};
 use super::window::Seen;
 use crate::body::Body;
 use crate::evaluate::cpu::Cpu;
-use crate::evaluate::{Objective, ObjectiveKind};
-use crate::search::{SearchSettings, SearchSpace};
+use crate::evaluate::{Evaluator as _, Objective, ObjectiveKind};
+use crate::features::SeenView;
+use crate::search::{Estimate, SearchSettings, SearchSpace};
 use crate::track::fit_tests::{cameras_around, seen};
+use crate::track::searcher::Searched;
 
 const FRAMES: usize = 10;
 
@@ -182,7 +187,8 @@ fn a_limb_is_found_from_its_end_inwards() {
         });
         let find = |(seen, pose): (&Seen, &Vec<f32>)| {
             scorer.observe(&seen.observations).unwrap();
-            limbs.ends_inward(&mut scorer, seen, arm.unwrap(), pose, 7).unwrap().pose
+            let views = SeenView::all(&seen.observations);
+            limbs.ends_inward(&mut scorer, &views, seen.index, arm.unwrap(), pose, 7).unwrap().pose
         };
         kick.seen.iter().zip(&folded).map(find).collect()
     });
@@ -203,12 +209,65 @@ fn a_limb_that_shows_elsewhere_is_suspicious() {
     let marked: Vec<f32> = (0..reach.space.dof_count()).map(|d| if d == elbow { 1.0 } else { 0.0 }).collect();
     let still = vec![0.0; marked.len()];
     let arm = (0..limbs.count()).find(|&limb| limbs.with(limb, &still, &marked) == marked).unwrap();
-    reach.with_scorer(|scorer| {
+    reach.with_scorer(|mut scorer| {
         for (seen, (right, wrong)) in reach.seen.iter().zip(reach.truth.iter().zip(&hidden)) {
-            let [right, wrong] = [right, wrong].map(|pose| limbs.suspicious(&scorer, seen, pose).unwrap());
+            let [right, wrong] = [right, wrong].map(|pose| limbs.suspicious(&mut scorer, seen, pose).unwrap());
             assert!(!right.contains(&arm) && wrong.contains(&arm), "frame {}: {right:?}, {wrong:?}", seen.index);
         }
     });
+}
+
+/// Where the only pass left an arm at the trunk, it is found in the same frame, with as many poses counted as were scored; a frame whose time is
+/// up, and one in which nothing shows elsewhere, keep what was found.
+#[test]
+fn a_limb_is_found_in_a_pass_that_is_the_only_one() {
+    let reach = Moving::new(|t| vec![("left_shoulder.rx", 1.0 + 0.08 * t), ("left_elbow.ry", -0.4)]);
+    let mut hidden = reach.truth.clone();
+    hidden.iter_mut().for_each(|pose| pose[dof(&reach.body, "left_shoulder.rx")] = 0.0);
+    let cameras = cameras_around();
+    let search = LimbSearch::new(&reach.body, &cameras, &reach.space, 25.0).unwrap();
+    let mut cpu = Cpu::new(&reach.body, &cameras).unwrap();
+    let objective = Objective { w1: 1.0, w2: 0.0, ..Objective::of(ObjectiveKind::Ws) };
+    let mut improved = |seen: &Seen, pose: &[f32], until: Option<Instant>| {
+        cpu.observe(&seen.observations).unwrap();
+        let mut fitness = [0.0];
+        cpu.fitness(pose, &objective, &mut fitness).unwrap();
+        let views = cpu.view_counts(pose, &objective).unwrap();
+        let spread = vec![0.0; pose.len()];
+        let estimate = Estimate { pose: pose.to_vec(), fitness: fitness[0], spread, evaluations: 4500 };
+        let mut found = Searched { estimate, views, evaluations: Vec::new(), passes: Vec::new() };
+        let frame = SearchedFrame {
+            evaluator: &mut cpu,
+            objective: &objective,
+            settings: &SearchSettings::default(),
+            space: &reach.space,
+            views: &SeenView::all(&seen.observations),
+            index: seen.index,
+            took: Duration::from_millis(100),
+            until,
+        };
+        search.improve(frame, &mut found).unwrap();
+        let views = cpu.view_counts(&found.estimate.pose, &objective).unwrap();
+        cpu.fitness(&found.estimate.pose, &objective, &mut fitness).unwrap();
+        assert_eq!((&found.views, found.estimate.fitness), (&views, fitness[0]));
+        found.estimate
+    };
+    let frames = || reach.seen.iter().zip(&hidden);
+    let poses: Vec<Vec<f32>> = frames()
+        .map(|(seen, pose)| {
+            let found = improved(seen, pose, None);
+            assert!(found.evaluations > 5500, "{}", found.evaluations);
+            found.pose
+        })
+        .collect();
+    let (before, after) = (reach.errors(&hidden), reach.errors(&poses));
+    assert!(worst(&before) > 700.0 && worst(&after) < 250.0, "{} to {}", worst(&before), worst(&after));
+    for ((seen, pose), right) in frames().zip(&reach.truth) {
+        let late = improved(seen, pose, Some(Instant::now() + Duration::from_millis(20)));
+        assert!(late.pose == *pose && late.evaluations == 4500);
+        let kept = improved(seen, right, None);
+        assert!(kept.pose == *right && kept.evaluations == 4500);
+    }
 }
 
 #[test]

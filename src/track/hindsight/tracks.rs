@@ -6,6 +6,7 @@ use anyhow::Result;
 use super::hypotheses::Limbs;
 use super::scorer::{Candidate, Effort, Pull, Scorer, most_under};
 use super::window::Seen;
+use crate::features::SeenView;
 
 /// Generations of a frame's search, and of one round a limb found anew or a poor frame.
 const TRACKED: usize = 12;
@@ -159,9 +160,10 @@ impl Track<'_> {
         self.settle(scorer, index, chosen, &mut others)?;
         for attempt in 1..=RESCUES {
             let turn = |limb: usize| self.turn(100 * attempt + 10 + limb as u64);
+            let views = SeenView::all(&seen.observations);
             let mut found = limbs
                 .iter()
-                .map(|&limb| self.limbs.ends_inward(scorer, seen, limb, &chosen.pose, turn(limb)))
+                .map(|&limb| self.limbs.ends_inward(scorer, &views, index, limb, &chosen.pose, turn(limb)))
                 .collect::<Result<Vec<_>>>()?;
             found.sort_by(|a, b| b.worth.total_cmp(&a.worth));
             for (rank, promising) in found.iter().take(PROMISING).enumerate() {

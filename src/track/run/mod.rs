@@ -10,7 +10,7 @@ use anyhow::{Context, Result, anyhow};
 use super::appearance::RunAppearance;
 use super::confidence::{Confidence, FrameConfidence, JointProbe, LossRule};
 use super::feed::{Frames, Keeps, Prepared};
-use super::hindsight::{Delayed, Hindsight};
+use super::hindsight::{Delayed, Hindsight, LimbSearch, SearchedFrame};
 use super::journal::{FrameResult, Journal};
 use super::motion::LearntMotion;
 use super::overlay::Overlay;
@@ -47,6 +47,8 @@ pub(super) struct Run<'a> {
     probe: JointProbe,
     /// The search for a lost person, where one is asked for.
     recovery: Option<Recovery>,
+    /// What looks for limbs that were lost, where the search is one that does.
+    limbs: Option<LimbSearch>,
     pace: Box<dyn Pace>,
     /// The person's colours, where poses are compared by evidence.
     appearance: Option<RunAppearance>,
@@ -78,6 +80,8 @@ impl<'a> Run<'a> {
     ) -> Result<Self> {
         let (body, cameras) = (&plan.body, &sequence.cameras);
         let recovery = settings.may_recover().then(|| Recovery::new(body, cameras, &settings.search, &plan.space));
+        let looks = settings.may_look_for_limbs();
+        let limbs = looks.then(|| LimbSearch::new(body, cameras, &plan.space, sequence.fps)).transpose()?;
         let appearance = plan.features.likelihoods.then(|| RunAppearance::new(body, cameras));
         let motion =
             LearntMotion::new(plan.space.spread(1.0 / sequence.fps)?, settings.prediction() == Prediction::Learnt);
@@ -87,6 +91,7 @@ impl<'a> Run<'a> {
             confidence: Confidence::new(body, LossRule::default()),
             probe: JointProbe::new(body, cameras),
             recovery,
+            limbs,
             appearance,
             motion,
             delayed,
@@ -421,7 +426,8 @@ impl<'a> Run<'a> {
         let [particles, iterations] = turn.size;
         self.plan.resize(particles, iterations)?;
         let predicted = self.predicted(&turn);
-        let Plan { objective, backend, search, .. } = &mut self.plan;
+        let settings = *self.plan.search_settings();
+        let Plan { objective, backend, search, space, .. } = &mut self.plan;
         let evaluator = backend.evaluator.as_mut();
         let counter =
             u32::try_from(frame).map_err(|_| anyhow!("frame {frame} is beyond the counters of the search"))?;
@@ -430,6 +436,22 @@ impl<'a> Run<'a> {
         let views = seen.views();
         let in_frame = || format!("frame {frame}");
         let mut searched = search.search(evaluator, objective, seen, start).with_context(in_frame)?;
+        if let Some(limbs) = &self.limbs {
+            let begin_looking = Instant::now();
+            let frame = SearchedFrame {
+                evaluator: &mut *evaluator,
+                objective,
+                settings: &settings,
+                space,
+                views: &views,
+                index: frame,
+                took: begin.elapsed(),
+                until: turn.until,
+            };
+            limbs.improve(frame, &mut searched).with_context(in_frame)?;
+            searched.passes.extend(evaluator.device_passes());
+            searched.evaluations.push(Span::since(begin_looking));
+        }
         let probe = &self.probe;
         let result = |evaluator: &mut dyn Evaluator, searched: &Searched| -> Result<FrameResult> {
             let pose = searched.estimate.pose.clone();

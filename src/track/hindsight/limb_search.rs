@@ -1,0 +1,96 @@
+//! Limbs looked for in the only pass of a run, which has no second one that would find them: forwards, or in real time (METHOD A14).
+
+use std::time::{Duration, Instant};
+
+use anyhow::Result;
+
+use super::hypotheses::Limbs;
+use super::scorer::{Effort, Scorer};
+use super::shape::Shape;
+use crate::body::Body;
+use crate::evaluate::{Evaluator, Objective};
+use crate::features::SeenView;
+use crate::geometry::Camera;
+use crate::search::{SearchSettings, SearchSpace};
+use crate::track::searcher::Searched;
+
+/// Poses of a limb that are looked at.
+const LOOKED_AT: usize = 512;
+/// Generations of all degrees of freedom from a limb that was found.
+const SETTLED: usize = 12;
+/// By how much a limb found must be worth more than the one that was tracked.
+const CONVINCING: f64 = 8.0;
+/// Poses that are scored for a limb about, where a run scores as many as it usually does; with fewer to go before its time is up a frame does
+/// without.
+const SCORED: usize = 1600;
+/// What tells the random numbers of these searches from others of a frame.
+const TURN: u64 = 1000;
+
+/// What looks for limbs.
+pub(crate) struct LimbSearch {
+    limbs: Limbs,
+    shape: Shape,
+    /// The body's, a frame: mm, radians.
+    steps: Vec<f32>,
+}
+
+/// A frame that was searched, and what searched it.
+pub(crate) struct SearchedFrame<'a> {
+    pub(crate) evaluator: &'a mut dyn Evaluator,
+    pub(crate) objective: &'a Objective,
+    pub(crate) settings: &'a SearchSettings,
+    pub(crate) space: &'a SearchSpace,
+    /// What was seen, one a view.
+    pub(crate) views: &'a [SeenView<'a>],
+    pub(crate) index: usize,
+    /// How long its search took.
+    pub(crate) took: Duration,
+    /// When to be done.
+    pub(crate) until: Option<Instant>,
+}
+
+impl LimbSearch {
+    /// For a body seen by cameras at working size.
+    ///
+    /// # Errors
+    /// When the rate makes no sense.
+    pub(crate) fn new(body: &Body, cameras: &[Camera], space: &SearchSpace, fps: f64) -> Result<Self> {
+        let steps = space.spread(1.0 / fps)?;
+        Ok(Self { limbs: Limbs::new(body, cameras, space), shape: Shape::new(body), steps })
+    }
+
+    /// Looks at the limbs, in every frame beginning with another one. Where the pictures say more of one elsewhere than where `found` has it, it is
+    /// looked for, and all else moves along; what is clearly worth more is found instead. A frame whose time is up leaves the others.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(crate) fn improve(&self, frame: SearchedFrame<'_>, found: &mut Searched) -> Result<()> {
+        let SearchedFrame { evaluator, objective, settings, space, views, index, took, until } = frame;
+        let mut scorer = Scorer::new(evaluator, objective, space, &self.shape, settings);
+        let share = scorer.generations(SCORED) as f64 / found.estimate.evaluations.max(1) as f64;
+        let limbs = self.limbs.count();
+        for limb in (0..limbs).map(|nth| (index + nth) % limbs) {
+            if until.is_some_and(|until| Instant::now() + took.mul_f64(share) > until) {
+                break;
+            }
+            let pose = &found.estimate.pose;
+            if !self.limbs.is_suspicious(&mut scorer, views, limb, pose, LOOKED_AT)? {
+                continue;
+            }
+            let before = scorer.candidate(pose.clone())?;
+            let turn = TURN + 10 * limb as u64;
+            let elsewhere = self.limbs.ends_inward(&mut scorer, views, index, limb, &before.pose, turn)?;
+            let effort = Effort { spread: &self.steps, generations: scorer.generations(SETTLED), turn: turn + 1 };
+            let settled = scorer.search_all(index, &elsewhere.pose, effort, None)?.pose;
+            let after = scorer.candidate(settled)?;
+            if after.worth > before.worth + CONVINCING {
+                let mut fitness = [0.0];
+                scorer.evaluator.fitness(&after.pose, objective, &mut fitness)?;
+                found.views = scorer.evaluator.view_counts(&after.pose, objective)?;
+                (found.estimate.pose, found.estimate.fitness) = (after.pose, fitness[0]);
+            }
+        }
+        found.estimate.evaluations += scorer.scored;
+        Ok(())
+    }
+}
