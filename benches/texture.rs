@@ -1,5 +1,5 @@
 //! Noise beside other crates: samples a second of gradient noise in space and of its fbm (4 octaves), on a grid of
-//! 128 x 128 x 64 points; pictures of materials by size and way of noise, the processor beside a device; and synthesis from an
+//! 128 x 128 x 64 points, the processor beside a device; pictures of materials by size and way of noise, the processor beside a device; and synthesis from an
 //! example.
 #![allow(
     clippy::unwrap_used,
@@ -13,6 +13,8 @@ use std::hint::black_box;
 
 use noise::{MultiFractal, NoiseFn};
 use pantin::evaluate::device::open_device;
+use pantin::gpu::{Device, Memory, Recording, Timing};
+use pantin::texture::device::{DeviceNoise, NoiseKind, NoiseRequest, NoiseSource};
 use pantin::texture::example::{Example, Settings, synthesise};
 use pantin::texture::materials::{Material, MaterialKind, Parameters};
 use pantin::texture::noise::{HashLattice, NoiseWay, Octaves, Perlin, TableLattice, Tables, Value};
@@ -29,7 +31,22 @@ fn on_one_thread(rows: [&[f32]; 3], out: &mut [f32], fill: impl Fn([&[f32]; 3], 
     }
 }
 
+/// One pass of a device over all points, from submission to the wait for it.
+fn on_device(device: &Device, rows: [&[f32]; 3], octaves: Octaves, source: NoiseSource<'_>) -> Recording {
+    let samples = rows[0].len();
+    let at: Vec<[f32; 4]> = (0..samples).map(|i| [rows[0][i], rows[1][i], rows[2][i], 0.0]).collect();
+    let points = device.buffer::<[f32; 4]>("points", samples, Memory::Upload).unwrap();
+    points.write(0, &at).unwrap();
+    let out = ["values", "words"].map(|name| device.buffer::<f32>(name, samples, Memory::Device).unwrap());
+    let request = NoiseRequest { dimensions: 3, kind: NoiseKind::Perlin, octaves, source, tile: [0.0; 4] };
+    let mut recorder = device.recorder(Timing::Off).unwrap();
+    let noise = DeviceNoise::new(device, &request).unwrap();
+    noise.record(&mut recorder, &points, &out[0], &out[1], samples as u32).unwrap();
+    recorder.finish().unwrap()
+}
+
 fn of_noise() {
+    let device = open_device().map_err(|error| println!("SKIPPED noise on a device: {error:#}")).ok();
     let size = if is_measuring() { [128, 128, 64] } else { [128, 8, 4] };
     let samples = size.iter().product::<usize>();
     let at = |i: usize| [i % size[0], i / size[0] % size[1], i / size[0] / size[1]];
@@ -59,6 +76,14 @@ fn of_noise() {
         table.row("pantin perlin, one point at a time", samples / 8, move || {
             (0..samples / 8).for_each(|i| out[i] = octaves.at(Perlin, lattice, [0.0; 3], point(i)));
         });
+        for (name, source) in
+            [("perlin", NoiseSource::Hash(*lattice)), ("perlin from tables", NoiseSource::Tables(&tables))]
+        {
+            if let Some(device) = &device {
+                let mut pass = on_device(device, rows, octaves, source);
+                table.row(format!("pantin {name}, device"), samples, move || pass.run().unwrap());
+            }
+        }
         let (mut out, from_tables) = (samples_out(), &from_tables);
         table.row("pantin perlin from tables, one point at a time", samples / 8, move || {
             (0..samples / 8).for_each(|i| out[i] = octaves.at(Perlin, from_tables, [0.0; 3], point(i)));

@@ -92,12 +92,12 @@ impl<'a> Table<'a> {
         drop(rounds);
         let median = |name: &str| self.rows.iter().position(|row| row.name == name).map_or(f64::NAN, |at| times[at][0]);
         print!("\n{}\n{:50} {:>10} {:>10} {:>10}", self.title, "", "ms", "min", "max");
-        print!(" {:>14} {:>14}", format!("us/{}", self.unit), format!("M{}s/s", self.unit));
+        print!(" {:>14} {:>14} {:>10}", format!("us/{}", self.unit), format!("M{}s/s", self.unit), "a second");
         self.beside.iter().for_each(|name| print!(" {:>10}", format!("x {name}")));
         println!();
         for (row, [ms, least, most]) in self.rows.iter().zip(&times) {
             print!("{:50} {ms:10.4} {least:10.4} {most:10.4}", row.name);
-            print!(" {:14.4} {:14.3}", ms * 1e3 / row.work, row.work / ms * 1e-3);
+            print!(" {:14.4} {:14.3} {:10.1}", ms * 1e3 / row.work, row.work / ms * 1e-3, 1e3 / ms);
             self.beside.iter().for_each(|name| print!(" {:10.1}", median(name) / ms));
             println!();
         }

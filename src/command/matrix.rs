@@ -168,9 +168,11 @@ impl Chosen<'_> {
 type Value = fn(&StructureRow) -> f64;
 
 /// Plots: file, label, what. Costs differ by powers of ten, so their logarithms are plotted.
-const PLOTS: [(&str, &str, Value); 5] = [
+const PLOTS: [(&str, &str, Value); 7] = [
     ("cycles", "log10 of cycles", |row| (row.cycles as f64).log10()),
     ("partial_products", "log10 of partial products at once", |row| (row.partial_products as f64).log10()),
+    ("adders", "log10 of adders", |row| (row.adders as f64).log10()),
+    ("registers", "log10 of registers", |row| (row.registers as f64).log10()),
     ("gates", "log10 of gates", |row| (row.gates as f64).log10()),
     ("links", "log10 of length of links", |row| (row.link_length as f64).log10()),
     ("efficiency", "efficiency, 1e-6", |row| row.efficiency * 1e6),

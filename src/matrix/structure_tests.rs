@@ -13,7 +13,7 @@ fn check(structure: &Structure, a: &Square, b: &Square) {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
     #[test]
-    fn every_structure_has_the_product_of_the_integers(n in 1_usize..8, bits in 2_u32..17, group in 1_u32..17, seed: u64) {
+    fn every_structure_has_the_product_of_the_integers(n in 1_usize..=8, bits in 2_u32..=17, group in 1_u32..=17, seed: u64) {
         let (a, b) = (Square::drawn(n, bits, seed).unwrap(), Square::drawn(n, bits, !seed).unwrap());
         for structure in Structure::all(n, bits, group.min(bits)) {
             check(&structure, &a, &b);

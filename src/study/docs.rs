@@ -4,9 +4,10 @@ use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 
+use super::outcome::Row;
 use super::runner::write_pictures;
 use super::runs_csv::read_rows;
-use super::settings::Study;
+use super::settings::{Study, TableSettings};
 use super::tables::{self, Table};
 use crate::files::{Limit, OutputFolder, Overwrite, write_atomically};
 
@@ -18,19 +19,34 @@ const END: &str = "<!-- end of study -->";
 /// `<!-- study: NAME TABLE -->` and `<!-- end of study -->`, and its plots beside the rows. Gives the number of tables.
 ///
 /// # Errors
-/// When rows or document cannot be read, or no table of the study has a mark in it.
+/// When rows or document cannot be read, no table of the study has a mark in it, or a table with a mark would be empty: times without
+/// stages.csv, say.
 pub fn write_docs(study: &Study, folder: &OutputFolder, document: &Path) -> Result<usize> {
     let rows = read_rows(folder.path())?;
     let text = DOCUMENT.read_text(document)?;
-    let (text, count) = with_tables(study, &text, |settings| Table::new(settings, &rows).body())
+    let (text, count) = with_tables(study, &text, |settings| body(settings, &rows, folder.path()))
         .with_context(|| document.display().to_string())?;
     write_atomically(document, Overwrite::Replace, |out| Ok(out.write_all(text.as_bytes())?))?;
     write_pictures(study, &rows, folder)?;
     Ok(count)
 }
 
+/// A table of the rows in a folder, which must say something.
+fn body(settings: &TableSettings, rows: &[Row], folder: &Path) -> Result<String> {
+    let table = Table::new(settings, rows);
+    ensure!(
+        !table.is_empty(),
+        "table \"{}\": no run in {} has its value ({}){}",
+        settings.name,
+        folder.join("runs.csv").display(),
+        settings.value.heading(),
+        if folder.join("stages.csv").exists() { "" } else { "; times are in stages.csv, which is not there" }
+    );
+    Ok(table.body())
+}
+
 /// A document with the study's tables put between their marks, and how many there were.
-fn with_tables(study: &Study, text: &str, table: impl Fn(&super::TableSettings) -> String) -> Result<(String, usize)> {
+fn with_tables(study: &Study, text: &str, table: impl Fn(&TableSettings) -> Result<String>) -> Result<(String, usize)> {
     let (mut text, mut count) = (text.to_string(), 0);
     let mut marks = Vec::new();
     for settings in tables::settings(study) {
@@ -38,7 +54,7 @@ fn with_tables(study: &Study, text: &str, table: impl Fn(&super::TableSettings) 
         if let Some(begin) = text.find(&mark) {
             let begin = begin + mark.len();
             let end = text[begin..].find(END).with_context(|| format!("`{mark}` has no `{END}` behind it"))?;
-            text.replace_range(begin..begin + end, &format!("\n\n{}\n", table(&settings)));
+            text.replace_range(begin..begin + end, &format!("\n\n{}\n", table(&settings)?));
             count += 1;
         }
         marks.push(mark);
@@ -58,12 +74,32 @@ mod tests {
     fn tables_stand_between_their_marks() {
         let study = Study::parse(STUDY, "s").unwrap();
         let text = "before\n<!-- study: s rate -->old<!-- end of study -->\nafter\n";
-        let (text, count) = with_tables(&study, text, |settings| format!("| {} |\n", settings.name)).unwrap();
+        let (text, count) = with_tables(&study, text, |settings| Ok(format!("| {} |\n", settings.name))).unwrap();
         assert_eq!(count, 1);
         assert_eq!(text, "before\n<!-- study: s rate -->\n\n| rate |\n\n<!-- end of study -->\nafter\n");
-        let refused = |text: &str| with_tables(&study, text, |_| String::new()).unwrap_err().to_string();
+        let refused = |text: &str| with_tables(&study, text, |_| Ok(String::new())).unwrap_err().to_string();
         assert!(refused("nothing").contains("expected <!-- study: s error --> or <!-- study: s rate -->"));
         assert!(refused("<!-- study: s rate --> no end").contains("has no `<!-- end of study -->`"));
+    }
+
+    /// Times of rows without their stages are a sentence, not a table of dashes.
+    #[test]
+    fn a_table_without_a_value_is_refused() {
+        let text = "name = \"s\"\nseeds = [1]\n[[sequence]]\npreset = \"demo\"\n[[table]]\nname = \"times\"\nvalue = \
+                    \"search_time\"\nrows = [\"particles\"]\ncolumns = []\n";
+        let study = Study::parse(text, "s").unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let output = OutputFolder::open(folder.path()).unwrap();
+        let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+        write("doc.md", "<!-- study: s times --><!-- end of study -->");
+        let settings = "sequence,backend,model,objective,search,particles,iterations,seed";
+        write("runs.csv", &format!("{settings},frames\ndemo,cpu,flat,sp,pso,100,10,1,5\n"));
+        let document = folder.path().join("doc.md");
+        let error = format!("{:#}", write_docs(&study, &output, &document).unwrap_err());
+        assert!(error.contains("table \"times\"") && error.contains("stages.csv, which is not there"), "{error}");
+        write("stages.csv", &format!("{settings},stage,ms\ndemo,cpu,flat,sp,pso,100,10,1,search,12.5\n"));
+        assert_eq!(write_docs(&study, &output, &document).unwrap(), 1);
+        assert!(std::fs::read_to_string(document).unwrap().contains("| 100 | 12.5 |"));
     }
 
     /// What the documents say is what the rows beside the studies say: nobody wrote it by hand.
@@ -81,7 +117,7 @@ mod tests {
             let name = folder.file_name().unwrap().to_string_lossy().into_owned();
             let study = Study::load(&docs.join(format!("studies/{name}.toml"))).unwrap();
             let rows = read_rows(&folder).unwrap();
-            let (again, count) = with_tables(&study, &document, |settings| Table::new(settings, &rows).body()).unwrap();
+            let (again, count) = with_tables(&study, &document, |settings| body(settings, &rows, &folder)).unwrap();
             assert!(
                 again == document,
                 "{name}: `pantin study docs/studies/{name}.toml -o {} --docs docs/STUDIES.md`",

@@ -30,6 +30,11 @@ impl Table<'_> {
         Table { settings, rows, columns, cells }
     }
 
+    /// Whether no run has a value for it.
+    pub(super) fn is_empty(&self) -> bool {
+        self.cells.iter().all(|cell| cell.statistic.is_none())
+    }
+
     /// One row a cell: the axes, then `runs,mean,std`.
     pub(super) fn write_csv(&self, out: &mut dyn Write) -> Result<()> {
         let mut table = csv::Writer::from_writer(out);

@@ -207,8 +207,11 @@ mod tests {
     use crate::gpu::test_device::device;
 
     /// Of the pixels of a picture at most this share differs by more than two levels of 255 in a channel: on edges of shadows
-    /// and patterns, where single and double precision fall on different sides.
-    const DIFFERING: f64 = 0.001;
+    /// and patterns, where single and double precision fall on different sides. On lavapipe it is 0.00007; four times that is left for
+    /// other devices' roots and sines, of this and of the mean.
+    const DIFFERING: f64 = 0.0003;
+    /// The mean difference of channels, levels of 255; 0.0005 on lavapipe.
+    const MEAN: f64 = 0.002;
 
     /// Compares the light on the floor, cell by cell. A cell whose ray to the lamp just touches someone may fall on either side.
     fn check_shades(painter: &DevicePainter, cast: &Cast<'_>, name: &str) {
@@ -289,8 +292,9 @@ mod tests {
                 );
                 assert!(area > 300, "{name}: there is somebody");
                 assert!(differing <= DIFFERING, "{name}: {differing} of the pixels differ");
-                assert!(mean <= 0.01, "{name}: {mean} levels on average");
-                assert!(covered * 500 <= area, "{name}: {covered} of {area} pixels differ in coverage");
+                assert!(mean <= MEAN, "{name}: {mean} levels on average");
+                // None on lavapipe.
+                assert!(covered * 1000 <= area, "{name}: {covered} of {area} pixels differ in coverage");
             }
         }
         for (pass, ms, _) in crate::gpu::by_name(&painter.timings().unwrap()) {

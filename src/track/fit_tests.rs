@@ -117,7 +117,9 @@ fn a_drawn_person_is_measured() {
         tip("left_hand").distance(tip("right_hand"))
     };
     let (found_reach, expected) = (reach(&found.body, &found.poses.poses[0]), reach(&person, &pose));
-    assert!((found_reach - expected).abs() < 80.0, "reach {found_reach}, expected {expected}");
+    println!("coverage {:.3} to {:.3}, reach {found_reach:.1} of {expected:.1} mm", mean(before), mean(after));
+    // Five seeds were off by 6 to 53 mm.
+    assert!((found_reach - expected).abs() < 70.0, "reach {found_reach}, expected {expected}");
     // The same again from its own poses, keeping the body: and with the same seed the same result.
     fs::write(folder.path().join("body.toml"), found.body.to_toml()).unwrap();
     let start = folder.path().join("start.csv");
@@ -245,5 +247,7 @@ fn forearms_like_the_wall_are_measured_by_evidence() {
         off("left_hand").max(off("right_hand"))
     };
     let (by_silhouettes, by_evidence) = (wrists(Some(ObjectiveKind::Sp)), wrists(None));
-    assert!(by_evidence < 60.0 && by_silhouettes > 2.0 * by_evidence, "{by_silhouettes} and {by_evidence} mm");
+    println!("wrists {by_silhouettes:.1} mm by silhouettes, {by_evidence:.1} mm by evidence");
+    // Five seeds gave 26 to 113 mm and 1.2 to 3.7.
+    assert!(by_evidence < 6.0 && by_silhouettes > 5.0 * by_evidence, "{by_silhouettes} and {by_evidence} mm");
 }

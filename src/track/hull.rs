@@ -129,9 +129,11 @@ mod tests {
         let mut pose = body.standing_pose();
         (pose[0], pose[1]) = (420.0, -310.0);
         let hull = Hull::carve(&cameras, &SeenView::all(&seen(&body, &cameras, &pose))).unwrap();
-        assert!(hull.centre.truncate().distance(glam::DVec2::new(430.0, -310.0)) < 60.0, "{hull:?}");
+        // A hull of three views: (423, -311), from -36 to 1714 mm, which does not vary.
+        assert!(hull.centre.truncate().distance(glam::DVec2::new(430.0, -310.0)) < 15.0, "{hull:?}");
         let [low, high] = hull.span;
-        assert!(low.abs() < 80.0 && (high - 1700.0).abs() < 80.0, "{hull:?}");
+        println!("centre {}, from {low:.1} to {high:.1} mm", hull.centre);
+        assert!(low.abs() < 45.0 && (high - 1700.0).abs() < 25.0, "{hull:?}");
     }
 
     #[test]

@@ -27,8 +27,8 @@ const JOINTS: [(&str, &str); 12] = [
     ("Head", "head_top"),
 ];
 
-/// The largest mean distance of a track from the reference, mm.
-const LIMIT: f64 = 60.0;
+/// The largest mean distance of a track from the reference, mm; five seeds gave 39 to 44.
+const LIMIT: f64 = 50.0;
 /// A track is lost in a frame whose joints are farther off than this on average, mm.
 const LOST: f64 = 150.0;
 
@@ -91,6 +91,7 @@ fn the_first_frames_stay_on_the_man() {
     let error = error(&data, &track, false);
     assert_eq!(error.points.len(), JOINTS.len());
     assert_eq!(error.frames.len(), 12);
+    println!("{:.1} mm, in the worst frame {:.1} mm", error.mean, worst_frame(&error));
     assert!(error.mean < LIMIT, "{} mm", error.mean);
     assert!(worst_frame(&error) < LOST, "{} mm", worst_frame(&error));
     // No pose of the man can be this far from itself seconds later: the measure is able to fail.
@@ -156,5 +157,7 @@ fn the_body_is_what_fit_measures() {
     let joints = |table: &PoseTable| kept.joint_positions(&kept.world_from_bones(&table.poses[0]).unwrap());
     let (found, expected) = (joints(&found), joints(&expected));
     let mean = found.iter().zip(&expected).map(|(a, b)| a.distance(*b)).sum::<f64>() / expected.len() as f64;
-    assert!(mean < 50.0, "the start pose moved by {mean} mm");
+    println!("the start pose moved by {mean:.1} mm");
+    // 27.7 mm.
+    assert!(mean < 40.0, "the start pose moved by {mean} mm");
 }

@@ -161,7 +161,9 @@ fn cameras_of_a_real_recording_come_back() {
     for (found, truth) in read_cameras(&at.join("cameras.toml")).unwrap().iter().zip(&truth) {
         let apart = |p: &DVec3| found.project(*p).unwrap().distance(truth.project(*p).unwrap());
         let mean = seen.iter().map(apart).sum::<f64>() / seen.len() as f64;
-        assert!(mean < 0.1, "{}: {mean} px", truth.name);
+        println!("{}: {mean:.4} px", truth.name);
+        // 0.025 to 0.032: of 2100 points with 0.4 px of noise.
+        assert!(mean < 0.05, "{}: {mean} px", truth.name);
     }
 }
 
@@ -235,7 +237,9 @@ fn a_printed_board_becomes_cameras_on_the_floor() {
         // The world of the board on the floor: its x along its rows.
         let about = DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z);
         let away = (about * found.centre_in_world()).distance(truth.centre_in_world());
-        assert!(away < 40.0, "{} stands {away:.1} mm off", truth.name);
+        println!("{} stands {away:.1} mm off", truth.name);
+        // 22.5 and 15.5 mm from pictures of this board, which do not vary.
+        assert!(away < 28.0, "{} stands {away:.1} mm off", truth.name);
         assert!((about * found.centre_in_world() - truth.centre_in_world()).z.abs() < 15.0);
     }
     assert!(fs::read_to_string(at.join("residuals/left.svg")).unwrap().starts_with("<svg"));

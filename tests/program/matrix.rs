@@ -38,6 +38,35 @@ fn structures_are_compared_in_json() {
     assert_eq!(fitted[0]["rate"]["group_needed"], Value::from(2));
 }
 
+/// Table and plots of docs/MATRIX.md are what the program says, row by row and byte by byte.
+#[test]
+fn the_document_shows_what_the_program_says() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let document = std::fs::read_to_string(docs.join("MATRIX.md")).unwrap();
+    let documented: Vec<&str> =
+        document.lines().filter(|line| line.starts_with("| sequential/") || line.starts_with("| parallel-")).collect();
+    let columns = "structure multiplier cycles partial_products adders registers pins link_length gates";
+    let found = rows(&[]).into_iter().map(|row| {
+        let cells = columns.split(' ').map(|name| match &row[name] {
+            Value::String(text) => text.clone(),
+            number => number.to_string(),
+        });
+        let cells = cells.collect::<Vec<_>>().join(" | ");
+        format!("| {cells} | {:.2} |", 1e6 * row["efficiency"].as_f64().unwrap())
+    });
+    assert_eq!(documented, found.collect::<Vec<_>>());
+
+    let folder = tempfile::tempdir().unwrap();
+    assert!(matrix(&["-o", "out"], folder.path()).status.success());
+    for plot in ["cycles", "efficiency"] {
+        for over in ["n", "bits"] {
+            let read = |path: &Path| std::fs::read_to_string(path).unwrap();
+            let made = read(&folder.path().join(format!("out/{plot}_over_{over}.svg")));
+            assert!(made == read(&docs.join(format!("images/matrix-{plot}-{over}.svg"))), "{plot} over {over}");
+        }
+    }
+}
+
 #[test]
 fn a_folder_gets_the_table_and_plots() {
     let folder = tempfile::tempdir().unwrap();
@@ -51,7 +80,7 @@ fn a_folder_gets_the_table_and_plots() {
     // Four arrangements at six sizes and six widths, of which one is the run's own.
     assert!(table.lines().count() > 4 * 11, "{table}");
     assert!(!table.contains("false"), "{table}");
-    for plot in ["cycles", "partial_products", "gates", "links", "efficiency"] {
+    for plot in ["cycles", "partial_products", "adders", "registers", "gates", "links", "efficiency"] {
         for over in ["n", "bits"] {
             let svg = std::fs::read_to_string(folder.path().join(format!("out/{plot}_over_{over}.svg"))).unwrap();
             assert!(svg.starts_with("<svg") && svg.contains("parallel-parallel/non-recursive booth"), "{plot} {over}");

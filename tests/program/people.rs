@@ -116,6 +116,7 @@ fn two_people_are_followed_past_each_other() {
     let alone =
         NAMES.map(|name| errors(&track(folder, &format!("{name}.toml"), &format!("alone_{name}"), &keeping))[0]);
     println!("together {together:?} mm, each alone {alone:?} mm");
+    // Six seeds gave 16 to 37 mm.
     assert!(together.len() == 2 && together.iter().all(|error| *error < 40.0), "{together:?}");
     assert!(alone[0] + alone[1] > 1.2 * (together[0] + together[1]), "{alone:?} alone, {together:?} together");
 
@@ -142,7 +143,9 @@ fn two_people_are_followed_past_each_other() {
     let both = ["--frames", "0..4", "--particles", "50", "--iterations", "4", "--overlay-every", "0"];
     let paths = ["sequence.toml", "both"].map(|name| folder.join(name).to_str().unwrap().to_owned());
     let both = errors(&pantin(&[&["track", &paths[0], "-o", &paths[1]][..], &both].concat()));
-    assert!(both.len() == 2 && both.iter().all(|error| *error < 60.0), "{both:?}");
+    println!("both passes {both:?} mm");
+    // 8 and 11 mm with this seed.
+    assert!(both.len() == 2 && both.iter().all(|error| *error < 25.0), "{both:?}");
 
     let edited = |from: &str, to: &str| {
         let text = fs::read_to_string(folder.join("sequence.toml")).unwrap();

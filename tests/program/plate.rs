@@ -55,7 +55,8 @@ fn a_plate_is_learnt_from_a_walk_without_a_ghost() {
     let (mean, _) = off(&open(&plate), &open(&truth), &track);
     let ghost = off(&open(&made.join(format!("frames/{camera}_0000.png"))), &open(&truth), &mask(0)).0;
     println!("plate error on the person's way {mean:.2} grey levels; a ghost would be {ghost:.1}");
-    assert!(mean < 3.0 && ghost > 8.0 * mean, "{mean} {ghost}");
+    // 1.23 and 105 on these pictures.
+    assert!(mean < 1.6 && ghost > 60.0 * mean, "{mean} {ghost}");
     let sure = image::open(&sure).unwrap().to_luma8();
     assert_eq!(sure.dimensions(), track.dimensions());
 

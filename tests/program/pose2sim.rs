@@ -196,8 +196,10 @@ fn a_project_that_says_all_needs_no_more_than_plates() {
     assert!(session.path("session/Trial_1/pantin/track/found_body.toml").is_file());
     let points = read_points(&session.path("session/Trial_1/pose-3d/Trial_1_0-0.trc")).unwrap().y_up_to_z_up();
     let of = |name: &str| points.frames[0][HALPE26.iter().position(|other| *other == name).unwrap()].unwrap();
-    assert!((of("Head").z - 1750.0).abs() < 100.0, "the head is at {} mm", of("Head").z);
-    assert!(of("RHeel").z < 150.0 && of("Hip").z > 700.0);
+    println!("head at {:.0}, heel at {:.0}, hip at {:.0} mm", of("Head").z, of("RHeel").z, of("Hip").z);
+    // 1750, 25 and 873 mm of a person of 1750.
+    assert!((of("Head").z - 1750.0).abs() < 25.0, "the head is at {} mm", of("Head").z);
+    assert!(of("RHeel").z.abs() < 60.0 && (of("Hip").z - 873.0).abs() < 40.0);
 }
 
 #[test]

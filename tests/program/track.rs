@@ -167,7 +167,9 @@ fn files_read_back_and_the_walk_is_followed() {
     let pelvis = expected.column("pelvis").unwrap();
     for (ours, theirs) in expected.frames.iter().zip(&truth.frames) {
         let error = ours[pelvis].unwrap().distance(theirs[pelvis].unwrap());
-        assert!(error < 60.0, "the pelvis is {error} mm off");
+        println!("the pelvis is {error:.1} mm off");
+        // Six seeds gave 14.2 mm at most, this one 6.7.
+        assert!(error < 20.0, "the pelvis is {error} mm off");
     }
     let confidence = fs::read_to_string(folder.join("confidence.csv")).unwrap();
     assert!(confidence.starts_with("frame,fitness,cam0.f1,cam0.f2,cam1.f1"), "{confidence}");

@@ -33,7 +33,9 @@ fn a_first_pose_is_found_said_and_kept() {
     let found = PoseTable::read(&output.join("found_start.csv"), &body).unwrap();
     let truth = &walk::poses(&body).poses[0];
     let off = (0..3).map(|axis| (found.poses[0][axis] - truth[axis]).powi(2)).sum::<f64>().sqrt();
-    assert!(off < 80.0, "the pelvis is {off} mm off");
+    println!("the pelvis is {off:.1} mm off");
+    // Six seeds gave 2 to 11 mm.
+    assert!(off < 20.0, "the pelvis is {off} mm off");
     assert!(!output.join("found_body.toml").exists(), "the body was named");
     // What goes on starts from what was found, and does not look again.
     let poses = fs::read(output.join("poses.csv")).unwrap();

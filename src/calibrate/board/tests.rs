@@ -132,6 +132,7 @@ fn noisy_corners_give_errors_of_the_stated_size() {
     for (found, truth) in found.cameras.iter().zip(on_floor(&cameras, &board)) {
         assert!((found.noise - 0.2).abs() < 0.02, "noise {}", found.noise);
         let away = found.camera.centre_in_world().distance(truth.centre_in_world());
+        println!("{} stands {away:.2} mm off, noise {:.4} px", truth.name, found.noise);
         assert!(away < 15.0, "{} stands {away:.1} mm off", truth.name);
         let Lens::BrownConrady(lens) = truth.lens else { panic!("another lens") };
         for (name, truth) in
@@ -146,6 +147,7 @@ fn noisy_corners_give_errors_of_the_stated_size() {
     }
     // Twelve estimates: their squared errors are a standard deviation's square on average.
     let mean: f64 = squares / count;
+    println!("{mean:.2} of the stated variance");
     assert!((0.3..2.5).contains(&mean), "{mean}");
     assert_eq!(found.floor.frames, [23]);
 }
@@ -172,7 +174,9 @@ fn a_wrong_board_is_left_out_and_a_floor_frame_can_be_named() {
     }
     for (flat, truth) in flat.cameras.iter().zip(on_floor(&cameras, &board)) {
         let away = flat.camera.centre_in_world().distance(truth.centre_in_world());
-        assert!(away < 25.0, "{away:.1} mm off");
+        println!("{away:.2} mm off, noise {:?} px", found.cameras.iter().map(|c| c.noise).collect::<Vec<_>>());
+        // 4.4 to 4.6 mm.
+        assert!(away < 8.0, "{away:.1} mm off");
     }
     let settings = BoardSettings { floor: Floor::Frame(31), ..BoardSettings::default() };
     let message = format!("{:#}", calibrate_board(&board, &names(&cameras), &[SIZE; 3], &seen, &settings).unwrap_err());

@@ -138,14 +138,17 @@ fn a_lost_limb_is_mended_and_a_kick_is_not_flattened() {
     }
     let mended = kick.mended(&given);
     let (before, after) = (kick.errors(&given), kick.errors(&mended));
-    assert!(worst(&before) > 300.0 && worst(&after) < 200.0, "{} to {}", worst(&before), worst(&after));
+    println!("worst {:.1} to {:.1} mm", worst(&before), worst(&after));
+    // Five seeds gave 34 to 103 mm at worst and 5.9 to 11.5 in the mean, the foot 3 to 14.
+    assert!(worst(&before) > 300.0 && worst(&after) < 130.0, "{} to {}", worst(&before), worst(&after));
     let still = [&before[..3], &before[7..]].concat();
-    assert!(mean(&after) < 0.8 * mean(&still), "{} to {}", mean(&still), mean(&after));
+    assert!(mean(&after) < 0.6 * mean(&still), "{} to {}", mean(&still), mean(&after));
     // The kicking foot, at the top above all.
     let ankle = kick.body.joint_names().iter().position(|name| name == "right_ankle").unwrap();
     let foot = |errors: &[Vec<f64>]| vec![errors.iter().map(|errors| errors[ankle]).collect::<Vec<_>>()];
     assert!(mean(&foot(&after)) < mean(&foot(&before)), "{:?} to {:?}", foot(&before), foot(&after));
-    assert!(after[5][ankle] < 60.0, "{after:?}");
+    println!("mean {:.1} to {:.1} mm, the kicking foot {:.1} mm", mean(&still), mean(&after), after[5][ankle]);
+    assert!(after[5][ankle] < 20.0, "{after:?}");
 
     let one = ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     assert!(one.install(|| kick.mended(&given)) == mended, "the number of threads counts");
@@ -167,7 +170,9 @@ fn arms_that_a_track_never_saw_go_up_are_found() {
     });
     let given = vec![reach.truth[0].clone(); FRAMES];
     let (before, after) = (reach.errors(&given), reach.errors(&reach.mended(&given)));
-    assert!(worst(&before) > 900.0 && worst(&after) < 150.0, "{} to {after:?}", worst(&before));
+    println!("worst {:.1} to {:.1} mm", worst(&before), worst(&after));
+    // Five seeds gave 40 to 82 mm.
+    assert!(worst(&before) > 900.0 && worst(&after) < 110.0, "{} to {after:?}", worst(&before));
 }
 
 /// Where an upper arm is right and the forearm folded back, a lattice over the whole arm's limits has nothing near.
@@ -192,7 +197,9 @@ fn a_limb_is_found_from_its_end_inwards() {
         };
         kick.seen.iter().zip(&folded).map(find).collect()
     });
-    assert!(off(&folded) > 400.0 && off(&found) < 80.0, "{} to {}", off(&folded), off(&found));
+    println!("the wrist {:.1} to {:.1} mm", off(&folded), off(&found));
+    // 6.9 mm with any of five seeds.
+    assert!(off(&folded) > 400.0 && off(&found) < 15.0, "{} to {}", off(&folded), off(&found));
 }
 
 /// An arm that hangs where the trunk hides it explains nothing, and the pictures show it elsewhere; of the right pose they say no such thing.

@@ -36,7 +36,9 @@ fn a_recording_is_played_tracked_and_accounted_for() {
     let dropped = drops["processing"].as_u64().unwrap() + drops["tracking"].as_u64().unwrap();
     assert_eq!(number("poses") as u64 + dropped, 18, "{account}");
     assert!(number("input_fps") < 5.5 && number("output_fps") > 0.0, "{account}");
-    assert!(number("error_mm") < 200.0 && number("evaluations") <= 800.0 + 1.0, "{account}");
+    println!("{:.1} mm of {} poses", number("error_mm"), number("poses"));
+    // Six seeds gave 13 to 17 mm, on a machine with three times as much work as processors; a frame passed over would add to it.
+    assert!(number("error_mm") < 30.0 && number("evaluations") <= 800.0 + 1.0, "{account}");
     let latency = |name: &str| account["latency_ms"][name].as_f64().unwrap();
     assert!(latency("p50") > 0.0 && latency("p50") <= latency("p90") && latency("p99") <= latency("max"));
     // The rows that grew with the run are the tables that all other files were made from.
