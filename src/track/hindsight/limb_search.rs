@@ -15,7 +15,7 @@ use crate::search::{SearchSettings, SearchSpace};
 use crate::track::searcher::Searched;
 
 /// Poses of a limb that are looked at.
-const LOOKED_AT: usize = 512;
+const LOOKED_AT: usize = 192;
 /// Generations of all degrees of freedom from a limb that was found.
 const SETTLED: usize = 12;
 /// By how much a limb found must be worth more than the one that was tracked.
