@@ -88,6 +88,11 @@ pub struct Capabilities {
     pub max_image: u32,
     /// Largest storage buffer, bytes.
     pub max_storage: u64,
+    /// Storage buffers of a stage.
+    pub stage_buffers: u32,
+    /// Whether many workgroups run at a time, as on a card: what each of them does anew then takes as long as once, and what waits for
+    /// another pass costs more. Not where the processor computes.
+    pub wide: bool,
     /// Largest workgroup count in x.
     pub max_groups: u32,
     /// Largest workgroup.
@@ -363,6 +368,8 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
         shared_memory: limits.max_compute_shared_memory_size,
         push_constants: limits.max_push_constants_size,
         sub_pixel_bits: limits.sub_pixel_precision_bits,
+        stage_buffers: limits.max_per_stage_descriptor_storage_buffers,
+        wide: first.device_type != vk::PhysicalDeviceType::CPU,
         // A fifth is left to others: the display, the driver's own.
         memory: device_local / 5 * 4,
         longest_submission: (first.device_type != vk::PhysicalDeviceType::CPU).then_some(LONGEST_SUBMISSION),

@@ -256,7 +256,13 @@ impl Recorder {
             .dst_access_mask(vk::AccessFlags2::HOST_READ);
         self.depend(memory, &[]);
         self.parts.end_commands()?;
-        Ok(Recording { device: self.device, parts: Some(self.parts), submitted: 0 })
+        Ok(Recording {
+            device: self.device,
+            parts: Some(self.parts),
+            submitted: 0,
+            #[cfg(test)]
+            barriers: self.barriers,
+        })
     }
 
     pub(super) fn begin(&mut self, name: &str) -> Result<()> {

@@ -22,6 +22,9 @@ pub struct Recording {
     pub(super) parts: Option<RecordingParts>,
     /// Timeline value of the last submission, 0 before the first.
     pub(super) submitted: u64,
+    /// Barriers between its passes.
+    #[cfg(test)]
+    pub(super) barriers: usize,
 }
 
 impl std::fmt::Debug for Recording {
@@ -65,6 +68,12 @@ impl Recording {
     /// Names of the passes in order.
     pub fn passes(&self) -> &[String] {
         self.parts.as_ref().map_or(&[], |parts| &parts.passes)
+    }
+
+    /// Barriers between the passes.
+    #[cfg(test)]
+    pub(crate) fn barriers(&self) -> usize {
+        self.barriers
     }
 
     /// Hands the passes to the device and returns at once.
