@@ -19,13 +19,16 @@ use pantin::evaluate::device::{Comparison, Compute, Gathering, Graphics, Graphic
 use pantin::evaluate::{Components, EdgeTerm, Evaluator, Objective, ObjectiveKind};
 use pantin::features::{Observation, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;
-use pantin::gpu::{DeviceSettings, Timing, Validation, by_name};
+use pantin::gpu::{Capabilities, Device, DeviceSettings, Timing, Validation, by_name};
 use pantin::search::{DeviceFound, DeviceSearch, Estimate, Search, SearchKind, SearchSettings, SearchSpace};
 use scene::{Random, cameras, observations};
 
 fn standing(body: &Body) -> Vec<f32> {
     body.standing_pose().into_iter().map(|value| value as f32).collect()
 }
+
+/// Has what comes behind the drawing done as on a card.
+const AS_A_CARD: fn(&mut Capabilities) = |it| it.wide = true;
 
 /// One frame driven by the host.
 fn driven(
@@ -58,8 +61,14 @@ fn on_devices() -> impl Iterator<Item = SearchKind> {
 
 #[test]
 fn one_submission_finds_what_the_host_finds_batch_by_batch() {
-    let small = |capabilities: &mut pantin::gpu::Capabilities| capabilities.max_storage = 1 << 16;
-    for (name, lower) in [("as it is", None), ("little storage", Some(small as fn(&mut _)))] {
+    let small: fn(&mut Capabilities) = |it| it.max_storage = 1 << 16;
+    let buffers: fn(&mut Capabilities) = |it| it.stage_buffers = 11;
+    for (name, lower) in [
+        ("as it is", None),
+        ("as a card", Some(AS_A_CARD)),
+        ("little storage", Some(small)),
+        ("few buffers a stage", Some(buffers)),
+    ] {
         let settings = DeviceSettings { lower, ..DeviceSettings::default() };
         let Some((device, _)) = device("one_submission_finds_what_the_host_finds", settings) else {
             return;
@@ -114,7 +123,13 @@ fn in_segments(seen: Vec<Observation>, random: &mut Random) -> Vec<Observation> 
 #[test]
 fn a_search_by_segments_runs_on_the_device_over_every_backend() {
     let name = "a_search_by_segments_runs_on_the_device_over_every_backend";
-    let Some((device, _)) = device(name, DeviceSettings::default()) else { return };
+    for lower in [None, Some(AS_A_CARD)] {
+        let Some((device, _)) = device(name, DeviceSettings { lower, ..DeviceSettings::default() }) else { return };
+        search_by_segments(&device);
+    }
+}
+
+fn search_by_segments(device: &Device) {
     let (body, cameras) = (Body::adult(1750.0).unwrap(), cameras());
     let space = SearchSpace::of(&body).unwrap();
     let spread = space.spread(0.04).unwrap();
@@ -130,13 +145,13 @@ fn a_search_by_segments_runs_on_the_device_over_every_backend() {
     let usual = GraphicsSettings::default();
     let depth = GraphicsSettings { packing: Packing::Depth, ..usual };
     let subgroup = GraphicsSettings { comparison: Comparison::Device(Gathering::Subgroup), ..usual };
-    let graphics = |settings| Box::new(Graphics::on(&device, &body, &cameras, settings).unwrap());
+    let graphics = |settings| Box::new(Graphics::on(device, &body, &cameras, settings).unwrap());
     let evaluators: Vec<(&str, Box<dyn Evaluator>)> = vec![
-        ("compute", Box::new(Compute::on(&device, &body, &cameras).unwrap())),
+        ("compute", Box::new(Compute::on(device, &body, &cameras).unwrap())),
         ("graphics", graphics(usual)),
         ("graphics, depth", graphics(depth)),
         ("graphics, subgroup", graphics(subgroup)),
-        ("mesh", Box::new(Graphics::of_mesh(&device, &body, mesh, &cameras, usual).unwrap())),
+        ("mesh", Box::new(Graphics::of_mesh(device, &body, mesh, &cameras, usual).unwrap())),
     ];
     let mut by_segments = None;
     for (name, mut evaluator) in evaluators {
@@ -195,6 +210,60 @@ fn large_cameras() -> Vec<Camera> {
         camera.size = [640, 480];
     }
     cameras
+}
+
+/// Run by hand: `cargo test --release --test device_search of_what_comes_behind -- --ignored --nocapture`. What comes behind the drawing
+/// in one pass, in one workgroup and in as many as on a card, beside a pass each, in turns.
+#[test]
+#[ignore = "measures"]
+fn time_of_what_comes_behind_the_drawing() {
+    let one: fn(&mut Capabilities) = |it| it.wide = false;
+    let each: fn(&mut Capabilities) = |it| it.stage_buffers = 11;
+    let body = Body::adult(1750.0).unwrap();
+    let space = SearchSpace::of(&body).unwrap();
+    let (spread, centre) = (space.spread(0.04).unwrap(), standing(&body));
+    let mut large = large_cameras();
+    large.truncate(2);
+    for (name, cameras, kind, particles) in [
+        ("640x480 twice", &large, SearchKind::Pso, 300),
+        ("640x480 twice", &large, SearchKind::MaEs, 300),
+        ("130x100 twice", &cameras()[..2].to_vec(), SearchKind::Pso, 100),
+        ("130x100 twice", &cameras()[..2].to_vec(), SearchKind::MaEs, 100),
+    ] {
+        let seen = observations(cameras, &mut Random(5));
+        let objective = Objective::of(ObjectiveKind::Sp);
+        let mut made = Vec::new();
+        for lower in [each, one, AS_A_CARD] {
+            let settings = DeviceSettings { lower: Some(lower), ..DeviceSettings::default() };
+            let Some((device, _)) = device_under(Validation::Off, "time_of_what_comes_behind", settings) else {
+                return;
+            };
+            let mut compute = Compute::on(&device, &body, cameras).unwrap();
+            compute.observe(&seen).unwrap();
+            let settings = SearchSettings { kind, particles, iterations: 4, ..SearchSettings::default() };
+            let [untimed, timed] = [Timing::Off, Timing::Stamps].map(|timing| {
+                let evaluator = compute.on_device().unwrap();
+                DeviceSearch::new(evaluator, &objective, &settings, &space, timing).unwrap()
+            });
+            made.push((compute, untimed, timed, Vec::new()));
+        }
+        for frame in 0..12 {
+            for (_, untimed, _, times) in &mut made {
+                let begin = Instant::now();
+                untimed.search_frame(frame, &centre, &spread).unwrap();
+                times.push(begin.elapsed().as_secs_f64() * 1e3);
+            }
+        }
+        for (form, (_, _, timed, times)) in ["a pass each", "one workgroup", "as a card"].iter().zip(&mut made) {
+            times.sort_by(f64::total_cmp);
+            let (least, median) = (times[0], times[times.len() / 2]);
+            println!("{name}, {kind:?}, {particles}, {form}: a frame {least:.2} ms, median {median:.2}");
+            timed.search_frame(0, &centre, &spread).unwrap();
+            for (pass, ms, count) in by_name(&timed.timings().unwrap()) {
+                println!("    {pass:18} {count:3} x, {ms:.3} ms");
+            }
+        }
+    }
 }
 
 /// Run by hand: `cargo test --release --test device_search -- --ignored --nocapture`.

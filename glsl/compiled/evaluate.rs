@@ -1722,7 +1722,7 @@ pub mod objective_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/objective.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<11217, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<11320, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/objective.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 28,
@@ -1739,7 +1739,7 @@ pub mod objective_comp {
         crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
     }
     /// Push constants.
-    pub type Push = super::layout::Scoring;
+    pub type Push = super::layout::Objective;
     /// What the stage works on.
     #[derive(Clone, Copy, Debug)]
     pub struct Bindings<'a> {
@@ -1776,7 +1776,7 @@ pub mod objective_evidence_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/objective_evidence.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<10362, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<10449, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/objective_evidence.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 28,
@@ -1794,7 +1794,7 @@ pub mod objective_evidence_comp {
         crate::gpu::ShaderStage { shader: &SHADER, constants: vec![] }
     }
     /// Push constants.
-    pub type Push = super::layout::Scoring;
+    pub type Push = super::layout::Objective;
     /// What the stage works on.
     #[derive(Clone, Copy, Debug)]
     pub struct Bindings<'a> {
@@ -1834,7 +1834,7 @@ pub mod objective_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/objective_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<13089, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<13185, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/objective_segments.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 28,
@@ -1863,7 +1863,7 @@ pub mod objective_segments_comp {
         crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.segment_edges)), ] }
     }
     /// Push constants.
-    pub type Push = super::layout::Scoring;
+    pub type Push = super::layout::Objective;
     /// What the stage works on.
     #[derive(Clone, Copy, Debug)]
     pub struct Bindings<'a> {
@@ -3752,6 +3752,15 @@ pub mod layout {
     const _: () = assert!(std::mem::offset_of!(MeshVertex, label) == 12);
     const _: () = assert!(std::mem::offset_of!(MeshVertex, weights) == 16);
     const _: () = assert!(std::mem::offset_of!(MeshVertex, bones) == 32);
+    /// `Objective` in memory, 28 bytes.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+    pub struct Objective {
+        /// `scoring` at byte 0.
+        pub scoring: Scoring,
+    }
+    const _: () = assert!(size_of::<Objective>() == 28);
+    const _: () = assert!(std::mem::offset_of!(Objective, scoring) == 0);
     /// `Part` in memory, 48 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

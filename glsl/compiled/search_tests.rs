@@ -59,10 +59,10 @@ pub mod score_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "search_tests/score.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<727, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<761, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/search_tests/score.comp.spv"))),
         workgroup_size: [64, 1, 1],
-        push_size: 16,
+        push_size: 20,
         bindings: &[
             crate::gpu::BindingLayout { name: "Target", set: 0, binding: 0, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
             crate::gpu::BindingLayout { name: "Positions", set: 0, binding: 1, kind: crate::gpu::BindingKind::StorageBuffer, access: crate::gpu::Access::Read },
@@ -128,7 +128,7 @@ pub mod layout {
     const _: () = assert!(std::mem::offset_of!(RandomPush, count) == 0);
     const _: () = assert!(std::mem::offset_of!(RandomPush, key_low) == 4);
     const _: () = assert!(std::mem::offset_of!(RandomPush, key_high) == 8);
-    /// `ScorePush` in memory, 16 bytes.
+    /// `ScorePush` in memory, 20 bytes.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
     pub struct ScorePush {
@@ -140,12 +140,15 @@ pub mod layout {
         pub bad_from: u32,
         /// `bad` at byte 12.
         pub bad: u32,
+        /// `nudged` at byte 16.
+        pub nudged: u32,
     }
-    const _: () = assert!(size_of::<ScorePush>() == 16);
+    const _: () = assert!(size_of::<ScorePush>() == 20);
     const _: () = assert!(std::mem::offset_of!(ScorePush, candidates) == 0);
     const _: () = assert!(std::mem::offset_of!(ScorePush, dofs) == 4);
     const _: () = assert!(std::mem::offset_of!(ScorePush, bad_from) == 8);
     const _: () = assert!(std::mem::offset_of!(ScorePush, bad) == 12);
+    const _: () = assert!(std::mem::offset_of!(ScorePush, nudged) == 16);
 }
 /// Every stage of the folder, for tests that try them all.
 #[cfg(test)]

@@ -33,9 +33,14 @@ uint total_order_of(float value) {
     return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
 }
 
+// An order with one zero from a total one.
+uint with_one_zero(uint total_order) {
+    return total_order == 0x7FFFFFFFu ? 0x80000000u : total_order;
+}
+
 // The same with one zero.
 uint order_of(float value) {
-    return total_order_of(floatBitsToUint(value) == 0x80000000u ? 0.0 : value);
+    return with_one_zero(total_order_of(value));
 }
 
 // The nearest number within limits.

@@ -1,9 +1,18 @@
 // Numbers that the shaders and the library share.
 
+// The descriptor set of what a search binds: stages that score too leave the first one to the fitness.
+#ifndef SEARCH_SET
+#define SEARCH_SET 0
+#endif
+
 // Invocations of a workgroup where every invocation has a block of random numbers.
 const uint SEARCH_GROUP = 64u;
 // Invocations of the one workgroup that looks over all candidates.
 const uint LOOK_GROUP = 256u;
+// Most samples, and most degrees of freedom, of a generation that is scored and learnt from in one stage: it keeps something of each in
+// shared memory.
+const uint LEARN_SAMPLES = 256u;
+const uint LEARN_DOFS = 256u;
 // Running sums of a mean; also the invocations of a workgroup of `spread`.
 const uint SUM_LANES = 64u;
 

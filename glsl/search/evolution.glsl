@@ -1,6 +1,6 @@
 // What an evolution keeps between its stages: distributions work in units of the frame's spread about its centre.
 
-layout(std430, set = 0, binding = 2) buffer Evolution {
+layout(std430, set = SEARCH_SET, binding = 2) buffer Evolution {
     float sigma;    // step size
     uint first;     // best sample of the generation
     float values[]; // rows of the mean, the path of the step size, and the lower and upper limits

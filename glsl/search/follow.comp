@@ -13,8 +13,6 @@ layout(local_size_x = SUM_LANES) in;
 
 layout(std430, set = 0, binding = 3) readonly buffer Fitness { float fitness[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Weights { float weights[]; };
-layout(std430, set = 0, binding = 5) readonly buffer Normals { float normals[]; };
-layout(std430, set = 0, binding = 6) readonly buffer Steps { float steps[]; };
 layout(std430, set = 0, binding = 7) readonly buffer Positions { float positions[]; };
 // What stands behind the fitness of every sample, and of the best one, a row of views each.
 layout(std430, set = 0, binding = 8) readonly buffer Sums { uvec4 sums[]; };
@@ -30,7 +28,8 @@ layout(push_constant) uniform Push {
     float sigma_loss;
 } push;
 
-shared float squares[SUM_LANES];
+#include "search/learning.glsl"
+
 shared uint before;
 
 void main() {
@@ -53,35 +52,13 @@ void main() {
     float sigma = evolution.sigma;
     precise float square = 0.0;
     for (uint d = lane; d < push.dofs; d += SUM_LANES) {
-        precise float normal = 0.0;
-        precise float step = 0.0;
-        for (uint row = 0u; row < push.samples; row++) {
-            float weight = weights[row];
-            if (weight == 0.0) continue;
-            normal = normal + weight * normals[row * push.dofs + d];
-            step = step + weight * steps[row * push.dofs + d];
-        }
-        precise float path = push.path_kept * evolution.values[push.dofs + d] + push.path_gain * normal;
+        vec2 learnt = weighed(d, push.samples);
+        float path = path_after(d, learnt.x);
         evolution.values[push.dofs + d] = path;
-        precise float mean = evolution.values[d] + sigma * step;
-        evolution.values[d] = held_offset(mean, d, push.dofs);
+        evolution.values[d] = mean_after(d, learnt.y, sigma);
         precise float squared = path * path;
         square = square + squared;
     }
-    squares[lane] = square;
-    barrier();
-    for (uint half_width = SUM_LANES / 2u; half_width > 0u; half_width /= 2u) {
-        if (lane < half_width) {
-            precise float both = squares[lane] + squares[lane + half_width];
-            squares[lane] = both;
-        }
-        barrier();
-    }
-    if (lane == 0u) {
-        precise float change = push.sigma_gain * root(squares[0]) - push.sigma_loss;
-        float capped = change <= 1.0 ? change : 1.0;
-        float factor = capped > 0.0 ? reciprocal(exp_of_negative(-capped)) : exp_of_negative(capped);
-        precise float next = sigma * factor;
-        evolution.sigma = hold(next, uintBitsToFloat(LEAST_SIGMA), uintBitsToFloat(MOST_SIGMA));
-    }
+    float all = sum_of_squares(square);
+    if (lane == 0u) evolution.sigma = sigma_after(sigma, all);
 }

@@ -2,7 +2,7 @@
 
 #include "search/philox.glsl"
 
-layout(std430, set = 0, binding = 0) readonly buffer Frame {
+layout(std430, set = SEARCH_SET, binding = 0) readonly buffer Frame {
     uint number;
     uint goes_on;   // 1 where the filter resamples its particles, 0 where it puts all of them on the centre
     uvec2 seed;     // low word, high word
@@ -11,6 +11,11 @@ layout(std430, set = 0, binding = 0) readonly buffer Frame {
 
 uvec4 random_words(uint iteration, uint particle, uint draw, uint block) {
     return philox(uvec4(particle, draw << 24 | block, iteration, frame.number), frame.seed);
+}
+
+// The lower and the upper limit of a degree of freedom.
+vec2 limits_of(uint d, uint dofs) {
+    return vec2(frame.values[2u * dofs + d], frame.values[3u * dofs + d]);
 }
 
 // A normal step from `from` with `factor` times the frame's spread, held within the limits.

@@ -23,6 +23,8 @@ layout(push_constant) uniform Push {
     float social;
 } push;
 
+#include "search/step.glsl"
+
 void main() {
     uint particle = candidate_here();
     uint block = block_here();
@@ -41,13 +43,8 @@ void main() {
             best[place] = x;
         }
         if (push.iteration == 0u) continue;
-        precise float kept = push.inertia * velocities[place];
-        precise float to_own = push.cognitive * r1[word] * (p - x);
-        precise float to_best = push.social * r2[word] * (outcome.values[d] - x);
-        precise float velocity = kept + to_own + to_best;
-        precise float free = x + velocity;
-        float held = hold(free, frame.values[2u * push.dofs + d], frame.values[3u * push.dofs + d]);
-        velocities[place] = held == free ? velocity : 0.0;
-        positions[place] = held;
+        Step next = step_from(x, velocities[place], vec2(p, outcome.values[d]), vec2(r1[word], r2[word]), limits_of(d, push.dofs));
+        velocities[place] = next.velocity;
+        positions[place] = next.position;
     }
 }

@@ -10,8 +10,6 @@
 layout(local_size_x = SEARCH_GROUP) in;
 
 layout(std430, set = 0, binding = 3) readonly buffer Fitness { float fitness[]; };
-// Of the better half, best first.
-layout(std430, set = 0, binding = 4) readonly buffer Ranked { float ranked[]; };
 layout(std430, set = 0, binding = 5) writeonly buffer Weights { float weights[]; };
 
 layout(push_constant) uniform Push {
@@ -20,15 +18,13 @@ layout(push_constant) uniform Push {
     uint parents;
 } push;
 
+#define KEY(sample_index) total_order_of(fitness[sample_index])
+#include "search/ranking.glsl"
+
 void main() {
     uint own = gl_GlobalInvocationID.x;
     if (own >= push.samples) return;
-    uint key = total_order_of(fitness[own]);
-    uint rank = 0u;
-    for (uint other = 0u; other < push.samples; other++) {
-        uint found = total_order_of(fitness[other]);
-        if (found > key || (found == key && other < own)) rank++;
-    }
+    uint rank = rank_of(own, push.samples);
     if (rank == 0u) evolution.first = own;
-    weights[own] = key != 0u && rank < push.parents ? ranked[push.first_weight + rank] : 0.0;
+    weights[own] = weight_of(own, rank);
 }

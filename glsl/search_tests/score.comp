@@ -17,6 +17,7 @@ layout(push_constant) uniform Push {
     uint dofs;
     uint bad_from; // bits of a number: candidates whose first value is larger have `bad` for a fitness
     uint bad;
+    uint nudged; // a candidate whose fitness is another one, of which the host knows nothing
 } push;
 
 void main() {
@@ -34,7 +35,7 @@ void main() {
     }
     precise float score = 0.9 - bowl * 0.0078125 - (0.5 * float(push.dofs) - ripples) * 0.00390625;
     bool is_bad = positions[own * push.dofs] > uintBitsToFloat(push.bad_from);
-    uint bits = is_bad ? push.bad : floatBitsToUint(score);
+    uint bits = is_bad ? push.bad : floatBitsToUint(own == push.nudged ? 0.95 : score);
     fitness[own] = uintBitsToFloat(bits);
     sums[2u * own] = uvec4(bits, own, 2u, 3u);
     sums[2u * own + 1u] = uvec4(own, bits, 5u, 6u);

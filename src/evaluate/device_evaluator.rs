@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use super::objective::Objective;
-use crate::gpu::{Buffer, Device, Recorder, Recording};
+use crate::gpu::{Buffer, Device, Dispatch, Recorder, Recording};
 
 /// An evaluator whose poses and fitness stay on the device, so that all iterations of a frame need no host between them.
 pub trait DeviceEvaluator: Send {
@@ -54,9 +54,46 @@ pub trait DeviceEvaluator: Send {
     /// When the device fails.
     fn record_upload(&self, recorder: &mut Recorder) -> Result<()>;
 
-    /// Records everything from `poses` to `fitness` for the first `candidates` candidates.
+    /// Records everything from `poses` to what [`Self::scoring`] makes the fitness of, for the first `candidates` candidates.
     ///
     /// # Errors
     /// When there is no room for so many, or the device fails.
-    fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()>;
+    fn record_sums(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()>;
+
+    /// What makes the fitness of that.
+    ///
+    /// # Errors
+    /// When the objective needs what the observations do not have.
+    fn scoring(&self, objective: &Objective, candidates: u32) -> Result<Scoring<'_>>;
+
+    /// Records everything from `poses` to `fitness` for the first `candidates` candidates.
+    ///
+    /// # Errors
+    /// As [`Self::record_sums`] and [`Self::scoring`].
+    fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
+        self.record_sums(recorder, objective, candidates)?;
+        recorder.run(self.scoring(objective, candidates)?.dispatch)
+    }
+}
+
+/// What makes the fitness of candidates from their sums: a stage, which another one can do the work of where it knows how.
+#[derive(Clone, Debug)]
+pub struct Scoring<'a> {
+    /// How it does it.
+    pub by: ScoredBy,
+    /// A run of the stage.
+    pub dispatch: Dispatch<'a>,
+}
+
+/// Which fitness a stage makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ScoredBy {
+    /// That of whole silhouettes, as `objective.comp` with its bindings and its Scoring.
+    Silhouettes,
+    /// That of silhouettes in segments, as `objective_segments.comp`.
+    Segments,
+    /// That of soft evidence, as `objective_evidence.comp`.
+    Evidence,
+    /// One that no other stage makes.
+    Otherwise,
 }

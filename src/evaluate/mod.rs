@@ -24,7 +24,7 @@ mod shaders;
 mod view_counts;
 
 pub use components::Components;
-pub use device_evaluator::DeviceEvaluator;
+pub use device_evaluator::{DeviceEvaluator, ScoredBy, Scoring};
 pub use edge_term::EdgeTerm;
 pub use evaluator::{Evaluator, Footprint};
 pub use evidence::EvidenceSum;

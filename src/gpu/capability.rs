@@ -5,7 +5,7 @@ use std::ffi::CStr;
 use std::time::Duration;
 
 use anyhow::{Context as _, Result};
-use ash::{amd, ext, khr, vk};
+use ash::{amd, ext, khr, nv, vk};
 
 use super::Instance;
 
@@ -78,6 +78,8 @@ pub struct Capabilities {
     pub calibrated_timestamps: bool,
     /// VK_AMD_buffer_marker: marks between passes that cost next to nothing.
     pub buffer_markers: bool,
+    /// VK_NV_device_diagnostic_checkpoints: such marks that are told once the device is lost.
+    pub checkpoints: bool,
     /// VK_KHR_pipeline_executable_properties: what the driver made of a stage.
     pub executable_properties: bool,
     /// Sums and products can be asked to round to the nearest.
@@ -88,6 +90,11 @@ pub struct Capabilities {
     pub max_image: u32,
     /// Largest storage buffer, bytes.
     pub max_storage: u64,
+    /// Storage buffers of a stage.
+    pub stage_buffers: u32,
+    /// Whether many workgroups run at a time, as on a card: what each of them does anew then takes as long as once, and what waits for
+    /// another pass costs more. Not where the processor computes.
+    pub wide: bool,
     /// Largest workgroup count in x.
     pub max_groups: u32,
     /// Largest workgroup.
@@ -353,6 +360,7 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
         timestamp_period_ns: limits.timestamp_period,
         calibrated_timestamps: has(ext::calibrated_timestamps::NAME) && has_own_clock(instance, handle),
         buffer_markers: has(amd::buffer_marker::NAME),
+        checkpoints: has(nv::device_diagnostic_checkpoints::NAME),
         executable_properties: executables.pipeline_executable_info != 0,
         rounds_to_nearest: floats.shader_rounding_mode_rte_float32 != 0,
         keeps_denormals: floats.shader_denorm_preserve_float32 != 0,
@@ -363,6 +371,8 @@ fn facts(instance: &Instance, index: usize, handle: vk::PhysicalDevice) -> Devic
         shared_memory: limits.max_compute_shared_memory_size,
         push_constants: limits.max_push_constants_size,
         sub_pixel_bits: limits.sub_pixel_precision_bits,
+        stage_buffers: limits.max_per_stage_descriptor_storage_buffers,
+        wide: first.device_type != vk::PhysicalDeviceType::CPU,
         // A fifth is left to others: the display, the driver's own.
         memory: device_local / 5 * 4,
         longest_submission: (first.device_type != vk::PhysicalDeviceType::CPU).then_some(LONGEST_SUBMISSION),

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 use anyhow::{Result, anyhow, bail, ensure};
-use ash::{amd, ext, khr, vk};
+use ash::{amd, ext, khr, nv, vk};
 use bytemuck::Pod;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use rayon::prelude::*;
@@ -20,6 +20,7 @@ use super::executables::Executable;
 use super::image::{Format, Image, ImageUse};
 use super::instance::Instance;
 use super::lanes::{BESIDE, LANES, Lanes, MAIN};
+use super::marks::Marks;
 use super::memory::Memory;
 use super::pipeline::{Drawing, Pipeline};
 use super::shader::ShaderStage;
@@ -111,6 +112,8 @@ impl Device {
         }
         if capabilities.buffer_markers {
             extensions.push(amd::buffer_marker::NAME.as_ptr());
+        } else if capabilities.checkpoints {
+            extensions.push(nv::device_diagnostic_checkpoints::NAME.as_ptr());
         }
         let asks = settings.inspect == Inspect::Compiled && capabilities.executable_properties;
         if asks {
@@ -193,7 +196,8 @@ impl Device {
         let shared = Arc::new(DeviceShared {
             debug: instance.shared.has_debug_utils.then(|| ext::debug_utils::Device::new(vulkan, &raw)),
             feedback: capabilities.transform_feedback.then(|| FeedbackFunctions::load(vulkan, &raw)).flatten(),
-            markers: capabilities.buffer_markers.then(|| amd::buffer_marker::Device::new(vulkan, &raw)),
+            marks: marks(&capabilities, &settings, vulkan, &raw),
+            recordings: AtomicU64::new(0),
             calibrated: capabilities
                 .calibrated_timestamps
                 .then(|| ext::calibrated_timestamps::Device::new(vulkan, &raw)),
@@ -351,4 +355,23 @@ impl Drop for Owner {
         }
         self.shared.collect();
     }
+}
+
+/// What leaves the marks of passes: words that can be read at any time where the device has both.
+fn marks(
+    capabilities: &Capabilities,
+    settings: &DeviceSettings,
+    instance: &ash::Instance,
+    device: &ash::Device,
+) -> Option<Marks> {
+    #[cfg(test)]
+    if let Some(functions) = settings.checkpoints {
+        return Some(Marks::Checkpoints(functions()));
+    }
+    let _ = settings;
+    if capabilities.buffer_markers {
+        return Some(Marks::Words(amd::buffer_marker::Device::new(instance, device)));
+    }
+    let checkpoints = || nv::device_diagnostic_checkpoints::Device::new(instance, device).fp().clone();
+    capabilities.checkpoints.then(checkpoints).map(Marks::Checkpoints)
 }

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, anyhow};
-use ash::{amd, ext, khr, vk};
+use ash::{ext, khr, vk};
 use gpu_allocator::vulkan::Allocator;
 
 use crate::files::{Overwrite, write_atomically};
@@ -18,6 +18,7 @@ use super::instance::Instance;
 use super::lanes::{Lanes, LastUse};
 use super::lock::lock;
 use super::loss::DeviceLost;
+use super::marks::Marks;
 #[cfg(test)]
 use super::rough::Change;
 use super::transform_feedback::FeedbackFunctions;
@@ -25,7 +26,7 @@ use super::transform_feedback::FeedbackFunctions;
 /// When passes leave marks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Breadcrumbs {
-    /// Where that costs next to nothing: on devices with VK_AMD_buffer_marker.
+    /// Where that costs next to nothing: on devices with VK_AMD_buffer_marker or VK_NV_device_diagnostic_checkpoints.
     #[default]
     WhereCheap,
     /// Always, elsewhere by a fill of four bytes a pass.
@@ -65,6 +66,9 @@ pub struct DeviceSettings {
     pub lose_after_passes: Option<u64>,
     /// What it tells of the stages it runs.
     pub inspect: Inspect,
+    /// Functions in place of VK_NV_device_diagnostic_checkpoints.
+    #[cfg(test)]
+    pub(crate) checkpoints: Option<fn() -> ash::nv::device_diagnostic_checkpoints::DeviceFn>,
     /// Changes the code of stages before they are compiled: how tests make a device inexact.
     #[cfg(test)]
     pub(crate) code: Option<Change>,
@@ -81,6 +85,8 @@ impl Default for DeviceSettings {
             patience: Duration::from_secs(600),
             lose_after_passes: None,
             inspect: Inspect::default(),
+            #[cfg(test)]
+            checkpoints: None,
             #[cfg(test)]
             code: None,
         }
@@ -101,7 +107,9 @@ pub(super) struct DeviceShared {
     pub(super) facts: DeviceFacts,
     pub(super) debug: Option<ext::debug_utils::Device>,
     pub(super) feedback: Option<FeedbackFunctions>,
-    pub(super) markers: Option<amd::buffer_marker::Device>,
+    pub(super) marks: Option<Marks>,
+    /// Recordings so far, each of which has its number.
+    pub(super) recordings: AtomicU64,
     pub(super) settings: DeviceSettings,
     pub(super) allocator: Mutex<Option<Allocator>>,
     /// Bytes taken of `facts.capabilities.memory`.
@@ -186,13 +194,14 @@ impl DeviceShared {
     }
 
     /// Waits until a lane's timeline has reached `value`, as long as the device gets on. `begun` tells the last one of `passes` that
-    /// has begun.
+    /// has begun; `begun_by_lost` does so of a device that is lost.
     pub(super) fn wait(
         &self,
         lane: usize,
         value: u64,
         passes: &[String],
         begun: impl Fn() -> Option<usize>,
+        begun_by_lost: impl Fn() -> Option<usize>,
     ) -> Result<()> {
         const LOOK_EVERY: Duration = Duration::from_secs(1);
         self.check_alive()?;
@@ -200,7 +209,7 @@ impl DeviceShared {
         let between_looks = patience.min(LOOK_EVERY).as_nanos() as u64;
         let (semaphores, values) = ([self.lanes.of(lane).timeline], [value]);
         let info = vk::SemaphoreWaitInfo::default().semaphores(&semaphores).values(&values);
-        let last_pass = || begun().and_then(|pass| passes.get(pass).cloned());
+        let name = |pass: Option<usize>| pass.and_then(|pass| passes.get(pass).cloned());
         // The breadcrumbs are first read when the first look is due: most work is done by then.
         let (mut seen, mut since, begin) = (None, Instant::now(), Instant::now());
         loop {
@@ -212,14 +221,14 @@ impl DeviceShared {
                     return Ok(());
                 }
                 Err(vk::Result::TIMEOUT) => {}
-                Err(result) => return Err(self.failure(result, "finish its work", last_pass)),
+                Err(result) => return Err(self.failure(result, "finish its work", || name(begun_by_lost()))),
             }
             let now = begun();
             if now != seen {
                 (seen, since) = (now, Instant::now());
             } else if since.elapsed() >= patience {
                 self.is_given_up.store(true, Ordering::Relaxed);
-                return Err(DeviceLost { given_up_after: Some(patience), ..self.lose(last_pass()) }.into());
+                return Err(DeviceLost { given_up_after: Some(patience), ..self.lose(name(begun())) }.into());
             }
         }
     }
@@ -258,9 +267,9 @@ impl DeviceShared {
         drop(done);
     }
 
-    /// Whether passes leave marks.
+    /// Whether passes leave marks in a buffer.
     pub(super) fn leaves_breadcrumbs(&self) -> bool {
-        self.markers.is_some() || self.settings.breadcrumbs == Breadcrumbs::Always
+        matches!(self.marks, Some(Marks::Words(_))) || self.settings.breadcrumbs == Breadcrumbs::Always
     }
 
     /// An error if the device has been lost.

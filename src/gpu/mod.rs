@@ -22,6 +22,7 @@ mod interface;
 mod lanes;
 mod lock;
 mod loss;
+mod marks;
 mod memory;
 mod pass;
 mod pipeline;

@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 use std::ffi::CString;
+use std::sync::atomic::Ordering;
 
 use anyhow::{Result, bail, ensure};
 use ash::vk;
@@ -12,6 +13,7 @@ use super::device::Device;
 use super::hazards::{Barrier, Hazards, Stages, Use};
 use super::image::{Image, whole};
 use super::lanes::MAIN;
+use super::marks::Marks;
 use super::memory::Memory;
 use super::pass::{Dispatch, Groups};
 use super::pipeline::{Pipeline, Resource, uses, with_counters};
@@ -74,6 +76,7 @@ impl Device {
             .map_err(|result| device.failure(result, "make a command pool", || None))?;
         let mut parts = RecordingParts {
             device: device.clone(),
+            number: device.recordings.fetch_add(1, Ordering::Relaxed),
             pool,
             commands: vk::CommandBuffer::null(),
             ended: Vec::new(),
@@ -256,7 +259,13 @@ impl Recorder {
             .dst_access_mask(vk::AccessFlags2::HOST_READ);
         self.depend(memory, &[]);
         self.parts.end_commands()?;
-        Ok(Recording { device: self.device, parts: Some(self.parts), submitted: 0 })
+        Ok(Recording {
+            device: self.device,
+            parts: Some(self.parts),
+            submitted: 0,
+            #[cfg(test)]
+            barriers: self.barriers,
+        })
     }
 
     pub(super) fn begin(&mut self, name: &str) -> Result<()> {
@@ -349,17 +358,20 @@ impl Recorder {
         if std::mem::replace(&mut self.is_marked, true) {
             return;
         }
+        let pass = self.parts.passes.len() - 1;
+        let (device, commands) = (&self.device.shared, self.parts.commands);
+        if let Some(marks) = &device.marks {
+            marks.set_checkpoint(commands, self.parts.number, pass);
+        }
         let Some(breadcrumbs) = &self.parts.breadcrumbs else { return };
-        let pass = self.parts.passes.len() as u64 - 1;
-        let (device, commands, buffer) = (&self.device.shared, self.parts.commands, breadcrumbs.shared.handle);
+        let (buffer, place) = (breadcrumbs.shared.handle, 4 * pass as u64);
         // SAFETY: recording, outside of rendering; the buffer has a word for every pass.
         unsafe {
-            match &device.markers {
-                Some(markers) => {
-                    let first = vk::PipelineStageFlags::TOP_OF_PIPE;
-                    markers.cmd_write_buffer_marker(commands, first, buffer, 4 * pass, 1);
+            match &device.marks {
+                Some(Marks::Words(functions)) => {
+                    functions.cmd_write_buffer_marker(commands, vk::PipelineStageFlags::TOP_OF_PIPE, buffer, place, 1);
                 }
-                None => device.raw.cmd_fill_buffer(commands, buffer, 4 * pass, 4, 1),
+                _ => device.raw.cmd_fill_buffer(commands, buffer, place, 4, 1),
             }
         }
     }

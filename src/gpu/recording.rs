@@ -22,6 +22,9 @@ pub struct Recording {
     pub(super) parts: Option<RecordingParts>,
     /// Timeline value of the last submission, 0 before the first.
     pub(super) submitted: u64,
+    /// Barriers between its passes.
+    #[cfg(test)]
+    pub(super) barriers: usize,
 }
 
 impl std::fmt::Debug for Recording {
@@ -35,6 +38,8 @@ impl std::fmt::Debug for Recording {
 /// What a recording holds, and what must outlive its run.
 pub(super) struct RecordingParts {
     pub(super) device: Arc<DeviceShared>,
+    /// Among those of the device.
+    pub(super) number: u64,
     pub(super) pool: vk::CommandPool,
     /// The one being recorded, and those before it: each is a submission.
     pub(super) commands: vk::CommandBuffer,
@@ -65,6 +70,12 @@ impl Recording {
     /// Names of the passes in order.
     pub fn passes(&self) -> &[String] {
         self.parts.as_ref().map_or(&[], |parts| &parts.passes)
+    }
+
+    /// Barriers between the passes.
+    #[cfg(test)]
+    pub(crate) fn barriers(&self) -> usize {
+        self.barriers
     }
 
     /// Hands the passes to the device and returns at once.
@@ -118,8 +129,8 @@ impl Recording {
         if self.submitted == 0 {
             return Ok(());
         }
-        let begun = || self.last_pass_begun();
-        self.device.shared.wait(self.device.lane, self.submitted, self.passes(), begun)
+        let (begun, begun_by_lost) = (|| self.last_pass_begun(), || self.last_pass_begun_by_lost());
+        self.device.shared.wait(self.device.lane, self.submitted, self.passes(), begun, begun_by_lost)
     }
 
     /// Runs all passes and waits for them.
@@ -144,6 +155,15 @@ impl Recording {
         let parts = self.parts.as_ref()?;
         let breadcrumbs = parts.breadcrumbs.as_ref()?;
         (0..parts.passes.len()).rev().find(|&pass| breadcrumbs.glance(pass).is_some_and(|mark| mark != 0))
+    }
+
+    /// The same of a device that is lost, which may tell more.
+    pub(super) fn last_pass_begun_by_lost(&self) -> Option<usize> {
+        let device = &self.device.shared;
+        self.last_pass_begun().or_else(|| {
+            let queue = device.lanes.queue(self.device.lane);
+            device.marks.as_ref()?.last_begun(*queue, self.parts.as_ref()?.number)
+        })
     }
 
     /// The times of all passes of the last run, which must have been waited for; empty when the recording does not measure.

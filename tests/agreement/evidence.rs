@@ -10,7 +10,7 @@ use pantin::evaluate::device::{
 use pantin::evaluate::{Evaluator, Objective, ObjectiveKind, Reference, SegmentSums};
 use pantin::features::{Evidence, Observation, PartClasses, Segment, Segmentation, Segments};
 use pantin::geometry::Camera;
-use pantin::gpu::{DeviceSettings, Timing};
+use pantin::gpu::{Capabilities, Device, DeviceSettings, Timing};
 use pantin::search::{DeviceSearch, SearchKind, SearchSettings, SearchSpace};
 
 use crate::device::device;
@@ -104,7 +104,20 @@ fn a_mesh_s_evidence_is_that_of_the_pictures_it_draws() {
 #[test]
 fn a_search_on_the_device_finds_what_the_host_finds() {
     const NAME: &str = "a_search_on_the_device_finds_what_the_host_finds";
-    let Some((device, log)) = device(NAME, DeviceSettings::default()) else { return };
+    // What comes behind the drawing is done in one workgroup, or in many as on a card.
+    let forms: [fn(&mut Capabilities); 2] = [|it| it.wide = false, |it| it.wide = true];
+    for lower in forms {
+        let settings = DeviceSettings { lower: Some(lower), ..DeviceSettings::default() };
+        let Some((device, log)) = device(NAME, settings) else { return };
+        for kind in [SearchKind::Pso, SearchKind::MaEs] {
+            search_as_the_host_does(&device, kind);
+        }
+        drop(device);
+        assert_eq!(log.messages(), Vec::<String>::new());
+    }
+}
+
+fn search_as_the_host_does(device: &Device, kind: SearchKind) {
     let (body, cameras, seen, _) = case(5, 1, 50);
     let next = self::seen(&cameras, &classes(5), &mut Random(51));
     let frames = [seen, ignoring(&next, &mut Random(52))];
@@ -112,8 +125,7 @@ fn a_search_on_the_device_finds_what_the_host_finds() {
     let spread = space.spread(0.04).unwrap();
     let standing: Vec<f32> = body.standing_pose().iter().map(|value| *value as f32).collect();
     let objective = Objective::of(ObjectiveKind::Evidence);
-    let settings =
-        SearchSettings { kind: SearchKind::Pso, particles: 23, iterations: 3, seed: 3, ..SearchSettings::default() };
+    let settings = SearchSettings { kind, particles: 23, iterations: 3, seed: 3, ..SearchSettings::default() };
     let mut cpu = Cpu::new(&body, &cameras).unwrap();
     let mut search = settings.build(&space).unwrap();
     let mut centre = standing.clone();
@@ -128,10 +140,10 @@ fn a_search_on_the_device_finds_what_the_host_finds() {
         expected.push((estimate, views));
     }
     let usual = GraphicsSettings::default();
-    let graphics = |settings| Box::new(Graphics::on(&device, &body, &cameras, settings).unwrap());
+    let graphics = |settings| Box::new(Graphics::on(device, &body, &cameras, settings).unwrap());
     let evaluators: [(&str, Box<dyn Evaluator>); 4] = [
-        ("compute", Box::new(Compute::on(&device, &body, &cameras).unwrap())),
-        ("compute, spans first", Box::new(Compute::with_kernel(&device, &body, &cameras, SPANS).unwrap())),
+        ("compute", Box::new(Compute::on(device, &body, &cameras).unwrap())),
+        ("compute, spans first", Box::new(Compute::with_kernel(device, &body, &cameras, SPANS).unwrap())),
         ("graphics", graphics(usual)),
         ("graphics, depth", graphics(GraphicsSettings { packing: Packing::Depth, ..usual })),
     ];
@@ -155,8 +167,6 @@ fn a_search_on_the_device_finds_what_the_host_finds() {
             centre = &estimate.pose;
         }
     }
-    drop(device);
-    assert_eq!(log.messages(), Vec::<String>::new());
 }
 
 /// Evidence comes, changes its classes, stands beside segments, and goes again.

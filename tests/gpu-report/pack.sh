@@ -29,7 +29,8 @@ for pair in "$release/pantin pantin" "$tests stages"; do
 done
 cp tests/gpu-report/run.sh "$folder/run.sh"
 "$release/pantin" --version >"$folder/version"
-git rev-parse --short HEAD >>"$folder/version" 2>/dev/null || true
+# A commit by its number, and whether what was packed is more than that.
+git describe --always --dirty --exclude='*' >>"$folder/version" 2>/dev/null || true
 
 kb=$(du -sk "$folder" | cut -f1)
 [ "$kb" -le $most_kb ] || { say "target/gpu-report has $kb kB, more than $most_kb"; exit 1; }

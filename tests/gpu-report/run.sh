@@ -27,7 +27,8 @@ export PANTIN_NEEDS_VULKAN=1 PANTIN_TEST_VALIDATION=off PROPTEST_RNG_SEED=1
 started=$(date +%s)
 failed=0
 
-# line NAME SECONDS FILE COMMAND...: one line of the report. What it prints goes to the end of FILE, its verdict to lines.tsv.
+# line NAME SECONDS FILE COMMAND...: one line of the report. What it prints goes to the end of FILE, its verdict to lines.tsv, and what it says
+# beside that to messages.txt, under its name.
 line() {
     name=$1 limit=$(($2 * times)) file=$3
     shift 3
@@ -38,6 +39,7 @@ line() {
         printf '%s\tleft out\t0\n' "$name" | tee -a "$results/lines.tsv"
         return 1
     fi
+    printf '\n== %s\n' "$name" >>"$results/messages.txt"
     timeout -k 3 "$limit" "$@" >>"$file" 2>>"$results/messages.txt"
     code=$?
     case $code in
@@ -45,6 +47,7 @@ line() {
         124 | 137) verdict='out of time' ;;
         *) verdict=FAILED failed=1 ;;
     esac
+    [ $code = 0 ] || echo "== $name: $verdict, of $limit s" >>"$results/messages.txt"
     printf '%s\t%s\t%s\n' "$name" "$verdict" $(($(date +%s) - begin)) | tee -a "$results/lines.tsv"
     [ $code = 0 ]
 }

@@ -19,7 +19,7 @@ use crate::body::Body;
 use crate::evaluate::batch::check_batch;
 use crate::evaluate::besides::Besides;
 use crate::evaluate::components::Components;
-use crate::evaluate::device_evaluator::DeviceEvaluator;
+use crate::evaluate::device_evaluator::{DeviceEvaluator, Scoring};
 use crate::evaluate::evaluator::{Evaluator, Footprint, check_segment_batch};
 use crate::evaluate::evidence::{evidence_of, no_evidence};
 use crate::evaluate::objective::{AreaSums, Objective};
@@ -108,7 +108,7 @@ impl<R: Rasteriser> DeviceBackend<R> {
         }
         match asked {
             Asked::Fitness(objective) if !on_host => {
-                self.resources.record_objective(&mut recorder, &objective, candidates)?;
+                recorder.run(self.resources.scoring(&objective, candidates)?.dispatch)?;
                 host.record_fitness(&mut recorder, candidates)?;
             }
             _ => {
@@ -471,11 +471,15 @@ impl<R: Rasteriser> DeviceEvaluator for DeviceBackend<R> {
         self.rasteriser.record_upload(recorder, self.is_handed_observations())
     }
 
-    fn record(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
+    fn record_sums(&self, recorder: &mut Recorder, objective: &Objective, candidates: u32) -> Result<()> {
         let summed = self.resources.summed(Besides::of(objective))?;
         for share in self.resources.shares(candidates, self.rasteriser.batch(&self.resources.workspace))? {
             self.rasteriser.record_share(recorder, &self.resources, summed, share)?;
         }
-        self.resources.record_objective(recorder, objective, candidates)
+        Ok(())
+    }
+
+    fn scoring(&self, objective: &Objective, candidates: u32) -> Result<Scoring<'_>> {
+        self.resources.scoring(objective, candidates)
     }
 }

@@ -5,13 +5,14 @@ use anyhow::Result;
 use super::scene::{DeviceScene, Share};
 use super::summed::Summed;
 use super::workspace::Workspace;
+use crate::evaluate::device_evaluator::{ScoredBy, Scoring};
 use crate::evaluate::objective::Objective;
 use crate::evaluate::shaders::{
     PROJECT_GROUP, RASTER_GROUP, RASTER_WORDS, layout, objective_comp, objective_evidence_comp,
     objective_segments_comp, pose_comp, pose_project_comp, project_comp, raster_comp, raster_evidence_comp,
     raster_segments_comp, raster_shared_comp,
 };
-use crate::gpu::{Buffer, Device, DeviceKind, Groups, Recorder, ShaderStage};
+use crate::gpu::{Buffer, Device, Groups, Recorder, ShaderStage};
 
 /// Which images of a share are drawn.
 #[derive(Clone, Copy, Debug)]
@@ -78,7 +79,7 @@ pub(super) fn pose_project(
 /// The room of a workgroup that poses and projects in one pass; none where two passes suit the device better. Invocations of a workgroup
 /// wait for each other dearly on a processor: 20 ms where the two passes take 7 (docs/PERFORMANCE.md).
 fn posed_together(scene: &DeviceScene) -> Option<pose_project_comp::Constants> {
-    room_for_bones(scene).filter(|_| scene.device.facts().kind != DeviceKind::Cpu)
+    room_for_bones(scene).filter(|_| scene.device.capabilities().wide)
 }
 
 /// The room of a workgroup for the bones of the candidates that its images are of, wherever it begins among them; none where it has not
@@ -198,17 +199,16 @@ pub(super) fn raster(
     }
 }
 
-/// Records the objective (METHOD A7) of the first `candidates` of a run, in one go however many batches they took: `workspace.sums`,
-/// and what is summed besides, to `fitness`, single precision, one a candidate.
-pub(super) fn objective(
-    recorder: &mut Recorder,
-    (scene, workspace): (&DeviceScene, &Workspace),
-    summed: Summed<'_>,
+/// The objective (METHOD A7) of the first `candidates` of a run, in one go however many batches they took: `workspace.sums`, and what is
+/// summed besides, to `fitness`, single precision, one a candidate.
+pub(super) fn objective<'a>(
+    (scene, workspace): (&'a DeviceScene, &'a Workspace),
+    summed: Summed<'a>,
     (objective, candidates): (&Objective, u32),
-    fitness: &Buffer,
-) -> Result<()> {
+    fitness: &'a Buffer,
+) -> Scoring<'a> {
     let (_, terms, over) = objective.kind.formula();
-    let push = layout::Scoring {
+    let scoring = layout::Scoring {
         candidates,
         views: scene.counts.views,
         terms: terms as u32,
@@ -217,19 +217,23 @@ pub(super) fn objective(
         w1: objective.w1,
         w2: objective.w2,
     };
-    let groups = Groups::Over([candidates, 1, 1]);
+    let (push, groups) = (layout::Objective { scoring }, Groups::Over([candidates, 1, 1]));
     let (cameras, all_sums) = (&scene.cameras.buffer, &workspace.sums);
     match summed {
-        Summed::Nothing => recorder.run(objective_comp::Bindings { cameras, all_sums, fitness }.dispatch(push, groups)),
+        Summed::Nothing => {
+            let bindings = objective_comp::Bindings { cameras, all_sums, fitness };
+            Scoring { by: ScoredBy::Silhouettes, dispatch: bindings.dispatch(push, groups) }
+        }
         Summed::Segments(segments, segment_edges) => {
             let (table, all_segment_sums) = (&segments.table.buffer, &segments.sums);
             let bindings = objective_segments_comp::Bindings { cameras, all_sums, fitness, table, all_segment_sums };
-            recorder.run(bindings.dispatch(objective_segments_comp::Constants { segment_edges }, push, groups))
+            let constants = objective_segments_comp::Constants { segment_edges };
+            Scoring { by: ScoredBy::Segments, dispatch: bindings.dispatch(constants, push, groups) }
         }
         Summed::Evidence(own) => {
             let (table, all_evidence) = (&own.table.buffer, &own.sums);
             let bindings = objective_evidence_comp::Bindings { all_sums, fitness, table, all_evidence };
-            recorder.run(bindings.dispatch(push, groups))
+            Scoring { by: ScoredBy::Evidence, dispatch: bindings.dispatch(push, groups) }
         }
     }
 }

@@ -10,6 +10,7 @@ use super::segments::DeviceSegments;
 use super::summed::Summed;
 use super::workspace::Workspace;
 use crate::evaluate::besides::Besides;
+use crate::evaluate::device_evaluator::Scoring;
 use crate::evaluate::evidence::no_evidence;
 use crate::evaluate::objective::Objective;
 use crate::gpu::Recorder;
@@ -59,16 +60,11 @@ impl Resources {
         evidence.map_or(Ok(()), |evidence| evidence.record_upload(recorder))
     }
 
-    /// Records the fitness of a run from its sums.
-    pub(super) fn record_objective(
-        &self,
-        recorder: &mut Recorder,
-        objective: &Objective,
-        candidates: u32,
-    ) -> Result<()> {
+    /// What makes the fitness of a run from its sums.
+    pub(super) fn scoring(&self, objective: &Objective, candidates: u32) -> Result<Scoring<'_>> {
         let Self { scene, workspace, host, .. } = self;
-        let (run, summed) = ((objective, candidates), self.summed(Besides::of(objective))?);
-        passes::objective(recorder, (scene, workspace), summed, run, &host.fitness)
+        let summed = self.summed(Besides::of(objective))?;
+        Ok(passes::objective((scene, workspace), summed, (objective, candidates), &host.fitness))
     }
 
     /// The batches of at most `batch` candidates of a run.

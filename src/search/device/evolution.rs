@@ -2,18 +2,22 @@
 
 use anyhow::{Result, bail};
 
+use super::behind::LEARN;
 use super::frame::{DeviceForm, FrameRecording};
-use crate::gpu::{Buffer, Groups, Memory};
+use crate::gpu::{Buffer, Device, Groups, Memory};
 use crate::search::kinds::{Rates, generations};
 use crate::search::shaders::{
-    SEARCH_GROUP, begin_comp, choose_comp, follow_comp, rank_comp, sample_comp, settle_comp, turn_comp,
+    LEARN_DOFS, LEARN_SAMPLES, SEARCH_GROUP, SUM_LANES, begin_comp, choose_comp, follow_comp, layout, learn_comp,
+    rank_comp, sample_comp, settle_comp, turn_comp,
 };
 use crate::search::{MatrixSettings, SearchSpace};
 
 /// What an evolution keeps between its stages.
 struct Evolution {
-    /// Step size, mean, path and limits.
-    state: Buffer,
+    /// Step size, mean, path and limits, and their next: the same memory where every stage has a pass of its own.
+    state: [Buffer; 2],
+    /// Workgroups of what comes behind the drawing where that is one pass.
+    together: Option<u32>,
     /// The matrix and its next.
     matrix: [Buffer; 2],
     normals: Buffer,
@@ -37,7 +41,7 @@ impl DeviceForm for MatrixSettings {
         let bindings = begin_comp::Bindings {
             frame: &memory.frame.buffer,
             outcome: &memory.outcome,
-            evolution: &evolution.state,
+            evolution: &evolution.state[0],
             matrix: &evolution.matrix[0],
         };
         frame.recorder.run(bindings.dispatch(begin_comp::Push { dofs, sigma }, each))?;
@@ -48,13 +52,9 @@ impl DeviceForm for MatrixSettings {
                 done += 1;
             }
         }
-        let matrix = &evolution.matrix[done % 2];
-        let bindings = settle_comp::Bindings {
-            frame: &memory.frame.buffer,
-            outcome: &memory.outcome,
-            evolution: &evolution.state,
-            matrix,
-        };
+        let (state, matrix) = (&evolution.state[done % 2], &evolution.matrix[done % 2]);
+        let bindings =
+            settle_comp::Bindings { frame: &memory.frame.buffer, outcome: &memory.outcome, evolution: state, matrix };
         let groups = Groups::Count([dofs.div_ceil(SEARCH_GROUP), 1, 1]);
         frame.recorder.run(bindings.dispatch(settle_comp::Push { dofs }, groups))?;
         frame.evaluate_mean()?;
@@ -78,11 +78,12 @@ impl FrameRecording<'_> {
         done: usize,
     ) -> Result<()> {
         let (dofs, memory) = (self.extent.dofs, self.memory);
-        let Evolution { state, matrix, normals, steps, weights, ranked, rates } = evolution;
+        let Evolution { state, together, matrix, normals, steps, weights, ranked, rates } = evolution;
         let Some((_, first_weight, rates)) = rates.iter().find(|(count, ..)| *count == samples) else {
             bail!("generations of {samples} samples have no weights")
         };
-        let (old, next) = (&matrix[done % 2], &matrix[(done + 1) % 2]);
+        let [old, next] = [done % 2, (done + 1) % 2].map(|side| &matrix[side]);
+        let [state, next_state] = [done % 2, (done + 1) % 2].map(|side| &state[side]);
         let (positions, fitness) = (self.evaluator.poses().clone(), self.evaluator.fitness().clone());
         let sums = self.evaluator.sums().clone();
         let frame = &memory.frame.buffer;
@@ -91,9 +92,42 @@ impl FrameRecording<'_> {
         let push = sample_comp::Push { samples, dofs, iteration, first };
         let row = samples.min(self.recorder.device().capabilities().max_groups);
         self.recorder.run(bindings.dispatch(push, Groups::Count([row, 1, samples.div_ceil(row)])))?;
+        let parents = rates.weights.len() as u32;
+        let ([path_kept, path_gain], [sigma_gain, sigma_loss], [kept, of_path, of_samples]) =
+            (rates.path, rates.sigma, rates.matrix);
+        if let Some(groups) = together {
+            let bindings = learn_comp::Bindings {
+                all_sums: &sums,
+                fitness: &fitness,
+                outcome: &memory.outcome,
+                evolution: state,
+                next_evolution: next_state,
+                ranked,
+                normals,
+                steps,
+                matrix: old,
+                next,
+                positions: &positions,
+                best_sums: &memory.sums,
+            };
+            let push = |scoring| layout::Learn {
+                scoring,
+                dofs,
+                first_weight: *first_weight,
+                parents,
+                path_kept,
+                path_gain,
+                sigma_gain,
+                sigma_loss,
+                kept,
+                of_path,
+                of_samples,
+            };
+            return self.run_behind(&LEARN, samples, &bindings.bound(), push, *groups);
+        }
         self.evaluate(samples)?;
         let bindings = rank_comp::Bindings { evolution: state, fitness: &fitness, ranked, weights };
-        let push = rank_comp::Push { samples, first_weight: *first_weight, parents: rates.weights.len() as u32 };
+        let push = rank_comp::Push { samples, first_weight: *first_weight, parents };
         self.recorder.run(bindings.dispatch(push, Groups::Over([samples, 1, 1])))?;
         let bindings = follow_comp::Bindings {
             outcome: &memory.outcome,
@@ -106,14 +140,11 @@ impl FrameRecording<'_> {
             sums: &sums,
             best_sums: &memory.sums,
         };
-        let [path_kept, path_gain] = rates.path;
-        let [sigma_gain, sigma_loss] = rates.sigma;
         let views = self.evaluator.views() as u32;
         let push = follow_comp::Push { samples, dofs, views, path_kept, path_gain, sigma_gain, sigma_loss };
         self.recorder.run(bindings.dispatch(push, Groups::Count([1; 3])))?;
         let bindings =
             turn_comp::Bindings { evolution: state, fitness: &fitness, weights, normals, steps, matrix: old, next };
-        let [kept, of_path, of_samples] = rates.matrix;
         let push = turn_comp::Push { samples, dofs, kept, of_path, of_samples };
         self.recorder.run(bindings.dispatch(push, Groups::Count([dofs.div_ceil(SEARCH_GROUP), dofs, 1])))
     }
@@ -136,10 +167,14 @@ impl FrameRecording<'_> {
         let by_rank = device.buffer::<f32>("weights of ranks", ranked.len(), Memory::Upload)?;
         by_rank.write(0, &ranked)?;
         // The step size and the best sample, four rows.
-        let state = self.values("evolution", 2 + 4 * extent.dofs, 1)?;
+        let state = || self.values("evolution", 2 + 4 * extent.dofs, 1);
+        let together = learnt_together(device, most, extent.dofs);
+        let first = state()?;
+        let next = if together.is_some() { state()? } else { first.clone() };
         let matrix = || self.values("matrix", extent.dofs, extent.dofs);
         Ok(Evolution {
-            state,
+            state: [first, next],
+            together,
             matrix: [matrix()?, matrix()?],
             normals: self.values("normal numbers", most, extent.dofs)?,
             steps: self.values("steps", most, extent.dofs)?,
@@ -148,4 +183,11 @@ impl FrameRecording<'_> {
             rates,
         })
     }
+}
+
+/// The workgroups of what comes behind the drawing of a generation, where the device has room for it in one pass.
+fn learnt_together(device: &Device, samples: u32, dofs: u32) -> Option<u32> {
+    let fits = samples <= LEARN_SAMPLES && dofs <= LEARN_DOFS && LEARN.fits(device);
+    // An entry of the matrix an invocation, on a device that runs many workgroups at a time.
+    fits.then(|| if device.capabilities().wide { (dofs * dofs).div_ceil(SUM_LANES) } else { 1 })
 }

@@ -5,6 +5,9 @@
 //! What it does is recorded once; a frame writes its centre and spread, submits the recording and waits.
 
 mod annealed;
+mod behind;
+#[cfg(test)]
+mod behind_tests;
 mod evolution;
 mod filter;
 mod frame;

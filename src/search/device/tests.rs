@@ -9,6 +9,7 @@
 use std::time::Instant;
 
 use super::*;
+use crate::evaluate::{ScoredBy, Scoring};
 use crate::gpu::test_device::{device, device_under};
 use crate::gpu::{Buffer, Device, DeviceSettings, Groups, Memory, Recorder, StagedBuffer, Validation, by_name};
 use crate::search::arithmetic::box_muller;
@@ -39,12 +40,12 @@ fn fetch<T: bytemuck::Pod>(device: &Device, buffer: &Buffer) -> Vec<T> {
 
 /// What is not a good number, and above which first value of a pose it is given.
 #[derive(Clone, Copy)]
-struct Bad {
-    from: f32,
-    value: f32,
+pub(super) struct Bad {
+    pub(super) from: f32,
+    pub(super) value: f32,
 }
 
-const NOTHING_BAD: Bad = Bad { from: f32::MAX, value: 0.0 };
+pub(super) const NOTHING_BAD: Bad = Bad { from: f32::MAX, value: 0.0 };
 
 /// The fitness of `score.comp`.
 fn score(pose: &[f32], target: &[f32], bad: Bad) -> f32 {
@@ -69,8 +70,8 @@ struct Scorer {
     poses: Buffer,
     fitness: Buffer,
     sums: Buffer,
-    /// After how many evaluations of a frame which value of the poses is overwritten by which number.
-    nudge: Option<(std::cell::Cell<i32>, usize, Buffer)>,
+    /// After how many evaluations of a frame which candidate's fitness is another one.
+    nudge: Option<(std::cell::Cell<i32>, u32)>,
 }
 
 impl Scorer {
@@ -119,18 +120,19 @@ impl DeviceEvaluator for Scorer {
     fn record_upload(&self, recorder: &mut Recorder) -> Result<()> {
         self.target.record_upload(recorder)
     }
-    fn record(&self, recorder: &mut Recorder, _: &Objective, candidates: u32) -> Result<()> {
-        if let Some((left, place, value)) = &self.nudge {
-            left.set(left.get() - 1);
-            if left.get() == 0 {
-                recorder.copy("nudge", (value, 0), (&self.poses, 4 * *place as u64), 4)?;
-            }
-        }
+    fn record_sums(&self, _: &mut Recorder, _: &Objective, _: u32) -> Result<()> {
+        Ok(())
+    }
+    fn scoring(&self, _: &Objective, candidates: u32) -> Result<Scoring<'_>> {
         let push = score_comp::Push {
             candidates,
             dofs: self.dofs as u32,
             bad_from: self.bad.from.to_bits(),
             bad: self.bad.value.to_bits(),
+            nudged: self.nudge.as_ref().map_or(u32::MAX, |(left, candidate)| {
+                left.set(left.get() - 1);
+                if left.get() == 0 { *candidate } else { u32::MAX }
+            }),
         };
         let bindings = score_comp::Bindings {
             target: &self.target.buffer,
@@ -138,7 +140,8 @@ impl DeviceEvaluator for Scorer {
             fitness: &self.fitness,
             sums: &self.sums,
         };
-        recorder.run(bindings.dispatch(push, Groups::Over([candidates, 1, 1])))
+        let dispatch = bindings.dispatch(push, Groups::Over([candidates, 1, 1]));
+        Ok(Scoring { by: ScoredBy::Otherwise, dispatch })
     }
 }
 
@@ -163,7 +166,7 @@ fn target_of(frame: u32, dofs: usize) -> Vec<f32> {
     start(dofs).iter().enumerate().map(|(d, x)| x + wave(d)).collect()
 }
 
-fn settings(kind: SearchKind, particles: usize, iterations: usize) -> SearchSettings {
+pub(super) fn settings(kind: SearchKind, particles: usize, iterations: usize) -> SearchSettings {
     let filter = FilterSettings { sigma: 0.1 };
     SearchSettings { kind, particles, iterations, seed: 0x0123_4567_89AB_CDEF, filter, ..SearchSettings::default() }
 }
@@ -193,20 +196,16 @@ fn on_the_processor(
 }
 
 /// What differs between a device's frames and the processor's, in words; none when nothing does.
-fn difference(
+pub(super) fn difference(
     device: &Device,
     settings: &SearchSettings,
     dofs: usize,
     bad: Bad,
-    nudge: Option<(i32, usize)>,
+    nudge: Option<(i32, u32)>,
 ) -> Option<String> {
     let space = space(dofs);
     let mut scorer = Scorer::new(device, &target_of(0, dofs), bad);
-    if let Some((batch, place)) = nudge {
-        let value = device.buffer::<f32>("nudge", 1, Memory::Upload).unwrap();
-        value.write(0, &[start(dofs)[place % dofs] + 0.125]).unwrap();
-        scorer.nudge = Some((std::cell::Cell::new(batch), place, value));
-    }
+    scorer.nudge = nudge.map(|(batch, candidate)| (std::cell::Cell::new(batch), candidate));
     let mut there = DeviceSearch::new(&mut scorer, &Objective::default(), settings, &space, Timing::Off).unwrap();
     let mut here = settings.build(&space).unwrap();
     let spread = space.spread(0.04).unwrap();
@@ -341,9 +340,12 @@ fn one_changed_number_is_noticed() {
         let batch = if kind == SearchKind::Hierarchical { 11 } else { 2 };
         // An evolution scores a generation at a time.
         let last = if kind == SearchKind::MaEs { 49 } else { 299 };
-        for place in [31, 17 * 31 + 5, last * 31 + 30] {
-            let odd = difference(&device, &settings(kind, 300, 15), 31, NOTHING_BAD, Some((batch, place)));
-            assert!(odd.is_some(), "{kind:?}: value {place} of batch {batch} was another, and nothing differs");
+        for candidate in [0, 17, last] {
+            let odd = difference(&device, &settings(kind, 300, 15), 31, NOTHING_BAD, Some((batch, candidate)));
+            assert!(
+                odd.is_some(),
+                "{kind:?}: the fitness {candidate} of batch {batch} was another, and nothing differs"
+            );
         }
     }
 }
