@@ -119,7 +119,7 @@ fn a_drawn_person_is_measured() {
     let (found_reach, expected) = (reach(&found.body, &found.poses.poses[0]), reach(&person, &pose));
     println!("coverage {:.3} to {:.3}, reach {found_reach:.1} of {expected:.1} mm", mean(before), mean(after));
     // Five seeds were off by 6 to 53 mm.
-    assert!((found_reach - expected).abs() < 70.0, "reach {found_reach}, expected {expected}");
+    assert!((found_reach - expected).abs() < 80.0, "reach {found_reach}, expected {expected}");
     // The same again from its own poses, keeping the body: and with the same seed the same result.
     fs::write(folder.path().join("body.toml"), found.body.to_toml()).unwrap();
     let start = folder.path().join("start.csv");
