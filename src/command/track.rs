@@ -79,6 +79,10 @@ pub(super) struct TrackOptions {
     /// How often the run goes over its frames. Without: both with the search maes, forward with the others and in real time.
     #[arg(long, value_name = "NAME")]
     passes: Option<Passes>,
+    /// Measure the person again between the two passes, in the poses of the first: where joints lie in the flesh, bent limbs tell and a
+    /// T-pose does not. Where other frames fit better with that body the results are of it: refined_body.toml beside them.
+    #[arg(long)]
+    measure_again: bool,
     /// Search wider for a person who is lost, and leave frames without a find as gaps in the results; in a run of one pass with the search
     /// maes, look for limbs that show elsewhere too: yes or no.
     #[arg(long, value_name = "yes|no", default_value = "yes", value_parser = yes_or_no, action = ArgAction::Set)]
@@ -157,6 +161,7 @@ impl TrackOptions {
             predict: self.predict,
             width: self.width,
             passes: self.passes,
+            measure_again: self.measure_again,
             recover: self.recover,
             frames: self.frames,
             start: self.start.clone(),

@@ -8,10 +8,12 @@ use super::batch::check_batch;
 use super::components::Components;
 use super::device_evaluator::DeviceEvaluator;
 use super::evidence::{EvidenceSum, no_evidence};
+use super::mesh_projection::bound_to_its_body;
 use super::objective::{AreaSums, Objective};
 use super::raster::CandidateImage;
 use super::segments::{SegmentSums, no_segments};
 use super::view_counts::ViewCounts;
+use crate::body::Body;
 use crate::features::{HeldFrame, Observation, PartClasses, SeenFrame, Segments};
 use crate::gpu::{Device, DevicePass};
 
@@ -31,6 +33,14 @@ pub trait Evaluator: Send {
 
     /// The length of a pose.
     fn dof_count(&self) -> usize;
+
+    /// Exchanges the body for another one of as many bones, parts and degrees of freedom; what was observed stays.
+    ///
+    /// # Errors
+    /// When their numbers differ, or what is drawn belongs to its body: a mesh is bound to it.
+    fn set_body(&mut self, _body: &Body) -> Result<()> {
+        Err(bound_to_its_body())
+    }
 
     /// Takes the observations of a frame, one a view, in the order of the cameras.
     ///

@@ -1,6 +1,8 @@
 //! One pose into one or all cameras, the simple way: a candidate at a time, a part at a time. The reference draws from
 //! this, overlays too, and the batched front ends are held to it bit for bit.
 
+use anyhow::{Result, ensure};
+
 use crate::body::Body;
 use crate::geometry::Camera;
 
@@ -31,6 +33,24 @@ impl Projector {
     /// For a body and its cameras at working size.
     pub fn new(body: &Body, cameras: &[Camera]) -> Self {
         Self { rig: Rig::new(body), cameras: cameras.iter().map(RigCamera::new).collect() }
+    }
+
+    /// Exchanges the body for another one of as many degrees of freedom and parts.
+    ///
+    /// # Errors
+    /// When their numbers differ.
+    pub(crate) fn set_body(&mut self, body: &Body) -> Result<()> {
+        let (old, new) = (&self.rig, Rig::new(body));
+        ensure!(
+            (new.dof_count, new.parts.len()) == (old.dof_count, old.parts.len()),
+            "a body of {} degrees of freedom and {} parts cannot take the place of one of {} and {}",
+            new.dof_count,
+            new.parts.len(),
+            old.dof_count,
+            old.parts.len()
+        );
+        self.rig = new;
+        Ok(())
     }
 
     /// The number of cameras.

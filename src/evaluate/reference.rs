@@ -14,7 +14,7 @@ use super::batch::{check_batch, check_observations};
 use super::components::Components;
 use super::evaluator::{Evaluator, check_evidence_batch, check_segment_batch};
 use super::evidence::{best_sums, evidence_of};
-use super::mesh_projection::MeshProjector;
+use super::mesh_projection::{MeshProjector, bound_to_its_body};
 use super::mesh_raster::draw_mesh;
 use super::projection::Projector;
 use super::raster::{CandidateImage, draw_quads};
@@ -107,6 +107,13 @@ impl Evaluator for Reference {
 
     fn dof_count(&self) -> usize {
         self.projector().dof_count()
+    }
+
+    fn set_body(&mut self, body: &Body) -> Result<()> {
+        let DrawnModel::Flat { projector, labels } = &mut self.model else { return Err(bound_to_its_body()) };
+        projector.set_body(body)?;
+        *labels = body.parts.iter().map(|part| part.label).collect();
+        Ok(())
     }
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {

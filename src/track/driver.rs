@@ -41,10 +41,13 @@ pub fn track(
     let (sequence, found) = with_start(&plated.sequence, settings, output, progress)?;
     let warnings = sequence.remarks().into_iter().chain(plated.remarks()).chain(plated.doubt()).chain(found).collect();
     let planned = Planned::new(sequence.as_ref(), settings, output, warnings)?;
-    let Begun { mut run, record, done, warnings } = planned.begin()?;
+    let Begun { mut run, record, done, mut warnings } = planned.begin()?;
     progress.start(&run.start(done.len(), &warnings));
     run.take_over(done)?;
-    let searched = run.search_all(progress).and_then(|()| run.look_back(progress));
+    let searched = run.search_all(progress).and_then(|()| {
+        warnings.extend(run.measure_again(progress)?);
+        run.look_back(progress)
+    });
     let done = run.done();
     let ends_anywhere = run.ends_anywhere();
     if !ends_anywhere || done == 0 {

@@ -6,11 +6,12 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 use super::journal::Journal;
+use super::run::REFINED_BODY;
 use super::{labels, motion_files, overlay, page, realtime, run_record, smoothed};
 use crate::files::OutputFolder;
 
 /// Everything a run writes but its overlays and labels.
-const FILES: [&str; 14] = [
+const FILES: [&str; 15] = [
     "poses.csv",
     "joints.csv",
     "joints.trc",
@@ -24,6 +25,7 @@ const FILES: [&str; 14] = [
     realtime::SUMMARY,
     realtime::TIMELINE,
     run_record::NAME,
+    REFINED_BODY,
     Journal::NAME,
 ];
 

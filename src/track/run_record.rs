@@ -129,7 +129,7 @@ impl Run {
         let start = settings.start.as_ref().map(|start| format!(" --start '{}'", start.display())).unwrap_or_default();
         let command = format!(
             "pantin track '{}' -o DIR --frames {}..{} --search {} --particles {} --iterations {} --seed {} --spread {} \
-             --refine {} --predict {}{}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2}{} --backend {}{} --model {} --overlay-every {}{}{start}{}{}{}",
+             --refine {} --predict {}{}{}{} --recover {} --objective {} --beta {beta} --w1 {w1} --w2 {w2}{} --backend {}{} --model {} --overlay-every {}{}{start}{}{}{}",
             sequence.path.display(),
             plan.range.start,
             plan.range.end,
@@ -142,6 +142,7 @@ impl Run {
             settings.prediction().name(),
             learnt_width(settings).map(|width| format!(" --width {width}")).unwrap_or_default(),
             more_passes(settings).map(|passes| format!(" --passes {passes}")).unwrap_or_default(),
+            if settings.measure_again { " --measure-again" } else { "" },
             yes_or_no(settings.recover),
             kind.name(),
             edge_term(plan).map(|edges| format!(" --edges {edges}")).unwrap_or_default(),
@@ -226,6 +227,8 @@ struct Settings<'a> {
     width: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     passes: Option<&'static str>,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    measure_again: bool,
     recover: &'static str,
     #[serde(flatten)]
     constants: Table,
@@ -278,6 +281,7 @@ impl<'a> Settings<'a> {
             predict: settings.prediction().name(),
             width: learnt_width(settings),
             passes: more_passes(settings),
+            measure_again: settings.measure_again,
             recover: yes_or_no(settings.recover),
             constants: search.constants()?,
             objective: kind.name(),

@@ -38,6 +38,8 @@ pub struct TrackSettings {
     pub width: Option<Width>,
     /// How often the run goes over its frames; without, as it suits the search ([`Self::passes`]).
     pub passes: Option<Passes>,
+    /// Measure the body again between the two passes of a run that has them, and go on with what is found where that fits better.
+    pub measure_again: bool,
     /// Whether a lost person is searched for wider, and frames without a find are gaps in the results.
     pub recover: bool,
     /// Which frames.
@@ -75,6 +77,7 @@ impl Default for TrackSettings {
             predict: None,
             width: None,
             passes: None,
+            measure_again: false,
             recover: true,
             frames: FrameRange::default(),
             start: None,

@@ -2,12 +2,11 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 
 use crate::body::Body;
 use crate::evaluate::besides::Besides;
 use crate::evaluate::projection::Projector;
-use crate::evaluate::rig::Rig;
 use crate::features::{Observation, PartClasses, Segments};
 use crate::geometry::Camera;
 
@@ -53,20 +52,10 @@ impl FlatModel {
     /// # Errors
     /// When their numbers differ.
     pub(super) fn set_body(&mut self, body: &Body) -> Result<()> {
-        let rig = Rig::new(body);
-        let (old, new) = (&self.projector.rig, &rig);
-        ensure!(
-            (new.dof_count, new.parts.len()) == (old.dof_count, old.parts.len()),
-            "a body of {} degrees of freedom and {} parts cannot take the place of one of {} and {}",
-            new.dof_count,
-            new.parts.len(),
-            old.dof_count,
-            old.parts.len()
-        );
+        self.projector.set_body(body)?;
         for scratch in &mut self.scratch {
-            scratch.get_mut().unwrap_or_else(PoisonError::into_inner).front = Front::new(&rig);
+            scratch.get_mut().unwrap_or_else(PoisonError::into_inner).front = Front::new(&self.projector.rig);
         }
-        self.projector.rig = rig;
         self.labels = body.parts.iter().map(|part| part.label).collect();
         Ok(())
     }

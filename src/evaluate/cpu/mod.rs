@@ -136,21 +136,6 @@ impl Cpu {
         Ok(Self { model, set, code, workers, sums, segments: None, classes: None, best_evidence: None })
     }
 
-    /// Exchanges the body for another one of as many degrees of freedom and parts; what was observed stays.
-    ///
-    /// # Errors
-    /// When their numbers differ, or a mesh is drawn: that is bound to its body.
-    pub fn set_body(&mut self, body: &Body) -> Result<()> {
-        match &mut self.model {
-            Model::Flat(flat) => flat.set_body(body)?,
-            Model::Mesh(_) => return Err(bound_to_its_body()),
-        }
-        let (segments, classes) = (self.segments.take(), self.classes.take());
-        self.set_segments(segments);
-        self.set_classes(classes);
-        Ok(())
-    }
-
     fn projector(&self) -> &Projector {
         match &self.model {
             Model::Flat(flat) => &flat.projector,
@@ -247,6 +232,17 @@ impl Evaluator for Cpu {
 
     fn dof_count(&self) -> usize {
         self.projector().dof_count()
+    }
+
+    fn set_body(&mut self, body: &Body) -> Result<()> {
+        match &mut self.model {
+            Model::Flat(flat) => flat.set_body(body)?,
+            Model::Mesh(_) => return Err(bound_to_its_body()),
+        }
+        let (segments, classes) = (self.segments.take(), self.classes.take());
+        self.set_segments(segments);
+        self.set_classes(classes);
+        Ok(())
     }
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {

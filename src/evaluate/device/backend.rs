@@ -74,17 +74,6 @@ impl<R: Rasteriser> DeviceBackend<R> {
         Ok(Self { resources, rasteriser, runs: Runs::new(upload), handovers, is_recorded: false, is_outgrown: false })
     }
 
-    /// Exchanges the body for another one of as many bones, parts and degrees of freedom; what was observed stays.
-    ///
-    /// # Errors
-    /// When their numbers differ, or a mesh is drawn, which belongs to its body.
-    pub fn set_body(&mut self, body: &Body) -> Result<()> {
-        self.rasteriser.check_exchange()?;
-        self.resources.scene.set_body(body)?;
-        self.runs.outdate_upload();
-        Ok(())
-    }
-
     /// Records anew from now on: what is drawn is drawn otherwise.
     pub(super) fn forget_runs(&mut self) {
         self.runs.clear();
@@ -272,6 +261,13 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
 
     fn dof_count(&self) -> usize {
         self.resources.scene.counts.dofs as usize
+    }
+
+    fn set_body(&mut self, body: &Body) -> Result<()> {
+        self.rasteriser.check_exchange()?;
+        self.resources.scene.set_body(body)?;
+        self.runs.outdate_upload();
+        Ok(())
     }
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {

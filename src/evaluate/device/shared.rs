@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use anyhow::{Context as _, Result, ensure};
 
+use crate::body::Body;
 use crate::evaluate::batch::check_batch;
 use crate::evaluate::evaluator::{check_evidence_batch, check_segment_batch};
 use crate::evaluate::{CandidateImage, Components, Evaluator, Footprint, Objective, SegmentSums};
@@ -144,6 +145,10 @@ impl Evaluator for Shared {
 
     fn dof_count(&self) -> usize {
         self.first().dof_count()
+    }
+
+    fn set_body(&mut self, body: &Body) -> Result<()> {
+        self.members.iter_mut().try_for_each(|member| member.evaluator.set_body(body))
     }
 
     fn observe(&mut self, observations: &[Observation]) -> Result<()> {

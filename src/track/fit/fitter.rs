@@ -3,13 +3,15 @@
 use anyhow::{Context, Result};
 
 use super::super::hull::Hull;
+use super::following::Following;
 use super::scorer::{Scorer, proportions};
 use super::seen::Seen;
+use super::shape::Shape;
 use crate::body::{Body, Proportions};
 use crate::evaluate::{Objective, ObjectiveKind};
 use crate::geometry::Camera;
 use crate::observe::Advance;
-use crate::search::{SearchSettings, SearchSpace};
+use crate::search::{SearchKind, SearchSettings, SearchSpace};
 
 /// Headings a first pose is searched from, evenly round the circle.
 const HEADINGS: usize = 8;
@@ -27,6 +29,8 @@ const ENCORES: usize = 3;
 /// Rounds that proportions and poses are searched together in, each narrower than the one before by [`NARROWING`].
 const ROUNDS: i32 = 10;
 const NARROWING: f64 = 0.75;
+/// Where shape and poses are nearly right, as many times fewer are scored at once: what learns the shape of the hill wants no crowd.
+const CLOSE: usize = 6;
 /// Rounds before which the person's colours are learnt anew.
 const RELOOKS: [i32; 2] = [2, 5];
 
@@ -112,9 +116,30 @@ impl<'a> Fitter<'a> {
         self.scorer.look_anew(&self.seen.observations, self.objective)
     }
 
-    /// The best pose of one frame round `centre`; `spread` is in steps of the body.
+    /// The best pose of one frame round `centre`, by a swarm; `spread` is in steps of the body.
     fn pose(&mut self, frame: usize, centre: &[f32], spread: f32, iterations: usize) -> Result<(Vec<f32>, f32)> {
-        let mut search = SearchSettings { iterations, ..self.search }.build(&self.space)?;
+        self.pose_by(SearchSettings { iterations, ..self.search }, frame, centre, spread)
+    }
+
+    /// What searches close to something that is nearly right.
+    fn close(&self) -> SearchSettings {
+        SearchSettings { kind: SearchKind::MaEs, particles: self.search.particles.div_ceil(CLOSE), ..self.search }
+    }
+
+    /// The fitness of all frames, each searched round its pose.
+    pub(super) fn settled_fitness(&mut self, poses: &[Vec<f32>]) -> Result<Vec<f32>> {
+        let search = |(frame, pose): (usize, &Vec<f32>)| Ok(self.pose_by(self.close(), frame, pose, 1.0)?.1);
+        poses.iter().enumerate().map(search).collect()
+    }
+
+    fn pose_by(
+        &mut self,
+        settings: SearchSettings,
+        frame: usize,
+        centre: &[f32],
+        spread: f32,
+    ) -> Result<(Vec<f32>, f32)> {
+        let mut search = settings.build(&self.space)?;
         let steps = self.space.spread(1.0 / 25.0)?;
         let spread: Vec<f32> = steps.into_iter().map(|step| step * spread).collect();
         self.begin();
@@ -261,6 +286,39 @@ impl<'a> Fitter<'a> {
         let (factors, settled) = apart(&centre);
         *poses = settled;
         Ok(factors)
+    }
+
+    /// The shape of the body by its rows alone, with the poses following: of many frames, whose poses are nearly right, a swarm over shape and
+    /// all poses together finds nothing.
+    pub(super) fn reshape(&mut self, body: &Body, poses: &mut [Vec<f32>]) -> Result<Shape> {
+        let [lower, upper, deviations] = Shape::ranges();
+        let space = SearchSpace::new(lower, upper, deviations.clone())?;
+        let steps = self.space.spread(1.0 / 25.0)?;
+        let mut shape = Shape::default();
+        for round in 0..ROUNDS {
+            if self.objective.weighs_evidence() && RELOOKS.contains(&round) {
+                self.relook(&shape.apply(body), poses)?;
+            }
+            let narrow = NARROWING.powi(round) as f32;
+            let stretched = shape.apply(body);
+            let following: Vec<Following> =
+                poses.iter().map(|pose| Following::new(&stretched, pose, &steps)).collect::<Result<_>>()?;
+            let spread: Vec<f32> = deviations.iter().map(|step| step * narrow).collect();
+            let mut search = self.close().build(&space)?;
+            self.begin();
+            let scorer = &self.scorer;
+            let found = search.search_frame(self.searches, &shape.row(), &spread, &mut |rows, results| {
+                scorer.shapes(body, &following, rows, results)
+            })?;
+            shape = Shape::from_row(&found.pose);
+            let stretched = shape.apply(body);
+            self.scorer.set_body(&stretched)?;
+            for (frame, (pose, following)) in poses.iter_mut().zip(&following).enumerate() {
+                let moved = following.with(&stretched)?;
+                *pose = self.pose_by(self.close(), frame, &moved, narrow)?.0;
+            }
+        }
+        Ok(shape)
     }
 }
 

@@ -4,14 +4,19 @@
 //! positions; then swarms move the proportions and all poses together, in ever narrower rounds, by soft evidence where nobody asks
 //! for another objective.
 
+mod again;
 mod fitter;
+mod following;
 mod scorer;
 mod seen;
+mod shape;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 
+pub(super) use self::again::{TrackedPoses, measure_again};
+pub(super) use self::following::Following;
 pub use self::scorer::Coverage;
 
 use self::fitter::Fitter;

@@ -5,6 +5,8 @@ use std::sync::{Mutex, PoisonError};
 use anyhow::{Context, Result};
 use rayon::prelude::*;
 
+use super::following::Following;
+use super::shape::Shape;
 use crate::body::{Body, Proportions};
 use crate::evaluate::cpu::{Cpu, InstructionSet};
 use crate::evaluate::{Components, Evaluator, Objective};
@@ -105,6 +107,27 @@ impl Scorer {
         })
     }
 
+    /// Mean fitness over the frames of rows of shapes, less what unusual ones cost; the poses follow.
+    pub(super) fn shapes(&self, body: &Body, poses: &[Following], rows: &[f32], results: &mut [f32]) -> Result<()> {
+        let tall = stature(body)?;
+        self.share(rows, Shape::COUNT, results, |cpus, rows, results| {
+            for (row, result) in rows.chunks_exact(Shape::COUNT).zip(results) {
+                let shape = Shape::from_row(row);
+                let stretched = shape.apply(body);
+                let mut sum = 0.0;
+                for (cpu, pose) in cpus.iter_mut().zip(poses) {
+                    let mut fitness = [0.0];
+                    cpu.set_body(&stretched)?;
+                    cpu.fitness(&pose.with(&stretched)?, &self.objective, &mut fitness)?;
+                    sum += f64::from(fitness[0]);
+                }
+                let stature = (stature(&stretched)? / tall - 1.0) / STATURE;
+                *result = (sum / poses.len() as f64 - PRIOR * shape.oddness() - PRIOR * stature * stature) as f32;
+            }
+            Ok(())
+        })
+    }
+
     fn frame_count(&self) -> usize {
         self.with_first(|cpus| cpus.len())
     }
@@ -164,7 +187,7 @@ pub(super) fn proportions(factors: &[f32]) -> Proportions {
 }
 
 /// How high the crown is above the ankles of a person who stands upright, mm.
-fn stature(body: &Body) -> Result<f64> {
+pub(super) fn stature(body: &Body) -> Result<f64> {
     let names = body.joint_names();
     let joints = body.joint_positions(&body.world_from_bones(&vec![0.0; body.dof_count()])?);
     let level = |name: &str| -> Result<f64> {

@@ -43,6 +43,17 @@ impl Seen {
         Ok(seen)
     }
 
+    /// Every second frame, the first among them, and the others.
+    pub(super) fn halves(self) -> [Self; 2] {
+        let [mut even, mut odd] = [(); 2].map(|()| Self { observations: Vec::new(), likelihoods: Vec::new() });
+        for (at, (seen, likelihoods)) in self.observations.into_iter().zip(self.likelihoods).enumerate() {
+            let half = if at % 2 == 0 { &mut even } else { &mut odd };
+            half.observations.push(seen);
+            half.likelihoods.push(likelihoods);
+        }
+        [even, odd]
+    }
+
     /// Gives every frame its evidence, by the colours that a person with this body has in these poses, one a frame; by none without poses.
     ///
     /// # Errors

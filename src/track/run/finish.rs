@@ -53,7 +53,7 @@ impl Run<'_> {
             summary.warnings.push(format!("the trace holds no device passes: {name} ({variant}) told of none"));
         }
         // Per frame: waiting for the features, searching, writing; the rest runs beside it.
-        let busy: f64 = ["wait", "evaluate", "search", "output", "hindsight"]
+        let busy: f64 = ["wait", "evaluate", "search", "output", "measure", "hindsight"]
             .iter()
             .filter_map(|name| summary.timings.iter().find(|timing| timing.name == *name))
             .map(|timing| timing.total)

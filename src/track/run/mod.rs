@@ -1,7 +1,10 @@
 //! A run in work: its frames searched one after the other, what is learnt from each, and the results at its end.
 
+mod again;
 mod delayed;
 mod finish;
+
+pub(super) use self::again::REFINED_BODY;
 
 use std::time::{Duration, Instant};
 

@@ -1,0 +1,94 @@
+//! The body measured again between the passes: in the poses of the first, for the second.
+
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+
+use super::Run;
+use crate::body::{Body, Model};
+use crate::track::confidence::JointProbe;
+use crate::track::fit::{Following, TrackedPoses, measure_again};
+use crate::track::progress::Progress;
+
+/// The body of the results, where it is not the one that was given.
+pub(in crate::track) const REFINED_BODY: &str = "refined_body.toml";
+/// Frames that are looked at, half of them to judge.
+const FRAMES: usize = 20;
+/// Fewer tell nothing.
+const FEWEST: usize = 12;
+/// They are among so many first frames: those between are read too.
+const AMONG: usize = 1000;
+
+impl Run<'_> {
+    /// Measures the person again in the poses of the first pass, and goes on with that body where frames that it was not measured in say that
+    /// it fits better. A sentence where it does.
+    ///
+    /// # Errors
+    /// When frames cannot be read, or the body cannot be written.
+    pub(in crate::track) fn measure_again(&mut self, progress: &mut dyn Progress) -> Result<Option<String>> {
+        let (plan, sequence) = (&self.plan, self.sequence);
+        let may = self.looks_back() && self.settings.measure_again && self.settings.model == Model::Flat;
+        let has_plates = !sequence.views.iter().any(|view| view.learns_background());
+        let frames = if may && has_plates && plan.features.segment.is_empty() { self.telling() } else { Vec::new() };
+        if frames.len() < FEWEST {
+            return Ok(None);
+        }
+        let start = Instant::now();
+        let tracked = TrackedPoses {
+            sequence,
+            body: &plan.body,
+            objective: plan.objective,
+            poses: frames.iter().map(|at| self.frames[*at].pose.clone()).collect(),
+            frames: frames.iter().map(|at| self.frames[*at].frame).collect(),
+            seed: self.settings.search.seed,
+        };
+        let found = measure_again(tracked, &mut |what, done, total| progress.preparing(what, done, total))
+            .context("measuring the person again")?;
+        if !self.timings.is_empty() {
+            let each = start.elapsed() / u32::try_from(self.frames.len()).unwrap_or(u32::MAX).max(1);
+            self.frames.iter().for_each(|_| self.timings.count("measure", each));
+        }
+        let Some(found) = found.filter(|found| found.is_believed()) else { return Ok(None) };
+        self.go_on_with(found.body)?;
+        Ok(Some(format!(
+            "the person was measured again in {} frames of the first pass, and {} others fit better by {:.3} with that body: the results are \
+             of {REFINED_BODY} beside them",
+            frames.len().div_ceil(2),
+            frames.len() / 2,
+            found.gain[0]
+        )))
+    }
+
+    /// Frames that tell of the body: evenly spread over those that are not lost, without the quarter that fits worst.
+    fn telling(&self) -> Vec<usize> {
+        let first = &self.frames[..self.frames.len().min(AMONG)];
+        let mut fitness: Vec<f32> = first.iter().map(|result| result.fitness).collect();
+        fitness.sort_by(f32::total_cmp);
+        let Some(least) = fitness.get(fitness.len() / 4).copied() else { return Vec::new() };
+        let good = first
+            .iter()
+            .enumerate()
+            .filter(|(_, result)| result.fitness >= least && !self.lost.contains(&result.frame));
+        let good: Vec<usize> = good.map(|(at, _)| at).collect();
+        let count = good.len().min(FRAMES);
+        (0..count).map(|i| good[i * (good.len() - 1) / (count - 1).max(1)]).collect()
+    }
+
+    /// Exchanges the body; what was found is drawn where it was.
+    fn go_on_with(&mut self, body: Body) -> Result<()> {
+        let steps = self.plan.space.spread(1.0 / 25.0)?;
+        for result in &mut self.frames {
+            result.pose = Following::new(&self.plan.body, &result.pose, &steps)?.with(&body)?;
+        }
+        self.plan.backend.evaluator.set_body(&body)?;
+        self.probe = JointProbe::new(&body, &self.sequence.cameras);
+        let text = format!(
+            "# {} as measured again by `pantin track`: the body of the results beside it.\n\n{}",
+            body.name,
+            body.to_toml()
+        );
+        self.output.write(REFINED_BODY, |writer| Ok(writer.write_all(text.as_bytes())?))?;
+        self.plan.body = body;
+        Ok(())
+    }
+}
