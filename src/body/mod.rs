@@ -25,4 +25,5 @@ pub use model::Model;
 pub use pose::{PoseTable, PoseWriter};
 pub use proportions::{Proportion, Proportions};
 pub use retarget::RetargetSettings;
+pub(crate) use skeleton::without_side;
 pub use skeleton::{Body, Bone, Dof, DofAxis, FreeEnd, Marker, Part};

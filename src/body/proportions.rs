@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use anyhow::{Result, ensure};
 use glam::DVec3;
 
-use super::Body;
+use super::{Body, without_side};
 use crate::files::unknown;
 
 /// One factor of [`Proportions`].
@@ -121,7 +121,7 @@ impl Proportions {
         let above = |z: f64, joint: f64, below: f64, beyond: f64| {
             if z.abs() <= joint.abs() { z * below } else { joint * below + (z - joint) * beyond }
         };
-        let stretched = |bone: &str, at: DVec3| match plain(bone) {
+        let stretched = |bone: &str, at: DVec3| match without_side(bone) {
             "pelvis" => DVec3::new(at.x, at.y, at.z * trunk),
             "thorax" => DVec3::new(at.x, at.y, above(at.z, shoulder_z, trunk, neck)),
             "head" => DVec3::new(at.x, at.y, at.z * head),
@@ -139,7 +139,7 @@ impl Proportions {
         let mut result = body.clone();
         for bone in &mut result.bones {
             if let Some(parent) = bone.parent {
-                bone.offset = match plain(&bone.name) {
+                bone.offset = match without_side(&bone.name) {
                     "hip" => bone.offset * DVec3::new(1.0, hips, 1.0),
                     "clavicle" => bone.offset * DVec3::new(1.0, shoulders, trunk),
                     _ => stretched(&body.bones[parent].name, bone.offset),
@@ -149,7 +149,7 @@ impl Proportions {
         for part in &mut result.parts {
             let bone = &body.bones[part.bone].name;
             (part.a, part.b) = (stretched(bone, part.a), stretched(bone, part.b));
-            let girth = match plain(&part.name) {
+            let girth = match without_side(&part.name) {
                 "belly" => belly_girth,
                 "chest" => chest_girth,
                 "neck" => neck_girth,
@@ -169,11 +169,6 @@ impl Proportions {
         }
         result
     }
-}
-
-/// A name without its side.
-fn plain(name: &str) -> &str {
-    name.strip_prefix("left_").or_else(|| name.strip_prefix("right_")).unwrap_or(name)
 }
 
 #[cfg(test)]

@@ -242,3 +242,8 @@ impl Body {
         body
     }
 }
+
+/// The name of a bone, part or joint without its side, which `left_` or `right_` before it says.
+pub(crate) fn without_side(name: &str) -> &str {
+    name.strip_prefix("left_").or_else(|| name.strip_prefix("right_")).unwrap_or(name)
+}

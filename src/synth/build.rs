@@ -6,7 +6,7 @@ use anyhow::Result;
 use glam::DVec3;
 
 use super::scene::ActorSettings;
-use crate::body::{Body, Proportions};
+use crate::body::{Body, Proportions, without_side};
 
 /// What of an actor's figure differs from the usual.
 #[derive(Clone, Debug, Default)]
@@ -31,7 +31,7 @@ impl Build {
 
     /// Factors along a bone's axes on what hangs on it: lengths are the bones' own, so only across.
     pub(super) fn widening(&self, bone: &str) -> DVec3 {
-        let plain = bone.strip_prefix("left_").or_else(|| bone.strip_prefix("right_")).unwrap_or(bone);
+        let plain = without_side(bone);
         let of = |name| self.proportions.of(name);
         // A trunk grows more to the front than to the sides, where the arms hang.
         let trunk = |girth: f64, width: f64| DVec3::new(1.0 + 1.3 * (girth - 1.0), width + 0.6 * (girth - 1.0), 1.0);

@@ -11,7 +11,7 @@ use super::colour::Colour;
 use super::finish::{Finish, FinishSettings};
 use super::solid::BoundingBall;
 use super::triangle::{Primitive, Triangle};
-use crate::body::{Body, Mesh};
+use crate::body::{Body, Mesh, without_side};
 
 /// The finishes that replace the tailor's own, by garment.
 #[derive(Debug, Default)]
@@ -101,7 +101,7 @@ impl Figure {
                 let middle = vertices.iter().map(|vertex| vertex.position.as_dvec3()).sum::<DVec3>() / 3.0;
                 let bone = usize::from(vertices[0].bones[0]);
                 let name = body.bones[bone].name.as_str();
-                let plain = name.strip_prefix("left_").or_else(|| name.strip_prefix("right_")).unwrap_or(name);
+                let plain = without_side(name);
                 let along = (mesh.inverse_bind[bone].transform_point3(middle)).z;
                 match plain {
                     "head" => {

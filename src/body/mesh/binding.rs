@@ -16,7 +16,7 @@ use super::frusta::rest_origins;
 use super::gltf_file::{self, BoundVertex, SkinnedFile};
 use super::joint_names::JointMap;
 use super::{Mesh, MeshVertex, Skinning};
-use crate::body::Body;
+use crate::body::{Body, without_side};
 
 /// By how much a bone may be stretched; more is a joint of another bone.
 const STRETCH: std::ops::RangeInclusive<f64> = 0.2..=5.0;
@@ -156,8 +156,7 @@ pub(super) fn followers(body: &Body, map: &JointMap, origins: &[DVec3], bone: us
 
 /// Whether a bone of that name is of the trunk, on either side.
 pub(super) fn is_of_trunk(name: &str) -> bool {
-    let plain = name.strip_prefix("left_").or_else(|| name.strip_prefix("right_")).unwrap_or(name);
-    TRUNK.contains(&plain)
+    TRUNK.contains(&without_side(name))
 }
 
 /// B_i^-1 of every bone.

@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use super::colours::Colours;
-use crate::body::Body;
+use crate::body::{Body, without_side};
 use crate::features::PartClasses;
 
 /// Groups joined because they look alike whatever their number: nearly the same colours.
@@ -25,8 +25,7 @@ impl Groups {
         let mut labels: Vec<Vec<u8>> = Vec::new();
         let mut of_label = [None; 128];
         for part in &body.parts {
-            let name =
-                part.name.strip_prefix("left_").or_else(|| part.name.strip_prefix("right_")).unwrap_or(&part.name);
+            let name = without_side(&part.name);
             let group = names.iter().position(|known| *known == name).unwrap_or_else(|| {
                 names.push(name);
                 labels.push(Vec::new());

@@ -3,6 +3,7 @@
 //! docs/CONFIDENCE.md shows how they hold.
 
 use super::hints::JointHints;
+use crate::body::without_side;
 
 /// Constant of each kind of joint, left and right together, in the logarithm of its error.
 const JOINTS: [(&str, f64); 12] = [
@@ -43,7 +44,7 @@ const NOBODY_WIDTH: f64 = 0.04;
 
 /// The expected error of a joint, mm: 68 % of joints are within theirs. `spread` is the standard deviation of the candidates, mm.
 pub(super) fn expected_error(joint: &str, hints: &JointHints, spread: f64, fitness: f64) -> f64 {
-    let kind = joint.strip_prefix("left_").or_else(|| joint.strip_prefix("right_")).unwrap_or(joint);
+    let kind = without_side(joint);
     let constant = JOINTS.iter().find(|(name, _)| *name == kind).map_or(OTHER_JOINT, |(_, constant)| *constant);
     let [seen, looseness, support] = [hints.seen, hints.looseness, hints.support].map(f64::from);
     let loose = looseness.max(0.0) + LOOSENESS_MORE;

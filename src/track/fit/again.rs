@@ -13,6 +13,7 @@ use crate::evaluate::Objective;
 use crate::observe::Advance;
 use crate::search::{SearchKind, SearchSettings, SearchSpace};
 use crate::sequence::Sequence;
+use crate::track::summary::mean;
 
 /// By how much the frames that were not measured in must fit better on average, for the new body to be believed: in fitness, and in standard
 /// errors of that mean.
@@ -77,7 +78,7 @@ pub(in crate::track) fn measure_again(
     if weighs_evidence {
         fitter.relook(body, &own)?;
     }
-    let remeasured = fitter.reshape(body, &mut own)?.apply(body).rounded();
+    let remeasured = fitter.reshape(body, &mut own)?.rounded();
 
     let mut judge = Fitter::new(body, &sequence.cameras, judging, search, objective, progress)?;
     if weighs_evidence {
@@ -96,7 +97,7 @@ pub(in crate::track) fn measure_again(
 /// A mean and its standard error.
 fn mean_and_error(values: &[f64]) -> [f64; 2] {
     let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count.max(1.0);
+    let mean = mean(values.iter().copied());
     let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
     [mean, (squares / (count - 1.0).max(1.0) / count.max(1.0)).sqrt()]
 }

@@ -4,9 +4,9 @@ use anyhow::{Context, Result};
 
 use super::super::hull::Hull;
 use super::following::Following;
-use super::scorer::{Scorer, proportions};
+use super::scorer::Scorer;
 use super::seen::Seen;
-use super::shape::Shape;
+use super::shape::{Shape, proportions};
 use crate::body::{Body, Proportions};
 use crate::evaluate::{Objective, ObjectiveKind};
 use crate::geometry::Camera;
@@ -288,19 +288,19 @@ impl<'a> Fitter<'a> {
         Ok(factors)
     }
 
-    /// The shape of the body by its rows alone, with the poses following: of many frames, whose poses are nearly right, a swarm over shape and
-    /// all poses together finds nothing.
-    pub(super) fn reshape(&mut self, body: &Body, poses: &mut [Vec<f32>]) -> Result<Shape> {
+    /// The body in its best shape, searched by itself with the poses following: of many frames, whose poses are nearly right, a swarm over
+    /// shape and all poses together finds nothing.
+    pub(super) fn reshape(&mut self, body: &Body, poses: &mut [Vec<f32>]) -> Result<Body> {
         let [lower, upper, deviations] = Shape::ranges();
         let space = SearchSpace::new(lower, upper, deviations.clone())?;
         let steps = self.space.spread(1.0 / 25.0)?;
         let mut shape = Shape::default();
+        let mut stretched = shape.apply(body);
         for round in 0..ROUNDS {
             if self.objective.weighs_evidence() && RELOOKS.contains(&round) {
-                self.relook(&shape.apply(body), poses)?;
+                self.relook(&stretched, poses)?;
             }
             let narrow = NARROWING.powi(round) as f32;
-            let stretched = shape.apply(body);
             let following: Vec<Following> =
                 poses.iter().map(|pose| Following::new(&stretched, pose, &steps)).collect::<Result<_>>()?;
             let spread: Vec<f32> = deviations.iter().map(|step| step * narrow).collect();
@@ -311,14 +311,14 @@ impl<'a> Fitter<'a> {
                 scorer.shapes(body, &following, rows, results)
             })?;
             shape = Shape::from_row(&found.pose);
-            let stretched = shape.apply(body);
+            stretched = shape.apply(body);
             self.scorer.set_body(&stretched)?;
             for (frame, (pose, following)) in poses.iter_mut().zip(&following).enumerate() {
                 let moved = following.with(&stretched)?;
                 *pose = self.pose_by(self.close(), frame, &moved, narrow)?.0;
             }
         }
-        Ok(shape)
+        Ok(stretched)
     }
 }
 

@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use rayon::prelude::*;
 
 use super::following::Following;
-use super::shape::Shape;
+use super::shape::{Shape, oddness, proportions};
 use crate::body::{Body, Proportions};
 use crate::evaluate::cpu::{Cpu, InstructionSet};
 use crate::evaluate::{Components, Evaluator, Objective};
@@ -92,16 +92,8 @@ impl Scorer {
             for (row, result) in rows.chunks_exact(Proportions::COUNT + frames * dofs).zip(results) {
                 let (factors, poses) = row.split_at(Proportions::COUNT);
                 let proportions = proportions(factors);
-                let stretched = proportions.apply(body);
-                let mut sum = 0.0;
-                for (cpu, pose) in cpus.iter_mut().zip(poses.chunks_exact(dofs)) {
-                    let mut fitness = [0.0];
-                    cpu.set_body(&stretched)?;
-                    cpu.fitness(pose, &self.objective, &mut fitness)?;
-                    sum += f64::from(fitness[0]);
-                }
-                let stature = (stature(&stretched)? / tall - 1.0) / STATURE;
-                *result = (sum / frames as f64 - cost(&proportions) - PRIOR * stature * stature) as f32;
+                let poses = poses.chunks_exact(dofs).map(Ok);
+                *result = self.person(cpus, &proportions.apply(body), poses, oddness(&proportions), tall)?;
             }
             Ok(())
         })
@@ -114,18 +106,32 @@ impl Scorer {
             for (row, result) in rows.chunks_exact(Shape::COUNT).zip(results) {
                 let shape = Shape::from_row(row);
                 let stretched = shape.apply(body);
-                let mut sum = 0.0;
-                for (cpu, pose) in cpus.iter_mut().zip(poses) {
-                    let mut fitness = [0.0];
-                    cpu.set_body(&stretched)?;
-                    cpu.fitness(&pose.with(&stretched)?, &self.objective, &mut fitness)?;
-                    sum += f64::from(fitness[0]);
-                }
-                let stature = (stature(&stretched)? / tall - 1.0) / STATURE;
-                *result = (sum / poses.len() as f64 - PRIOR * shape.oddness() - PRIOR * stature * stature) as f32;
+                let poses = poses.iter().map(|pose| pose.with(&stretched));
+                *result = self.person(cpus, &stretched, poses, shape.oddness(), tall)?;
             }
             Ok(())
         })
+    }
+
+    /// Mean fitness over the frames of a body with a pose in each, less what it costs to be so odd and of another stature than `tall`, mm.
+    fn person<P: AsRef<[f32]>>(
+        &self,
+        cpus: &mut [Cpu],
+        body: &Body,
+        poses: impl Iterator<Item = Result<P>>,
+        oddness: f64,
+        tall: f64,
+    ) -> Result<f32> {
+        let frames = cpus.len() as f64;
+        let mut sum = 0.0;
+        for (cpu, pose) in cpus.iter_mut().zip(poses) {
+            let mut fitness = [0.0];
+            cpu.set_body(body)?;
+            cpu.fitness(pose?.as_ref(), &self.objective, &mut fitness)?;
+            sum += f64::from(fitness[0]);
+        }
+        let stature = (stature(body)? / tall - 1.0) / STATURE;
+        Ok((sum / frames - PRIOR * oddness - PRIOR * stature * stature) as f32)
     }
 
     fn frame_count(&self) -> usize {
@@ -177,15 +183,6 @@ impl Scorer {
     }
 }
 
-/// Proportions from a row of a search.
-pub(super) fn proportions(factors: &[f32]) -> Proportions {
-    let mut proportions = Proportions::default();
-    for (factor, value) in proportions.0.iter_mut().zip(factors) {
-        *factor = f64::from(*value);
-    }
-    proportions
-}
-
 /// How high the crown is above the ankles of a person who stands upright, mm.
 pub(super) fn stature(body: &Body) -> Result<f64> {
     let names = body.joint_names();
@@ -195,10 +192,4 @@ pub(super) fn stature(body: &Body) -> Result<f64> {
         Ok(joints[at.with_context(|| format!("the body has no {name}, expected the joints of the default body"))?].z)
     };
     Ok(level("head_top")? - level("left_ankle")?)
-}
-
-/// What proportions off the tables cost.
-fn cost(proportions: &Proportions) -> f64 {
-    let off = proportions.0.iter().zip(&Proportions::ALL).map(|(factor, known)| (factor - 1.0) / known.deviation);
-    PRIOR * off.map(|off| off * off).sum::<f64>()
 }

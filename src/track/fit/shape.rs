@@ -2,26 +2,28 @@
 
 use glam::DVec3;
 
-use crate::body::{Body, Proportions};
+use crate::body::{Body, Proportion, Proportions, without_side};
 
-/// Which ends of which parts an offset moves, and along which axis of the bone (0 forward, 1 outward).
+/// An offset of flesh from its bone.
 struct Offset {
+    /// The parts it moves an end of, without their sides, and whether that is the far end, `b`.
     ends: &'static [(&'static str, bool)],
-    axis: usize,
+    /// Away from the other side, not forwards.
+    is_outward: bool,
 }
 
 const OFFSETS: [Offset; Shape::OFFSETS] = [
-    Offset { ends: &[("belly", false)], axis: 0 },
-    Offset { ends: &[("belly", true), ("chest", false)], axis: 0 },
-    Offset { ends: &[("chest", true), ("neck", false)], axis: 0 },
-    Offset { ends: &[("neck", true), ("head", false), ("head", true)], axis: 0 },
-    Offset { ends: &[("upper_arm", false)], axis: 0 },
-    Offset { ends: &[("upper_arm", true), ("forearm", false)], axis: 0 },
-    Offset { ends: &[("thigh", false)], axis: 0 },
-    Offset { ends: &[("thigh", true)], axis: 0 },
-    Offset { ends: &[("calf", false)], axis: 0 },
-    Offset { ends: &[("thigh", false)], axis: 1 },
-    Offset { ends: &[("upper_arm", false)], axis: 1 },
+    Offset { ends: &[("belly", false)], is_outward: false },
+    Offset { ends: &[("belly", true), ("chest", false)], is_outward: false },
+    Offset { ends: &[("chest", true), ("neck", false)], is_outward: false },
+    Offset { ends: &[("neck", true), ("head", false), ("head", true)], is_outward: false },
+    Offset { ends: &[("upper_arm", false)], is_outward: false },
+    Offset { ends: &[("upper_arm", true), ("forearm", false)], is_outward: false },
+    Offset { ends: &[("thigh", false)], is_outward: false },
+    Offset { ends: &[("thigh", true)], is_outward: false },
+    Offset { ends: &[("calf", false)], is_outward: false },
+    Offset { ends: &[("thigh", false)], is_outward: true },
+    Offset { ends: &[("upper_arm", false)], is_outward: true },
 ];
 
 /// Deviation of an offset, and how far it may go, mm.
@@ -42,9 +44,8 @@ impl Shape {
     pub(super) const COUNT: usize = Proportions::COUNT + Self::OFFSETS;
 
     pub(super) fn from_row(row: &[f32]) -> Self {
-        let mut shape = Self::default();
-        let values = shape.proportions.0.iter_mut().chain(&mut shape.offsets);
-        values.zip(row).for_each(|(value, given)| *value = f64::from(*given));
+        let mut shape = Self { proportions: proportions(row), ..Self::default() };
+        shape.offsets.iter_mut().zip(&row[Proportions::COUNT..]).for_each(|(value, given)| *value = f64::from(*given));
         shape
     }
 
@@ -55,7 +56,7 @@ impl Shape {
     /// Lowest values, highest ones, deviations.
     pub(super) fn ranges() -> [Vec<f32>; 3] {
         let off = |value: f64| [value as f32; Self::OFFSETS];
-        let of = |value: fn(&crate::body::Proportion) -> f64, offset: f64| -> Vec<f32> {
+        let of = |value: fn(&Proportion) -> f64, offset: f64| -> Vec<f32> {
             Proportions::ALL.iter().map(|known| value(known) as f32).chain(off(offset)).collect()
         };
         [
@@ -67,28 +68,40 @@ impl Shape {
 
     /// Sum of squares of the deviations it is off by.
     pub(super) fn oddness(&self) -> f64 {
-        let off =
-            self.proportions.0.iter().zip(&Proportions::ALL).map(|(factor, known)| (factor - 1.0) / known.deviation);
-        off.chain(self.offsets.iter().map(|offset| offset / DEVIATION)).map(|off| off * off).sum()
+        let offsets = self.offsets.iter().map(|offset| offset / DEVIATION);
+        deviations(&self.proportions).chain(offsets).map(|off| off * off).sum()
     }
 
     pub(super) fn apply(&self, body: &Body) -> Body {
         let mut result = self.proportions.apply(body);
         for part in &mut result.parts {
-            let (plain, side) = match (part.name.strip_prefix("left_"), part.name.strip_prefix("right_")) {
-                (Some(plain), _) => (plain, 1.0),
-                (_, Some(plain)) => (plain, -1.0),
-                _ => (part.name.as_str(), 1.0),
-            };
+            let outward = if part.name.starts_with("right_") { DVec3::NEG_Y } else { DVec3::Y };
             for (offset, value) in OFFSETS.iter().zip(self.offsets) {
-                for (name, is_far) in offset.ends {
-                    if *name == plain {
-                        let by = if offset.axis == 0 { DVec3::X * value } else { DVec3::Y * (value * side) };
-                        *(if *is_far { &mut part.b } else { &mut part.a }) += by;
-                    }
+                let by = value * if offset.is_outward { outward } else { DVec3::X };
+                for (_, is_far) in offset.ends.iter().filter(|(name, _)| *name == without_side(&part.name)) {
+                    *(if *is_far { &mut part.b } else { &mut part.a }) += by;
                 }
             }
         }
         result
     }
+}
+
+/// Proportions from a row of a search.
+pub(super) fn proportions(factors: &[f32]) -> Proportions {
+    let mut proportions = Proportions::default();
+    for (factor, value) in proportions.0.iter_mut().zip(factors) {
+        *factor = f64::from(*value);
+    }
+    proportions
+}
+
+/// How many of their deviations each of the proportions is off the tables.
+fn deviations(proportions: &Proportions) -> impl Iterator<Item = f64> {
+    proportions.0.iter().zip(&Proportions::ALL).map(|(factor, known)| (factor - 1.0) / known.deviation)
+}
+
+/// The sum of the squares of [`deviations`].
+pub(super) fn oddness(proportions: &Proportions) -> f64 {
+    deviations(proportions).map(|off| off * off).sum()
 }

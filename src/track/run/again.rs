@@ -44,10 +44,7 @@ impl Run<'_> {
         };
         let found = measure_again(tracked, &mut |what, done, total| progress.preparing(what, done, total))
             .context("measuring the person again")?;
-        if !self.timings.is_empty() {
-            let each = start.elapsed() / u32::try_from(self.frames.len()).unwrap_or(u32::MAX).max(1);
-            self.frames.iter().for_each(|_| self.timings.count("measure", each));
-        }
+        self.count_over_frames("measure", start);
         let Some(found) = found.filter(|found| found.is_believed()) else { return Ok(None) };
         self.go_on_with(found.body)?;
         Ok(Some(format!(

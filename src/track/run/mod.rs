@@ -273,12 +273,17 @@ impl<'a> Run<'a> {
         } else {
             self.frames = results;
         }
+        self.count_over_frames("hindsight", start);
+        Ok(())
+    }
+
+    /// Counts the time since `start` as that of a stage which was done for all frames at once.
+    fn count_over_frames(&mut self, stage: &'static str, start: Instant) {
         // A finished run that is gone on with has no times to tell.
         if !self.timings.is_empty() {
             let each = start.elapsed() / u32::try_from(self.frames.len()).unwrap_or(u32::MAX).max(1);
-            self.frames.iter().for_each(|_| self.timings.count("hindsight", each));
+            self.frames.iter().for_each(|_| self.timings.count(stage, each));
         }
-        Ok(())
     }
 
     /// Takes note of how long a frame's features took.
