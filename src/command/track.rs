@@ -80,9 +80,10 @@ pub(super) struct TrackOptions {
     #[arg(long, value_name = "NAME")]
     passes: Option<Passes>,
     /// Measure the person again between the two passes, in the poses of the first: where joints lie in the flesh, bent limbs tell and a
-    /// T-pose does not. Where other frames fit better with that body the results are of it: refined_body.toml beside them.
-    #[arg(long)]
-    measure_again: bool,
+    /// T-pose does not. Where other frames fit better with that body the results are of it: refined_body.toml beside them. Without: as the
+    /// manifest's `measure_again` says; =no for never.
+    #[arg(long, value_name = "yes|no", num_args = 0..=1, require_equals = true, default_missing_value = "yes", value_parser = yes_or_no)]
+    measure_again: Option<bool>,
     /// Search wider for a person who is lost, and leave frames without a find as gaps in the results; in a run of one pass with the search
     /// maes, look for limbs that show elsewhere too: yes or no.
     #[arg(long, value_name = "yes|no", default_value = "yes", value_parser = yes_or_no, action = ArgAction::Set)]

@@ -43,6 +43,8 @@ pub struct Sequence {
     pub body: PathBuf,
     /// The height of the person, mm, where the manifest tells it.
     pub height: Option<f64>,
+    /// Whether the body was measured in one posture, so that a track that goes over its frames twice measures it again in the poses of the first.
+    pub measure_again: bool,
     names_body: bool,
     /// A poses.csv with the first pose.
     pub start: Option<PathBuf>,
@@ -113,6 +115,8 @@ struct ManifestFile {
     cameras: PathBuf,
     body: Option<PathBuf>,
     height: Option<f64>,
+    #[serde(default)]
+    measure_again: bool,
     start: Option<PathBuf>,
     truth: Option<PathBuf>,
     #[serde(default = "full_size")]
@@ -233,7 +237,8 @@ impl ManifestFile {
         check_fps(self.fps).with_context(|| name.to_string())?;
         check_scale(self.scale).with_context(|| name.to_string())?;
         let own = [("body", self.body.is_some()), ("start", self.start.is_some()), ("truth", self.truth.is_some())];
-        let own = own.into_iter().chain([("height", self.height.is_some())]).find(|(_, is_there)| *is_there);
+        let more = [("height", self.height.is_some()), ("measure_again", self.measure_again)];
+        let own = own.into_iter().chain(more).find(|(_, is_there)| *is_there);
         if let (Some((key, _)), false) = (own, self.person.is_empty()) {
             bail!("{name} has `{key}` and [[person]], expected a `body` and `start` in each [[person]] alone");
         }
@@ -478,6 +483,7 @@ impl Sequence {
             people,
             body,
             height: file.height,
+            measure_again: file.measure_again,
             names_body,
             start,
             truth,

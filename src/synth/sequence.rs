@@ -55,11 +55,13 @@ pub(crate) struct FileNames<'a> {
     pub(crate) start: &'a str,
     /// Whether the manifest names the exact silhouettes, where there are any.
     pub(crate) masks: bool,
+    /// Whether the body was measured in one posture.
+    pub(crate) measure_again: bool,
 }
 
 impl Default for FileNames<'_> {
     fn default() -> Self {
-        Self { manifest: "sequence.toml", body: "body.toml", start: "start.csv", masks: true }
+        Self { manifest: "sequence.toml", body: "body.toml", start: "start.csv", masks: true, measure_again: false }
     }
 }
 
@@ -71,6 +73,8 @@ struct Manifest<'a> {
     cameras: &'a str,
     body: &'a str,
     start: &'a str,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    measure_again: bool,
     truth: &'a str,
     view: Vec<ManifestView<'a>>,
     features: Option<&'a toml::Table>,
@@ -283,6 +287,7 @@ impl SyntheticSequence {
             cameras: "cameras.toml",
             body: names.body,
             start: names.start,
+            measure_again: names.measure_again,
             truth: "truth.trc",
             view: self.cameras.iter().map(view).collect(),
             features: self.scene.features.as_ref(),

@@ -1,12 +1,12 @@
 //! How a run begins: its inputs read and checked, then its folder, its journal, and the frames that an earlier run did.
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 
 use super::journal::{Extent, FrameResult, Journal};
 use super::pace::{Offline, Pace};
 use super::plan::Plan;
 use super::realtime::{OpenOutlets, Realtime};
-use super::run::Run;
+use super::run::{Run, why_not_again};
 use super::run_record::RunRecord;
 use super::timings::Timings;
 use super::truth::Truth;
@@ -54,6 +54,9 @@ impl<'a> Planned<'a> {
         let mut plan = Plan::new(sequence, settings, drawing)?;
         if let Some(backend) = recorded {
             plan.backend.reason = format!("{}, which this run began with", backend.name());
+        }
+        if let (Some(true), Some(why)) = (settings.measure_again, why_not_again(sequence, &plan)) {
+            bail!("{why}: leave out --measure-again");
         }
         let truth = match &sequence.truth {
             Some(path) => Truth::read(path, &plan.body, sequence.fps)?.map_err(|why| warnings.push(why)).ok(),

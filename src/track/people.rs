@@ -73,6 +73,10 @@ pub fn track_people(
         settings.features_on != FeaturesOn::Device,
         "{name} has [[person]], and what each is compared with is made of all features: expected --features auto or cpu"
     );
+    ensure!(
+        settings.measure_again != Some(true),
+        "{name} has [[person]], and people who are tracked together are not measured again: leave out --measure-again"
+    );
     let settings = &TrackSettings { features_on: FeaturesOn::Cpu, ..settings.clone() };
     let plated = plated(sequence, settings, progress)?;
     let sequence = plated.sequence.as_ref();

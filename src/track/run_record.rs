@@ -142,7 +142,7 @@ impl Run {
             settings.prediction().name(),
             learnt_width(settings).map(|width| format!(" --width {width}")).unwrap_or_default(),
             more_passes(settings).map(|passes| format!(" --passes {passes}")).unwrap_or_default(),
-            if settings.measure_again { " --measure-again" } else { "" },
+            measured_again(settings, sequence),
             yes_or_no(settings.recover),
             kind.name(),
             edge_term(plan).map(|edges| format!(" --edges {edges}")).unwrap_or_default(),
@@ -174,6 +174,15 @@ fn learnt_width(settings: &TrackSettings) -> Option<&'static str> {
 fn more_passes(settings: &TrackSettings) -> Option<&'static str> {
     let passes = settings.passes();
     (passes != Passes::Forward).then(|| passes.name())
+}
+
+/// What says so of measuring the person again, where the sequence alone would not.
+fn measured_again(settings: &TrackSettings, sequence: &Sequence) -> &'static str {
+    match (settings.measures_again(sequence), sequence.measure_again) {
+        (true, _) => " --measure-again",
+        (false, true) => " --measure-again=no",
+        (false, false) => "",
+    }
 }
 
 /// What the edge term is made of where that is not all edges together, as it was before there was a choice.
@@ -281,7 +290,7 @@ impl<'a> Settings<'a> {
             predict: settings.prediction().name(),
             width: learnt_width(settings),
             passes: more_passes(settings),
-            measure_again: settings.measure_again,
+            measure_again: settings.measures_again(sequence),
             recover: yes_or_no(settings.recover),
             constants: search.constants()?,
             objective: kind.name(),

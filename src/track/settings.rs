@@ -11,7 +11,7 @@ use crate::body::Model;
 use crate::evaluate::ObjectiveKind;
 use crate::report::check_recordings_are_built;
 use crate::search::{SearchKind, SearchSettings};
-use crate::sequence::STALL_TIMEOUT;
+use crate::sequence::{STALL_TIMEOUT, Sequence};
 
 /// How a sequence is tracked.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,8 +38,9 @@ pub struct TrackSettings {
     pub width: Option<Width>,
     /// How often the run goes over its frames; without, as it suits the search ([`Self::passes`]).
     pub passes: Option<Passes>,
-    /// Measure the body again between the two passes of a run that has them, and go on with what is found where that fits better.
-    pub measure_again: bool,
+    /// Measure the body again between the two passes of a run that has them, and go on with what is found where that fits better; without, as
+    /// the sequence says, where it can be ([`Self::measures_again`]).
+    pub measure_again: Option<bool>,
     /// Whether a lost person is searched for wider, and frames without a find are gaps in the results.
     pub recover: bool,
     /// Which frames.
@@ -77,7 +78,7 @@ impl Default for TrackSettings {
             predict: None,
             width: None,
             passes: None,
-            measure_again: false,
+            measure_again: None,
             recover: true,
             frames: FrameRange::default(),
             start: None,
@@ -119,6 +120,13 @@ impl TrackSettings {
         self.passes.unwrap_or(if has_time { Passes::Both } else { Passes::Forward })
     }
 
+    /// Whether the person is measured again between two passes: where that was asked for here, or by a sequence that is gone over twice with
+    /// the flat body.
+    pub fn measures_again(&self, sequence: &Sequence) -> bool {
+        let can = self.passes() == Passes::Both && self.model == Model::Flat;
+        self.measure_again.unwrap_or(can && sequence.measure_again)
+    }
+
     /// Whether a lost person is searched for wider: that takes the time that real time has not.
     pub(super) fn may_recover(&self) -> bool {
         self.recover && self.realtime.is_none()
@@ -149,6 +157,16 @@ impl TrackSettings {
         ensure!((0.1..=86_400.0).contains(&stall), "the stall time-out is {stall} s, expected 0.1 to 86400");
         if self.recording {
             check_recordings_are_built()?;
+        }
+        if self.measure_again == Some(true) {
+            ensure!(
+                self.passes() == Passes::Both,
+                "a person is measured again between two passes, and this run goes over its frames once: leave out --measure-again"
+            );
+            ensure!(
+                self.model == Model::Flat,
+                "the flat body is what is measured again, and this run draws a mesh: leave out --measure-again"
+            );
         }
         if let Some(realtime) = &self.realtime {
             realtime.check()?;
@@ -209,6 +227,12 @@ mod tests {
         settings = TrackSettings { smooth: None, labels: true, ..settings };
         let error = settings.check().unwrap_err().to_string();
         assert!(error.contains("leave out --labels"), "{error}");
+        let again = TrackSettings { measure_again: Some(true), ..TrackSettings::default() };
+        again.check().unwrap();
+        let error = TrackSettings { passes: Some(Passes::Forward), ..again.clone() }.check().unwrap_err().to_string();
+        assert!(error.contains("goes over its frames once: leave out --measure-again"), "{error}");
+        let error = TrackSettings { model: Model::Mesh, ..again }.check().unwrap_err().to_string();
+        assert!(error.contains("draws a mesh"), "{error}");
         let mut settings = TrackSettings::default();
         settings.search.particles = 0;
         let error = settings.check().unwrap_err().to_string();

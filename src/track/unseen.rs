@@ -12,8 +12,13 @@ use crate::sequence::Sequence;
 use crate::synth::{Advance, FileNames, Lottery, SyntheticSequence};
 
 /// Names of the files that hold what nobody would know.
-const TRUE: FileNames<'_> =
-    FileNames { manifest: "true_sequence.toml", body: "true_body.toml", start: "true_start.csv", masks: false };
+const TRUE: FileNames<'_> = FileNames {
+    manifest: "true_sequence.toml",
+    body: "true_body.toml",
+    start: "true_start.csv",
+    masks: false,
+    measure_again: false,
+};
 /// The folder of the T-pose second.
 const T_POSE: &str = "t_pose";
 /// Frames of it that the body is measured in.
@@ -80,15 +85,21 @@ pub fn write_unseen(
     let body_error = error_of(&t_pose, &body, &measured.poses)?.mean;
     let first = PoseTable { frames: measured.poses.frames[..1].to_vec(), poses: measured.poses.poses[..1].to_vec() };
     first.write(&its_folder.file("start.csv")?, Overwrite::Replace, &body)?;
-    let names = FileNames { manifest: "sequence.toml", body: "../body.toml", start: "start.csv", masks: false };
+    let names = FileNames {
+        manifest: "sequence.toml",
+        body: "../body.toml",
+        start: "start.csv",
+        masks: false,
+        measure_again: false,
+    };
     t_pose.write_manifest(&names, &its_folder)?;
 
     let (pose, start) = start(&synthetic, &body, folder)?;
     pose.write(&folder.file("start.csv")?, Overwrite::Replace, &body)?;
     let start_error = error_of(&synthetic, &body, &pose)?.mean;
-    let exact = FileNames { manifest: "exact.toml", ..FileNames::default() };
+    let exact = FileNames { manifest: "exact.toml", measure_again: true, ..FileNames::default() };
     synthetic.write_manifest(&exact, folder)?;
-    synthetic.write_manifest(&FileNames { masks: false, ..FileNames::default() }, folder)?;
+    synthetic.write_manifest(&FileNames { masks: false, measure_again: true, ..FileNames::default() }, folder)?;
     Ok(UnseenSummary { body_error, start_error, start })
 }
 

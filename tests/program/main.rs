@@ -28,6 +28,7 @@ mod hostile;
 mod labels;
 mod losses;
 mod matrix;
+mod measure_again;
 mod observe;
 mod obstacles;
 mod on_device;

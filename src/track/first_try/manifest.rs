@@ -47,6 +47,9 @@ impl ManifestText<'_> {
         let _ = writeln!(text, "name = {}\nfps = {:?}\ncameras = {cameras}", quoted(self.name), self.fps);
         let _ = writeln!(text, "body = \"body.toml\"\nstart = \"start.csv\"\nheight = {:?}", self.height);
         let _ = writeln!(text, "scale = {:?}", self.scale);
+        if !self.kept.contains_key("measure_again") {
+            text.push_str("measure_again = true # the body: one posture does not tell all of it\n");
+        }
         // A table takes all keys that follow.
         let (tables, keys): (Vec<_>, Vec<_>) = self.kept.iter().partition(|(_, value)| has_tables(value));
         text.push_str(&written(&keys)?);
@@ -139,5 +142,6 @@ mod tests {
         assert_eq!(table["cameras"].as_str(), Some("../cameras.toml"));
         assert_eq!((table["view"][0]["delay"].as_integer(), table["timestamps"].as_str()), (Some(-8), Some("ignore")));
         assert_eq!(table["features"]["shadow"]["chroma"].as_integer(), Some(5));
+        assert_eq!(table["measure_again"].as_bool(), Some(true));
     }
 }

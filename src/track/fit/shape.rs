@@ -4,31 +4,56 @@ use glam::DVec3;
 
 use crate::body::{Body, Proportion, Proportions, without_side};
 
-/// An offset of flesh from its bone.
+/// An offset of flesh from its bone, or of a joint from the spine.
 struct Offset {
     /// The parts it moves an end of, without their sides, and whether that is the far end, `b`.
     ends: &'static [(&'static str, bool)],
+    /// The bones whose joints it moves, without their sides.
+    joints: &'static [&'static str],
     /// Away from the other side, not forwards.
     is_outward: bool,
+    /// Standard deviation, mm.
+    deviation: f64,
 }
 
+const fn forwards(ends: &'static [(&'static str, bool)], joints: &'static [&'static str]) -> Offset {
+    Offset { ends, joints, is_outward: false, deviation: 20.0 }
+}
+
+/// All of the trunk, with arms and head.
+const TRUNK: &[(&str, bool)] =
+    &[("belly", false), ("belly", true), ("chest", false), ("chest", true), ("neck", false), ("neck", true)];
+
 const OFFSETS: [Offset; Shape::OFFSETS] = [
-    Offset { ends: &[("belly", false)], is_outward: false },
-    Offset { ends: &[("belly", true), ("chest", false)], is_outward: false },
-    Offset { ends: &[("chest", true), ("neck", false)], is_outward: false },
-    Offset { ends: &[("neck", true), ("head", false), ("head", true)], is_outward: false },
-    Offset { ends: &[("upper_arm", false)], is_outward: false },
-    Offset { ends: &[("upper_arm", true), ("forearm", false)], is_outward: false },
-    Offset { ends: &[("thigh", false)], is_outward: false },
-    Offset { ends: &[("thigh", true)], is_outward: false },
-    Offset { ends: &[("calf", false)], is_outward: false },
-    Offset { ends: &[("thigh", false)], is_outward: true },
-    Offset { ends: &[("upper_arm", false)], is_outward: true },
+    // How far the spine is from the middle of the trunk, where bodies differ most; what else lies before it is moved by itself besides.
+    Offset { deviation: 45.0, ..forwards(TRUNK, &["shoulder", "head"]) },
+    forwards(&[("belly", true), ("chest", false)], &[]),
+    forwards(&[("chest", true), ("neck", false)], &[]),
+    forwards(&[], &["shoulder"]),
+    forwards(&[("neck", true)], &["head"]),
+    forwards(&[("head", false), ("head", true)], &[]),
+    forwards(&[("upper_arm", true), ("forearm", false)], &[]),
+    forwards(&[("thigh", false)], &[]),
+    forwards(&[("thigh", true)], &[]),
+    forwards(&[("calf", false)], &[]),
+    Offset { is_outward: true, ..forwards(&[("thigh", false)], &[]) },
 ];
 
-/// Deviation of an offset, and how far it may go, mm.
-const DEVIATION: f64 = 20.0;
+/// How far an offset may go, mm.
 const FARTHEST: f64 = 60.0;
+
+/// Deviations of the proportions of a body that was measured, as a share of those among people: a straight limb tells its length, and not so
+/// well where its joint is; silhouettes tell widths.
+const LIMBS: f64 = 0.5;
+const OTHERS: f64 = 0.25;
+
+/// The proportions that say where joints of limbs are.
+const OF_LIMBS: [&str; 5] = ["hip width", "upper arm", "forearm", "thigh", "calf"];
+
+/// Standard deviation of a proportion of a body that was measured, as a fraction.
+fn doubt(known: &Proportion) -> f64 {
+    known.deviation * if OF_LIMBS.contains(&known.name) { LIMBS } else { OTHERS }
+}
 
 /// Proportions and offsets of a person.
 #[derive(Clone, Debug, Default)]
@@ -53,34 +78,47 @@ impl Shape {
         self.proportions.0.iter().chain(&self.offsets).map(|value| *value as f32).collect()
     }
 
-    /// Lowest values, highest ones, deviations.
+    /// Lowest values, highest ones, deviations from a body that was measured.
     pub(super) fn ranges() -> [Vec<f32>; 3] {
-        let off = |value: f64| [value as f32; Self::OFFSETS];
-        let of = |value: fn(&Proportion) -> f64, offset: f64| -> Vec<f32> {
-            Proportions::ALL.iter().map(|known| value(known) as f32).chain(off(offset)).collect()
+        let of = |value: fn(&Proportion) -> f64, offset: fn(&Offset) -> f64| -> Vec<f32> {
+            Proportions::ALL.iter().map(value).chain(OFFSETS.iter().map(offset)).map(|value| value as f32).collect()
         };
         [
-            of(|known| known.limits[0], -FARTHEST),
-            of(|known| known.limits[1], FARTHEST),
-            of(|known| known.deviation, DEVIATION),
+            of(|known| known.limits[0], |_| -FARTHEST),
+            of(|known| known.limits[1], |_| FARTHEST),
+            of(doubt, |offset| offset.deviation),
         ]
     }
 
     /// Sum of squares of the deviations it is off by.
     pub(super) fn oddness(&self) -> f64 {
-        let offsets = self.offsets.iter().map(|offset| offset / DEVIATION);
-        deviations(&self.proportions).chain(offsets).map(|off| off * off).sum()
+        let factors = self.proportions.0.iter().zip(&Proportions::ALL);
+        let offsets = self.offsets.iter().zip(&OFFSETS);
+        let off = factors
+            .map(|(factor, known)| (factor - 1.0) / doubt(known))
+            .chain(offsets.map(|(value, offset)| value / offset.deviation));
+        off.map(|off| off * off).sum()
     }
 
     pub(super) fn apply(&self, body: &Body) -> Body {
         let mut result = self.proportions.apply(body);
+        let moves = |side: &str| {
+            let outward = if side.starts_with("right_") { DVec3::NEG_Y } else { DVec3::Y };
+            OFFSETS
+                .iter()
+                .zip(self.offsets)
+                .map(move |(offset, value)| (offset, value * if offset.is_outward { outward } else { DVec3::X }))
+        };
         for part in &mut result.parts {
-            let outward = if part.name.starts_with("right_") { DVec3::NEG_Y } else { DVec3::Y };
-            for (offset, value) in OFFSETS.iter().zip(self.offsets) {
-                let by = value * if offset.is_outward { outward } else { DVec3::X };
+            for (offset, by) in moves(&part.name) {
                 for (_, is_far) in offset.ends.iter().filter(|(name, _)| *name == without_side(&part.name)) {
                     *(if *is_far { &mut part.b } else { &mut part.a }) += by;
                 }
+            }
+        }
+        for bone in &mut result.bones {
+            for (_, by) in moves(&bone.name).filter(|(offset, _)| offset.joints.contains(&without_side(&bone.name))) {
+                bone.offset += by;
             }
         }
         result
@@ -96,12 +134,8 @@ pub(super) fn proportions(factors: &[f32]) -> Proportions {
     proportions
 }
 
-/// How many of their deviations each of the proportions is off the tables.
-fn deviations(proportions: &Proportions) -> impl Iterator<Item = f64> {
-    proportions.0.iter().zip(&Proportions::ALL).map(|(factor, known)| (factor - 1.0) / known.deviation)
-}
-
-/// The sum of the squares of [`deviations`].
+/// Sum of the squares of the deviations that proportions are off the tables by.
 pub(super) fn oddness(proportions: &Proportions) -> f64 {
-    deviations(proportions).map(|off| off * off).sum()
+    let off = proportions.0.iter().zip(&Proportions::ALL).map(|(factor, known)| (factor - 1.0) / known.deviation);
+    off.map(|off| off * off).sum()
 }

@@ -5,9 +5,11 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 
 use super::Run;
-use crate::body::{Body, Model};
+use crate::body::Body;
+use crate::sequence::Sequence;
 use crate::track::confidence::JointProbe;
 use crate::track::fit::{Following, TrackedPoses, measure_again};
+use crate::track::plan::Plan;
 use crate::track::progress::Progress;
 
 /// The body of the results, where it is not the one that was given.
@@ -19,19 +21,39 @@ const FEWEST: usize = 12;
 /// They are among so many first frames: those between are read too.
 const AMONG: usize = 1000;
 
+/// Why the person of a run cannot be measured again, where that is so: whole silhouettes before known backgrounds are measured by.
+pub(in crate::track) fn why_not_again(sequence: &Sequence, plan: &Plan) -> Option<String> {
+    let name = sequence.path.display();
+    if !plan.features.segment.is_empty() {
+        return Some(format!("{name} has [[features.segment]], and a person is measured again by whole silhouettes"));
+    }
+    let view = sequence.views.iter().find(|view| view.learns_background())?;
+    let camera = &view.camera;
+    Some(format!(
+        "{name}: camera {camera:?} has neither a background picture nor masks, and a person is measured again with one of them"
+    ))
+}
+
 impl Run<'_> {
     /// Measures the person again in the poses of the first pass, and goes on with that body where frames that it was not measured in say that
-    /// it fits better. A sentence where it does.
+    /// it fits better. A sentence of what came of it, where that was asked for.
     ///
     /// # Errors
     /// When frames cannot be read, or the body cannot be written.
     pub(in crate::track) fn measure_again(&mut self, progress: &mut dyn Progress) -> Result<Option<String>> {
-        let (plan, sequence) = (&self.plan, self.sequence);
-        let may = self.looks_back() && self.settings.measure_again && self.settings.model == Model::Flat;
-        let has_plates = !sequence.views.iter().any(|view| view.learns_background());
-        let frames = if may && has_plates && plan.features.segment.is_empty() { self.telling() } else { Vec::new() };
-        if frames.len() < FEWEST {
+        if !self.settings.measures_again(self.sequence) || !self.looks_back() {
             return Ok(None);
+        }
+        let (plan, sequence) = (&self.plan, self.sequence);
+        if let Some(why) = why_not_again(sequence, plan) {
+            return Ok(Some(format!("the person was not measured again: {why}")));
+        }
+        let frames = self.telling();
+        if frames.len() < FEWEST {
+            return Ok(Some(format!(
+                "the person was not measured again: {} frames of the first pass tell of the body, expected {FEWEST} or more",
+                frames.len()
+            )));
         }
         let start = Instant::now();
         let tracked = TrackedPoses {
@@ -45,7 +67,16 @@ impl Run<'_> {
         let found = measure_again(tracked, &mut |what, done, total| progress.preparing(what, done, total))
             .context("measuring the person again")?;
         self.count_over_frames("measure", start);
-        let Some(found) = found.filter(|found| found.is_believed()) else { return Ok(None) };
+        let Some(found) = found else {
+            return Ok(Some("the person was not measured again: the body lacks joints of the default one".to_string()));
+        };
+        if !found.is_believed() {
+            return Ok(Some(format!(
+                "the person was measured again, and the body stays as it was given: with what was found other frames fit better by \
+                 {:.4} +- {:.4}, too little to go by",
+                found.gain[0], found.gain[1]
+            )));
+        }
         self.go_on_with(found.body)?;
         Ok(Some(format!(
             "the person was measured again in {} frames of the first pass, and {} others fit better by {:.3} with that body: the results are \

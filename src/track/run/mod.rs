@@ -4,7 +4,7 @@ mod again;
 mod delayed;
 mod finish;
 
-pub(super) use self::again::REFINED_BODY;
+pub(super) use self::again::{REFINED_BODY, why_not_again};
 
 use std::time::{Duration, Instant};
 
