@@ -176,7 +176,7 @@ fn more_passes(settings: &TrackSettings) -> Option<&'static str> {
     (passes != Passes::Forward).then(|| passes.name())
 }
 
-/// What says so of measuring the person again, where the sequence alone would not.
+/// Whether the person is measured again, as a command says it whatever a sequence that says so by itself would have.
 fn measured_again(settings: &TrackSettings, sequence: &Sequence) -> &'static str {
     match (settings.measures_again(sequence), sequence.measure_again) {
         (true, _) => " --measure-again",

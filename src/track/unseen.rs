@@ -85,13 +85,7 @@ pub fn write_unseen(
     let body_error = error_of(&t_pose, &body, &measured.poses)?.mean;
     let first = PoseTable { frames: measured.poses.frames[..1].to_vec(), poses: measured.poses.poses[..1].to_vec() };
     first.write(&its_folder.file("start.csv")?, Overwrite::Replace, &body)?;
-    let names = FileNames {
-        manifest: "sequence.toml",
-        body: "../body.toml",
-        start: "start.csv",
-        masks: false,
-        measure_again: false,
-    };
+    let names = FileNames { body: "../body.toml", masks: false, ..FileNames::default() };
     t_pose.write_manifest(&names, &its_folder)?;
 
     let (pose, start) = start(&synthetic, &body, folder)?;

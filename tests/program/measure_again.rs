@@ -3,17 +3,18 @@
 use std::fs;
 use std::path::Path;
 
-use pantin::body::{Body, PoseTable};
+use pantin::body::{Body, PoseTable, Proportions};
 use pantin::files::Overwrite;
 
 use super::drawn;
 use super::support::{pantin, refused, stderr, stdout, succeeded};
 
-/// Pictures of somebody whose trunk lies before the spine and whose legs are bent so, as those of real people are; the manifest names an adult
-/// of the usual measures, and says that he was measured in one posture.
+/// Pictures of somebody whose trunk lies before the spine and whose calves lie behind the knees, as those of real people do, and whose arms are of
+/// other lengths; the manifest names an adult of the usual measures, and says that he was measured in one posture.
 fn write_sequence(folder: &Path) -> [Body; 2] {
     let adult = Body::adult(1700.0).unwrap();
-    let mut person = adult.clone();
+    let factors = [("upper arm".to_string(), 0.85), ("forearm".to_string(), 1.12)];
+    let mut person = Proportions::named(&factors.into_iter().collect()).unwrap().apply(&adult);
     for part in &mut person.parts {
         let [near, far] = match part.name.trim_start_matches("left_").trim_start_matches("right_") {
             "belly" | "chest" | "neck" => [45.0, 45.0],
@@ -87,13 +88,18 @@ fn a_person_made_otherwise_is_measured_on_the_way() {
     assert!(told.contains("the results are of refined_body.toml beside them"), "{told}");
     let refined = Body::load(&folder.path().join("again/refined_body.toml")).unwrap();
     let chest = |body: &Body| body.parts.iter().find(|part| part.name == "chest").unwrap().a.x;
-    let [adult, person] = bodies.each_ref().map(chest);
+    let upper_arm = |body: &Body| body.bones[body.bone_index("left_elbow").unwrap()].offset.length();
+    let [adult, person] = bodies.each_ref();
     let [before, after] = [&given, &again].map(|output| error(&stdout(output)));
     println!(
-        "chest {:.0} mm before the spine, {adult:.0} given, {person:.0} true; error {before:.1} -> {after:.1} mm",
-        chest(&refined)
+        "chest {:.0} mm before the spine, {:.0} true; upper arm {:.0} mm, {:.0} given, {:.0} true; error {before:.1} -> {after:.1} mm",
+        chest(&refined),
+        chest(person),
+        upper_arm(&refined),
+        upper_arm(adult),
+        upper_arm(person)
     );
-    assert!(chest(&refined) > 0.5 * (adult + person));
+    assert!(chest(&refined) > 0.5 * (chest(adult) + chest(person)) && upper_arm(&refined) < upper_arm(adult));
     assert!(after < 0.8 * before, "{before} -> {after} mm");
     // The poses are the refined body's: with it the joints are where joints.csv has them.
     let poses = PoseTable::read(&folder.path().join("again/poses.csv"), &refined).unwrap();
@@ -116,8 +122,18 @@ fn a_person_made_otherwise_is_measured_on_the_way() {
     succeeded(&nothing);
     let told = format!("{}{}", stdout(&nothing), stderr(&nothing));
     assert!(told.contains("6 frames of the first pass tell of the body, expected 12 or more"), "{told}");
+    // A manifest that asks for it may be gone over once; a command that asks for both is refused.
+    succeeded(&track("forward", &["--passes", "forward", "--frames", "0..2"]));
     refused(
         &track("once", &["--measure-again", "--passes", "forward"]),
         &["goes over its frames once", "--measure-again"],
     );
+
+    // A body that is right is kept.
+    person.save(&scene.join("body.toml"), Overwrite::Replace).unwrap();
+    let right = track("right", &[]);
+    succeeded(&right);
+    let told = format!("{}{}", stdout(&right), stderr(&right));
+    assert!(told.contains("the body stays as it was given"), "{told}");
+    assert!(!folder.path().join("right/refined_body.toml").exists());
 }
