@@ -97,7 +97,7 @@ impl Searcher {
         space: &SearchSpace,
         timing: Timing,
     ) -> Result<Self> {
-        if evaluator.on_device().is_none() || !settings.kind.has_device_form() {
+        if evaluator.on_device().is_none_or(|there| !settings.kind.fits(there.device())) {
             return Ok(Self::Host(settings.build(space)?));
         }
         settings.check_room(space)?;
@@ -161,7 +161,7 @@ impl Searcher {
         evaluator.on_device()?;
         let (search, backend) = (search.name(), evaluator.name());
         Some(format!(
-            "the search {search} has no form for devices: the host drives it, and {backend} scores its batches"
+            "the search {search} has no form for this device: the host drives it, and {backend} scores its batches"
         ))
     }
 }

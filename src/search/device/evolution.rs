@@ -31,6 +31,10 @@ struct Evolution {
 }
 
 impl DeviceForm for MatrixSettings {
+    fn largest_workgroup(&self) -> u32 {
+        SEARCH_GROUP.max(SUM_LANES)
+    }
+
     /// Records a frame of the evolution: its generations, then the mean of the last and its own evaluation.
     fn record(&self, frame: &mut FrameRecording, _: &SearchSpace, iterations: usize) -> Result<()> {
         let (extent, memory) = (frame.extent, frame.memory);

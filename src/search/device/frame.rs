@@ -5,10 +5,15 @@ use anyhow::{Result, ensure};
 use crate::evaluate::{DeviceEvaluator, Objective};
 use crate::gpu::{Buffer, Device, Groups, Memory, Recorder, StagedBuffer};
 use crate::search::SearchSpace;
-use crate::search::shaders::{SEARCH_GROUP, layout, spread_comp};
+use crate::search::shaders::{LOOK_GROUP, SEARCH_GROUP, layout, spread_comp};
 
 /// A kind of search in the form that runs whole on a device.
 pub(crate) trait DeviceForm {
+    /// Invocations of the largest workgroup it needs.
+    fn largest_workgroup(&self) -> u32 {
+        LOOK_GROUP
+    }
+
     /// Records a frame's iterations: from the frame's centre and spread to the outcome and its sums.
     ///
     /// # Errors

@@ -11,7 +11,9 @@ use std::time::Instant;
 use super::*;
 use crate::evaluate::{ScoredBy, Scoring};
 use crate::gpu::test_device::{device, device_under};
-use crate::gpu::{Buffer, Device, DeviceSettings, Groups, Memory, Recorder, StagedBuffer, Validation, by_name};
+use crate::gpu::{
+    Buffer, Capabilities, Device, DeviceSettings, Groups, Memory, Recorder, StagedBuffer, Validation, by_name,
+};
 use crate::search::arithmetic::box_muller;
 use crate::search::{FilterSettings, Search, SearchKind, philox4x32};
 
@@ -297,6 +299,30 @@ fn the_device_finds_what_the_processor_finds_to_the_bit() {
             let settings = settings(kind, particles, iterations);
             let odd = difference(&device, &settings, dofs, NOTHING_BAD, None);
             assert_eq!(odd, None, "{kind:?}: {particles} particles, {iterations} iterations, {dofs} values");
+        }
+    }
+    drop(device);
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+/// Vulkan promises workgroups of 128 and no more.
+#[test]
+fn on_the_smallest_workgroups_a_search_runs_or_says_that_it_does_not_fit() {
+    let lower: fn(&mut Capabilities) = |capabilities| capabilities.max_workgroup = 128;
+    let settings_of = |kind| settings(kind, 300, 4);
+    let lowered = DeviceSettings { lower: Some(lower), ..DeviceSettings::default() };
+    let Some((device, log)) = device("on_the_smallest_workgroups", lowered) else { return };
+    let fitting: Vec<SearchKind> = on_devices().filter(|kind| kind.fits(&device)).collect();
+    assert_eq!(fitting, [SearchKind::MaEs]);
+    for kind in on_devices() {
+        if fitting.contains(&kind) {
+            assert_eq!(difference(&device, &settings_of(kind), 31, NOTHING_BAD, None), None, "{kind:?}");
+        } else {
+            let mut scorer = Scorer::new(&device, &target_of(3, 31), NOTHING_BAD);
+            let made =
+                DeviceSearch::new(&mut scorer, &Objective::default(), &settings_of(kind), &space(31), Timing::Off);
+            let error = format!("{:#}", made.err().unwrap());
+            assert!(error.contains("wants workgroups of 256, and this device allows 128"), "{kind:?}: {error}");
         }
     }
     drop(device);

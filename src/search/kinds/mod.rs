@@ -28,6 +28,7 @@ use super::device::FrameRecording;
 use super::refinement::{Refined, Refinement};
 use super::{Search, SearchSpace};
 use crate::files::choices;
+use crate::gpu::Device;
 
 /// Most particles of a search. More is a slip of the keyboard, not a plan.
 const MOST_PARTICLES: usize = 1 << 20;
@@ -82,6 +83,12 @@ impl SearchKind {
     /// Whether it has a form that runs whole on a device; the others are driven from the host.
     pub fn has_device_form(self) -> bool {
         self.form_by_default().on_device().is_some()
+    }
+
+    /// Whether it has one, and the device has workgroups large enough for it.
+    pub fn fits(self, device: &Device) -> bool {
+        let most = device.capabilities().max_workgroup;
+        self.form_by_default().on_device().is_some_and(|form| form.largest_workgroup() <= most)
     }
 }
 
