@@ -26,7 +26,8 @@ pub(super) struct Pose2SimArgs {
     /// Height of the person with shoes and hair, mm, instead of participant_height. The body is measured in the first second.
     #[arg(long, value_name = "MM", conflicts_with = "body")]
     height: Option<f64>,
-    /// The person's body.toml, instead of measuring one: that of another trial is its pantin/track/found_body.toml.
+    /// The person's body.toml, instead of measuring one: that of another trial is its pantin/track/refined_body.toml, else
+    /// found_body.toml.
     #[arg(long, value_name = "FILE")]
     body: Option<PathBuf>,
     /// Pictures of the empty scene, DIR/CAMERA.png each (or by the video's name, or .jpg); of a trial of a session first in DIR/TRIAL.

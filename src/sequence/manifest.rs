@@ -43,8 +43,9 @@ pub struct Sequence {
     pub body: PathBuf,
     /// The height of the person, mm, where the manifest tells it.
     pub height: Option<f64>,
-    /// Whether the body was measured in one posture, so that a track that goes over its frames twice measures it again in the poses of the first.
-    pub measure_again: bool,
+    /// Whether the body was measured in one posture, so that a track that goes over its frames twice measures it again in the poses of the first;
+    /// none where the manifest does not say: so it is with a body that the track finds by itself.
+    pub measure_again: Option<bool>,
     names_body: bool,
     /// A poses.csv with the first pose.
     pub start: Option<PathBuf>,
@@ -115,8 +116,7 @@ struct ManifestFile {
     cameras: PathBuf,
     body: Option<PathBuf>,
     height: Option<f64>,
-    #[serde(default)]
-    measure_again: bool,
+    measure_again: Option<bool>,
     start: Option<PathBuf>,
     truth: Option<PathBuf>,
     #[serde(default = "full_size")]
@@ -237,7 +237,7 @@ impl ManifestFile {
         check_fps(self.fps).with_context(|| name.to_string())?;
         check_scale(self.scale).with_context(|| name.to_string())?;
         let own = [("body", self.body.is_some()), ("start", self.start.is_some()), ("truth", self.truth.is_some())];
-        let more = [("height", self.height.is_some()), ("measure_again", self.measure_again)];
+        let more = [("height", self.height.is_some()), ("measure_again", self.measure_again.is_some())];
         let own = own.into_iter().chain(more).find(|(_, is_there)| *is_there);
         if let (Some((key, _)), false) = (own, self.person.is_empty()) {
             bail!("{name} has `{key}` and [[person]], expected a `body` and `start` in each [[person]] alone");

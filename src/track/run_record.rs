@@ -178,7 +178,7 @@ fn more_passes(settings: &TrackSettings) -> Option<&'static str> {
 
 /// Whether the person is measured again, as a command says it whatever a sequence that says so by itself would have.
 fn measured_again(settings: &TrackSettings, sequence: &Sequence) -> &'static str {
-    match (settings.measures_again(sequence), sequence.measure_again) {
+    match (settings.measures_again(sequence), sequence.measure_again == Some(true)) {
         (true, _) => " --measure-again",
         (false, true) => " --measure-again=no",
         (false, false) => "",

@@ -124,7 +124,7 @@ impl TrackSettings {
     /// the flat body.
     pub fn measures_again(&self, sequence: &Sequence) -> bool {
         let can = self.passes() == Passes::Both && self.model == Model::Flat;
-        self.measure_again.unwrap_or(can && sequence.measure_again)
+        self.measure_again.unwrap_or(can && sequence.measure_again == Some(true))
     }
 
     /// Whether a lost person is searched for wider: that takes the time that real time has not.

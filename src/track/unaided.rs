@@ -60,6 +60,8 @@ pub(super) fn with_start<'a>(
     };
     if sequence.needs_body() {
         with.body = body;
+        // It was measured in few postures of a second.
+        with.measure_again.get_or_insert(true);
     }
     with.start = Some(start);
     Ok((Cow::Owned(with), note))

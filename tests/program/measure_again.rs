@@ -121,7 +121,7 @@ fn a_person_made_otherwise_is_measured_on_the_way() {
     let nothing = track("nothing", &["--frames", "0..8"]);
     succeeded(&nothing);
     let told = format!("{}{}", stdout(&nothing), stderr(&nothing));
-    assert!(told.contains("6 frames of the first pass tell of the body, expected 12 or more"), "{told}");
+    assert!(told.contains("tells of the body in 6 of its frames, expected 12 or more"), "{told}");
     // A manifest that asks for it may be gone over once; a command that asks for both is refused.
     succeeded(&track("forward", &["--passes", "forward", "--frames", "0..2"]));
     refused(

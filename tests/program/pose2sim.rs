@@ -194,6 +194,9 @@ fn a_project_that_says_all_needs_no_more_than_plates() {
     let done = session.run_alone("session", &["--plates", &session.text("plates")]);
     succeeded(&done);
     assert!(session.path("session/Trial_1/pantin/track/found_body.toml").is_file());
+    // A body that was measured in one second is measured again while tracking, where there are frames enough.
+    let said = stderr(&done);
+    assert!(said.contains("not measured again: the first pass tells of the body in 1 of its frames"), "{said}");
     let points = read_points(&session.path("session/Trial_1/pose-3d/Trial_1_0-0.trc")).unwrap().y_up_to_z_up();
     let of = |name: &str| points.frames[0][HALPE26.iter().position(|other| *other == name).unwrap()].unwrap();
     println!("head at {:.0}, heel at {:.0}, hip at {:.0} mm", of("Head").z, of("RHeel").z, of("Hip").z);

@@ -51,7 +51,7 @@ impl Run<'_> {
         let frames = self.telling();
         if frames.len() < FEWEST {
             return Ok(Some(format!(
-                "the person was not measured again: {} frames of the first pass tell of the body, expected {FEWEST} or more",
+                "the person was not measured again: the first pass tells of the body in {} of its frames, expected {FEWEST} or more",
                 frames.len()
             )));
         }
