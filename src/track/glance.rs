@@ -1,6 +1,8 @@
 //! Looking for limbs: what the pictures say of them along their axes, without drawing them. Cheap enough for thousands of poses of a limb,
 //! where a few dozen leave nothing near in the six degrees of freedom of an arm (METHOD A14).
 
+use std::ops::ControlFlow;
+
 use anyhow::Result;
 use glam::DAffine3;
 use rayon::prelude::*;
@@ -14,6 +16,8 @@ use crate::search::SearchSpace;
 
 /// Places along the axis of a part that are looked at.
 const PLACES: usize = 4;
+/// More than means of what places say differ by for being summed up in another order.
+const ROUNDING: f32 = 1e-3;
 /// By how many pixels of a view one of the pictures of the rest of the body is wide.
 const COARSE: u32 = 4;
 
@@ -109,9 +113,9 @@ pub(super) struct Seer<'a> {
 }
 
 impl Glance<'_> {
-    /// Shows `look` all places along the axes of the limb as `row` has it, in all views; none of one that the rest of the body covers. `bones`
-    /// is memory that is used again.
-    fn places(&self, row: &[f32], bones: &mut Vec<DAffine3>, mut look: impl FnMut(Option<Place>)) {
+    /// Shows `look` all places along the axes of the limb as `row` has it, in all views, until it has seen enough; none of one that the rest of
+    /// the body covers. `bones` is memory that is used again.
+    fn places(&self, row: &[f32], bones: &mut Vec<DAffine3>, mut look: impl FnMut(Option<Place>) -> ControlFlow<()>) {
         let Glances { body, cameras, .. } = self.glances;
         bones.clone_from(&self.bones);
         for &(bone, first) in &self.limb.bones {
@@ -129,7 +133,9 @@ impl Glance<'_> {
                 let width = cameras[place.view].size[0] as usize;
                 let [x, y] = [place.pixel % width, place.pixel / width].map(|at| at / COARSE as usize);
                 let is_covered = self.covered[place.view][y * width.div_ceil(COARSE as usize) + x] != 0;
-                look((!is_covered).then_some(place));
+                if look((!is_covered).then_some(place)).is_break() {
+                    return;
+                }
             }
         }
     }
@@ -137,23 +143,18 @@ impl Glance<'_> {
     /// What is said of the limb as each row has it: the mean over places along its axes and views, from -1 to 1, and nothing where the rest of
     /// the body is anyway.
     fn support(&self, seer: Seer<'_>, rows: &[Vec<f32>]) -> Result<Vec<f32>> {
-        let mean = |sum: f32, count: usize| if count > 0 { sum / count as f32 } else { 0.0 };
         let Seer { evaluator, objective } = seer;
         if is_known(objective, self.views) {
-            let support = |bones: &mut Vec<DAffine3>, row: &Vec<f32>| {
-                let (mut sum, mut count) = (0.0, 0);
-                self.places(row, bones, |place| {
-                    count += 1;
-                    sum += place.map_or(0.0, |place| said(self.views, &place));
-                });
-                mean(sum, count)
-            };
+            let support = |bones: &mut Vec<DAffine3>, row: &Vec<f32>| self.known_support(row, bones, f32::NEG_INFINITY);
             return Ok(rows.par_iter().with_min_len(64).map_init(Vec::new, support).collect());
         }
         // A device knows, and is asked of all of them at once.
         let places = |bones: &mut Vec<DAffine3>, row: &Vec<f32>| {
             let mut places = Vec::new();
-            self.places(row, bones, |place| places.push(place));
+            self.places(row, bones, |place| {
+                places.push(place);
+                ControlFlow::Continue(())
+            });
             places
         };
         let of_rows: Vec<Vec<Option<Place>>> = rows.par_iter().with_min_len(64).map_init(Vec::new, places).collect();
@@ -164,6 +165,21 @@ impl Glance<'_> {
             mean(said.fold(0.0, |sum, said| sum + said), places.len())
         };
         Ok(of_rows.iter().map(support).collect())
+    }
+
+    /// The same of one row by views that the host knows; anything less than `least` where it is that.
+    fn known_support(&self, row: &[f32], bones: &mut Vec<DAffine3>, least: f32) -> f32 {
+        let (mut sum, mut count) = (0.0_f32, 0);
+        let most = self.limb.parts.len() * PLACES * self.views.len();
+        self.places(row, bones, |place| {
+            count += 1;
+            sum += place.map_or(0.0, |place| said(self.views, &place));
+            // Each of the others can say 1 at most.
+            let left = most - count;
+            let hope = (sum + left as f32) / most as f32;
+            if hope < least - ROUNDING { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        mean(sum, count)
     }
 
     /// `count` poses of the limb on a lattice over its limits.
@@ -183,18 +199,33 @@ impl Glance<'_> {
         Ok(ranked.into_iter().take(most).map(|(_, row)| row).collect())
     }
 
-    /// By how much more is said of the limb in the best of `count` poses elsewhere than where it is, 0 to 2.
+    /// Whether more is said of the limb, by more than `margin`, in one of `count` poses elsewhere than where it is.
     ///
     /// # Errors
     /// When the evaluator fails.
-    pub(super) fn elsewhere(&self, seer: Seer<'_>, count: usize) -> Result<f32> {
+    pub(super) fn is_elsewhere(&self, seer: Seer<'_>, count: usize, margin: f32) -> Result<bool> {
+        if is_known(seer.objective, self.views) {
+            let here = self.known_support(&self.pose, &mut Vec::new(), f32::NEG_INFINITY);
+            if here + margin > 1.0 + ROUNDING {
+                // Nothing says more than 1.
+                return Ok(false);
+            }
+            let is_better = |bones: &mut Vec<DAffine3>, row: &Vec<f32>| {
+                self.known_support(row, bones, here + margin) - here > margin
+            };
+            let rows = self.lattice(count);
+            return Ok(rows.par_iter().with_min_len(64).map_init(Vec::new, is_better).any(|is_better| is_better));
+        }
         let mut rows = self.lattice(count);
         rows.push(self.pose.clone());
         let mut support = self.support(seer, &rows)?;
         let here = support.pop().unwrap_or(0.0);
-        let best = support.into_iter().fold(-1.0, f32::max);
-        Ok((best - here).max(0.0))
+        Ok(support.into_iter().any(|there| there - here > margin))
     }
+}
+
+fn mean(sum: f32, count: usize) -> f32 {
+    if count > 0 { sum / count as f32 } else { 0.0 }
 }
 
 /// `pose` with what is moved at the points of a lattice over its limits, from point `first` on: it fills them more evenly than random
@@ -218,4 +249,45 @@ pub(super) fn lattice(space: &SearchSpace, moved: &[usize], pose: &[f32], first:
 fn plastic(dimensions: usize) -> f64 {
     let power = 1.0 / (dimensions as f64 + 1.0);
     (0..40).fold(1.5_f64, |x, _| (1.0 + x).powf(power))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evaluate::ObjectiveKind;
+    use crate::evaluate::cpu::Cpu;
+    use crate::track::fit_tests::{cameras_around, seen};
+
+    /// What is passed over, because it can no longer say enough, is nothing that would have.
+    #[test]
+    fn what_is_passed_over_says_too_little() {
+        let body = Body::adult(1750.0).unwrap();
+        let (space, cameras) = (SearchSpace::of(&body).unwrap(), cameras_around());
+        let standing = body.standing_pose();
+        let mut raised = standing.clone();
+        let shoulder = body.dof_names().iter().position(|name| name == "left_shoulder.rx").unwrap();
+        raised[shoulder] = 1.3;
+        let observations = seen(&body, &cameras, &raised);
+        let views = SeenView::all(&observations);
+        let glances = Glances::new(&body, &cameras, &space);
+        let mut cpu = Cpu::new(&body, &cameras).unwrap();
+        let objective = Objective::of(ObjectiveKind::Sp);
+        let mut answers = [0; 2];
+        for pose in [&standing, &raised] {
+            let pose: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
+            for limb in 0..glances.limbs().len() {
+                let glance = glances.at(limb, &pose, &views).unwrap();
+                let mut seer = || Seer { evaluator: &mut cpu, objective: &objective };
+                let support = |seer, rows: &[Vec<f32>]| glance.support(seer, rows).unwrap();
+                let most = support(seer(), &glance.lattice(300)).into_iter().fold(-1.0, f32::max);
+                let here = support(seer(), std::slice::from_ref(&pose))[0];
+                for margin in (-20..=20).map(|tenths| tenths as f32 / 10.0).chain([most - here, most - here - 1e-6]) {
+                    let found = glance.is_elsewhere(seer(), 300, margin).unwrap();
+                    assert_eq!(found, most - here > margin, "limb {limb}: {most} over {here} by {margin}");
+                    answers[usize::from(found)] += 1;
+                }
+            }
+        }
+        assert!(answers[0] > 50 && answers[1] > 50, "{answers:?}");
+    }
 }

@@ -96,7 +96,7 @@ impl Limbs {
         looks: usize,
     ) -> Result<bool> {
         let looks = scorer.generations(looks);
-        Ok(self.glances.at(limb, pose, views)?.elsewhere(scorer.seer(), looks)? > SUSPICIOUS)
+        self.glances.at(limb, pose, views)?.is_elsewhere(scorer.seer(), looks, SUSPICIOUS)
     }
 
     /// A limb of a frame's pose looked for everywhere within its limits.

@@ -2,10 +2,12 @@
 
 use glam::{DAffine3, DVec3};
 
-use crate::body::Body;
+use crate::body::{Body, Part};
 
 /// Share of the thinner part's radius by which parts may overlap: radii are measured roughly, and flesh gives way.
 const GIVES: f64 = 0.5;
+/// More than arithmetic is off by, mm.
+const ROUNDING: f64 = 1e-3;
 
 /// A body, for what of its poses time can judge.
 #[derive(Clone, Debug)]
@@ -15,6 +17,8 @@ pub(super) struct Shape {
     ends: Vec<(usize, DVec3)>,
     /// Pairs of parts that could stand in each other, and how deep they may.
     pairs: Vec<(usize, usize, f64)>,
+    /// How far each part reaches from its axis's middle, mm.
+    reaches: Vec<f64>,
 }
 
 /// Memory that posing uses again.
@@ -22,6 +26,8 @@ pub(super) struct Shape {
 pub(super) struct Posed {
     pose: Vec<f64>,
     bones: Vec<DAffine3>,
+    /// The axes of the parts, mm.
+    axes: Vec<[DVec3; 2]>,
     /// The joints, mm, in the order of [`Body::joint_names`].
     pub(super) points: Vec<DVec3>,
 }
@@ -29,7 +35,9 @@ pub(super) struct Posed {
 impl Shape {
     pub(super) fn new(body: &Body) -> Self {
         let ends = body.free_ends().iter().map(|end| (end.bone, end.at)).collect();
-        let mut shape = Self { body: body.clone(), ends, pairs: Vec::new() };
+        let reach = |part: &Part| 0.5 * part.a.distance(part.b) + part.radius_a.max(part.radius_b) + ROUNDING;
+        let reaches = body.parts.iter().map(reach).collect();
+        let mut shape = Self { body: body.clone(), ends, pairs: Vec::new(), reaches };
         let mut posed = Posed::default();
         let rest: Vec<f32> = body.standing_pose().into_iter().map(|value| value as f32).collect();
         shape.pose(&rest, &mut posed);
@@ -58,6 +66,9 @@ impl Shape {
         if self.body.world_from_bones_into(&posed.pose, &mut posed.bones).is_err() {
             return;
         }
+        posed.axes.clear();
+        let axis = |part: &Part| [part.a, part.b].map(|end| posed.bones[part.bone].transform_point3(end));
+        posed.axes.extend(self.body.parts.iter().map(axis));
         posed.points.clear();
         posed.points.extend(posed.bones.iter().map(|matrix| matrix.translation));
         posed.points.extend(self.ends.iter().map(|(bone, at)| posed.bones[*bone].transform_point3(*at)));
@@ -75,13 +86,20 @@ impl Shape {
         if posed.bones.is_empty() {
             return 0.0;
         }
-        self.pairs.iter().map(|&(one, other, gives)| (self.depth(posed, one, other) - gives).max(0.0)).sum()
+        let near = self.pairs.iter().filter(|&&(one, other, _)| self.may_meet(posed, one, other));
+        near.map(|&(one, other, gives)| (self.depth(posed, one, other) - gives).max(0.0)).sum()
+    }
+
+    /// Whether the balls around two parts meet: most pairs are far apart.
+    fn may_meet(&self, posed: &Posed, one: usize, other: usize) -> bool {
+        let [[a, b], [c, d]] = [one, other].map(|part| posed.axes[part]);
+        (a + b).distance_squared(c + d) < (2.0 * (self.reaches[one] + self.reaches[other])).powi(2)
     }
 
     /// How deep two parts stand in each other, mm; not above 0 where they do not.
     fn depth(&self, posed: &Posed, one: usize, other: usize) -> f64 {
         let parts = [one, other].map(|part| &self.body.parts[part]);
-        let axes = parts.map(|part| [part.a, part.b].map(|end| posed.bones[part.bone].transform_point3(end)));
+        let axes = [one, other].map(|part| posed.axes[part]);
         let places = nearest(axes);
         let [p, q] = [0, 1].map(|at| axes[at][0].lerp(axes[at][1], places[at]));
         let radius = |at: usize| parts[at].radius_a + places[at] * (parts[at].radius_b - parts[at].radius_a);
@@ -101,4 +119,30 @@ fn nearest([[p0, p1], [q0, q1]]: [[DVec3; 2]; 2]) -> [f64; 2] {
         s = if a > 0.0 { ((b * t - d) / a).clamp(0.0, 1.0) } else { 0.0 };
     }
     [s, t]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::SearchSpace;
+    use crate::track::glance::lattice;
+
+    /// Parts whose balls do not meet do not stand in each other, so that leaving them out changes nothing.
+    #[test]
+    fn what_is_far_apart_does_not_intrude() {
+        let body = Body::adult(1750.0).unwrap();
+        let (shape, space) = (Shape::new(&body), SearchSpace::of(&body).unwrap());
+        let all: Vec<usize> = (0..space.dof_count()).collect();
+        let rest: Vec<f32> = body.standing_pose().into_iter().map(|value| value as f32).collect();
+        let mut posed = Posed::default();
+        let (mut far, mut deep) = (0, 0);
+        for row in lattice(&space, &all, &rest, 0, 500) {
+            shape.pose(&row, &mut posed);
+            let of = |&(one, other, gives): &(usize, usize, f64)| (shape.depth(&posed, one, other) - gives).max(0.0);
+            assert_eq!(shape.intrusion(&posed), shape.pairs.iter().map(of).sum::<f64>());
+            far += shape.pairs.iter().filter(|(one, other, _)| !shape.may_meet(&posed, *one, *other)).count();
+            deep += shape.pairs.iter().filter(|pair| of(pair) > 0.0).count();
+        }
+        assert!(far > 500 * shape.pairs.len() / 2 && deep > 100, "{far} far apart, {deep} intrude");
+    }
 }
