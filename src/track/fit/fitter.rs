@@ -1,5 +1,7 @@
 //! The searches of one fit.
 
+use std::f64::consts::{PI, TAU};
+
 use anyhow::{Context, Result};
 
 use super::super::hull::Hull;
@@ -43,8 +45,12 @@ pub(super) struct Fitter<'a> {
     seen: Seen,
     /// What a good pose is in the end.
     objective: Objective,
+    /// The poses whose colours the evidence is of.
+    taught: Vec<Vec<f32>>,
     /// Searches done: each draws random numbers of its own.
     searches: u32,
+    /// The same of all, those that came to nothing too.
+    begun: usize,
     /// Hears of the searches, of which there will be about as many as expected.
     progress: &'a mut Advance<'a>,
     expected: usize,
@@ -63,8 +69,7 @@ impl<'a> Fitter<'a> {
         objective: Objective,
         progress: &'a mut Advance<'a>,
     ) -> Result<Self> {
-        let first = if objective.weighs_evidence() { Objective::of(ObjectiveKind::Sp) } else { objective };
-        let scorer = Scorer::new(body, cameras, &seen.observations, first)?;
+        let scorer = Scorer::new(body, cameras, &seen.observations, silhouettes_first(objective))?;
         Ok(Self {
             space: SearchSpace::of(body)?,
             search,
@@ -72,7 +77,9 @@ impl<'a> Fitter<'a> {
             cameras,
             seen,
             objective,
+            taught: Vec::new(),
             searches: 0,
+            begun: 0,
             progress,
             expected: 0,
         })
@@ -88,23 +95,28 @@ impl<'a> Fitter<'a> {
         follows: bool,
         is_measured: bool,
     ) {
-        let headings = if has_heading { 1 } else { HEADINGS };
         let weighs_evidence = self.objective.weighs_evidence();
-        let first = match has_start {
-            true if weighs_evidence => 0,
-            true => SETTLING.len(),
-            false => headings * (ARMS.len() + SPREADS.len()) + SURVIVORS.min(headings) * ENCORES * SPREADS.len(),
-        };
         let followed = if follows { 2 * frames.saturating_sub(1) * SPREADS.len() } else { 0 };
-        let settled = if weighs_evidence { 2 * SETTLING.len() } else { 0 };
+        let settled = if weighs_evidence { 2 * frames * SETTLING.len() } else { 0 };
+        let from = |headings: usize| {
+            let each = headings * (ARMS.len() + SPREADS.len()) + SURVIVORS.min(headings) * ENCORES * SPREADS.len();
+            frames * each + followed + settled
+        };
+        let first = match (has_start, has_heading) {
+            (true, _) if weighs_evidence => settled,
+            (true, _) => frames * SETTLING.len(),
+            (false, true) => from(1),
+            (false, false) => from(HEADINGS) + from(1),
+        };
         let stretched = if is_measured { ROUNDS as usize * (1 + frames) } else { 0 };
-        self.expected = frames * (first + settled) + followed + stretched;
+        self.expected = first + stretched;
     }
 
     /// Counts a search that begins.
     fn begin(&mut self) {
-        (self.progress)("fitting", (self.searches as usize).min(self.expected), self.expected);
+        (self.progress)("fitting", self.begun.min(self.expected), self.expected);
         self.searches += 1;
+        self.begun += 1;
     }
 
     /// From here on poses are searched by evidence, of the colours that a person with this body has in `poses`.
@@ -113,6 +125,7 @@ impl<'a> Fitter<'a> {
     /// As [`Seen::weigh`].
     pub(super) fn relook(&mut self, body: &Body, poses: &[Vec<f32>]) -> Result<()> {
         self.seen.weigh(body, self.cameras, poses)?;
+        self.taught = poses.to_vec();
         self.scorer.look_anew(&self.seen.observations, self.objective)
     }
 
@@ -151,14 +164,86 @@ impl<'a> Fitter<'a> {
         Ok((found.pose, found.fitness))
     }
 
-    /// The pose of a frame from nothing but the hull.
-    pub(super) fn first_pose(
+    /// The poses of all frames from nothing but their hulls, of one heading (degrees) where that is given.
+    pub(super) fn found(
         &mut self,
         body: &Body,
-        frame: usize,
-        hull: &Hull,
+        hulls: &[Hull],
         heading: Option<f64>,
-    ) -> Result<(Vec<f32>, f32)> {
+        follow: bool,
+    ) -> Result<Vec<Vec<f32>>> {
+        let each = hulls.iter().enumerate();
+        let own =
+            each.map(|(frame, hull)| Ok(self.first_pose(body, frame, hull, heading)?.0)).collect::<Result<Vec<_>>>()?;
+        if heading.is_some() {
+            self.found_on(body, own, follow)
+        } else {
+            self.found_both_ways(body, hulls, &own, follow)
+        }
+    }
+
+    /// Poses of all frames from the first ones of each by itself. Front and back of a person look nearly alike, and a swarm that has arms and
+    /// legs in their places the wrong way round does not turn any more: so all frames are tried both ways, that of most of them and its
+    /// opposite, and what fits better in all of them together stays.
+    fn found_both_ways(
+        &mut self,
+        body: &Body,
+        hulls: &[Hull],
+        own: &[Vec<f32>],
+        follow: bool,
+    ) -> Result<Vec<Vec<f32>>> {
+        let dof = index_of(&body.dof_names(), "pelvis.rz")?;
+        let headings: Vec<f64> = own.iter().map(|pose| f64::from(pose[dof])).collect();
+        let is_along = |heading: f64, way: f64| (heading - way).cos() > 0.0;
+        let alike = |way: f64| headings.iter().filter(|heading| is_along(**heading, way)).count();
+        let Some(way) = headings.iter().rev().copied().max_by_key(|way| alike(*way)) else { return Ok(Vec::new()) };
+        let on = |fitter: &mut Self, way: f64| -> Result<(Vec<Vec<f32>>, f32)> {
+            let mut poses = own.to_vec();
+            for (frame, pose) in poses.iter_mut().enumerate() {
+                if !is_along(headings[frame], way) {
+                    *pose = fitter.first_pose(body, frame, &hulls[frame], Some(way.to_degrees()))?.0;
+                }
+            }
+            let poses = fitter.found_on(body, poses, follow)?;
+            let fitness = fitter.scorer.mean_fitness(&poses)?;
+            Ok((poses, fitness))
+        };
+        let (ahead, fitness) = on(self, way)?;
+        let (taught, searches) = (self.taught.clone(), self.searches);
+        self.scorer.look_anew(&self.seen.observations, silhouettes_first(self.objective))?;
+        let (turned, turned_fitness) = on(self, way.rem_euclid(TAU) - PI)?;
+        if turned_fitness > fitness {
+            return Ok(turned);
+        }
+        // As if nothing had been tried.
+        self.searches = searches;
+        if self.objective.weighs_evidence() {
+            self.relook(body, &taught)?;
+        }
+        Ok(ahead)
+    }
+
+    /// First poses searched on, and then from frame to frame where they follow each other: by evidence where that is weighed, since silhouettes
+    /// alone fit best with legs exchanged as often as not.
+    fn found_on(&mut self, body: &Body, poses: Vec<Vec<f32>>, follow: bool) -> Result<Vec<Vec<f32>>> {
+        let poses = self.by_evidence(body, poses)?;
+        if follow { self.follow(poses) } else { Ok(poses) }
+    }
+
+    /// First poses searched on by evidence, where that is weighed: by what is no background at first, then by the colours of the person there.
+    pub(super) fn by_evidence(&mut self, body: &Body, mut poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
+        if self.objective.weighs_evidence() {
+            for is_taught in [false, true] {
+                self.relook(body, if is_taught { &poses } else { &[] })?;
+                poses = self.settle(poses)?;
+                self.lend(&mut poses)?;
+            }
+        }
+        Ok(poses)
+    }
+
+    /// The pose of a frame from nothing but the hull.
+    fn first_pose(&mut self, body: &Body, frame: usize, hull: &Hull, heading: Option<f64>) -> Result<(Vec<f32>, f32)> {
         let headings = match heading {
             Some(heading) => vec![heading],
             None => (0..HEADINGS).map(|turn| turn as f64 * 360.0 / HEADINGS as f64 - 180.0).collect(),
@@ -189,19 +274,25 @@ impl<'a> Fitter<'a> {
         Ok(found.into_iter().next().unwrap_or_default())
     }
 
-    /// First poses, each also searched round its neighbours', there and back: what fits better stays.
-    pub(super) fn follow(&mut self, mut poses: Vec<(Vec<f32>, f32)>) -> Result<Vec<(Vec<f32>, f32)>> {
-        let last = poses.len().saturating_sub(1);
+    /// Poses, each also searched round its neighbours', there and back: what fits better stays.
+    fn follow(&mut self, poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
+        let mut found = Vec::with_capacity(poses.len());
+        for (frame, pose) in poses.into_iter().enumerate() {
+            let mut fitness = [0.0];
+            self.scorer.poses(frame, self.space.dof_count(), &pose, &mut fitness)?;
+            found.push((pose, fitness[0]));
+        }
+        let last = found.len().saturating_sub(1);
         let there = (0..last).map(|at| (at, at + 1));
         let back = (0..last).rev().map(|at| (at + 1, at));
         for (from, to) in there.chain(back) {
-            let round = (poses[from].0.clone(), f32::NEG_INFINITY);
-            let found = self.narrowed(to, round)?;
-            if found.1 > poses[to].1 {
-                poses[to] = found;
+            let round = (found[from].0.clone(), f32::NEG_INFINITY);
+            let searched = self.narrowed(to, round)?;
+            if searched.1 > found[to].1 {
+                found[to] = searched;
             }
         }
-        Ok(poses)
+        Ok(found.into_iter().map(|(pose, _)| pose).collect())
     }
 
     /// A pose searched round with one spread after the other. A swarm has its centre among its particles, so nothing gets
@@ -232,7 +323,7 @@ impl<'a> Fitter<'a> {
 
     /// Where another frame's pose explains a frame better than its own, the own is searched anew round that one: a limb that is lost in one
     /// frame is found by the next, as in a pose that is held.
-    pub(super) fn lend(&mut self, poses: &mut [Vec<f32>]) -> Result<()> {
+    fn lend(&mut self, poses: &mut [Vec<f32>]) -> Result<()> {
         let mut fitness = vec![0.0_f32; poses.len()];
         for frame in 0..poses.len() {
             self.scorer.poses(frame, self.space.dof_count(), &poses.concat(), &mut fitness)?;
@@ -322,6 +413,17 @@ impl<'a> Fitter<'a> {
     }
 }
 
+/// What poses are compared by where none is known that tells the person's colours.
+fn silhouettes_first(objective: Objective) -> Objective {
+    if objective.weighs_evidence() { Objective::of(ObjectiveKind::Sp) } else { objective }
+}
+
+/// The place of a degree of freedom in a pose.
+fn index_of(names: &[String], name: &str) -> Result<usize> {
+    let index = names.iter().position(|known| known == name);
+    index.with_context(|| format!("the body has no {name}, expected the joints of the default body"))
+}
+
 /// Standing in the hull, facing `heading` (degrees), arms lifted by `arms` degrees.
 fn rest_pose(body: &Body, hull: &Hull, heading: f64, arms: f64) -> Result<Vec<f32>> {
     let names = body.dof_names();
@@ -333,13 +435,60 @@ fn rest_pose(body: &Body, hull: &Hull, heading: f64, arms: f64) -> Result<Vec<f3
         ("left_shoulder.rx", arms.to_radians()),
         ("right_shoulder.rx", -arms.to_radians()),
     ] {
-        let index = names.iter().position(|known| known == name);
-        pose[index.with_context(|| format!("the body has no {name}, expected the joints of the default body"))?] =
-            value;
+        pose[index_of(&names, name)?] = value;
     }
     if let Some(lift) = names.iter().position(|name| name == "pelvis.tz") {
         pose[lift] += hull.span[0];
     }
     body.clamp_to_limits(&mut pose);
     Ok(pose.into_iter().map(|value| value as f32).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::features::SeenView;
+    use crate::track::fit_tests::{cameras_around, seen};
+
+    /// Whoever can be taken for one who faces the other way is tried both ways.
+    #[test]
+    fn nobody_stays_the_wrong_way_round() {
+        let body = Body::adult(1750.0).unwrap();
+        let names = body.dof_names();
+        let mut walking = body.standing_pose();
+        for (name, degrees) in [
+            ("pelvis.rz", 40.0_f64),
+            ("left_hip.ry", -25.0),
+            ("left_knee.ry", 20.0),
+            ("right_hip.ry", 10.0),
+            ("right_knee.ry", 35.0),
+            ("left_shoulder.ry", 20.0),
+            ("right_shoulder.ry", -20.0),
+            ("left_elbow.ry", -30.0),
+            ("right_elbow.ry", -50.0),
+        ] {
+            walking[index_of(&names, name).unwrap()] = degrees.to_radians();
+        }
+        body.clamp_to_limits(&mut walking);
+        let cameras = cameras_around();
+        let observations = seen(&body, &cameras, &walking);
+        let hulls = [Hull::carve(&cameras, &SeenView::all(&observations)).unwrap()];
+        let search = SearchSettings { particles: 60, iterations: 15, ..SearchSettings::default() };
+        let objective = Objective::of(ObjectiveKind::Sp);
+        let mut progress = |_: &str, _, _| {};
+        let mut fitter =
+            Fitter::new(&body, &cameras, Seen::of(vec![observations]), search, objective, &mut progress).unwrap();
+        let off = |pose: &[f32]| {
+            let by = f64::from(pose[index_of(&names, "pelvis.rz").unwrap()]).to_degrees() - 40.0;
+            (by + 180.0).rem_euclid(360.0) - 180.0
+        };
+        let wrong = fitter.first_pose(&body, 0, &hulls[0], Some(-140.0)).unwrap().0;
+        assert!(off(&wrong).abs() > 90.0, "off by {} degrees", off(&wrong));
+        let right = fitter.found_both_ways(&body, &hulls, &[wrong], false).unwrap();
+        assert!(off(&right[0]).abs() < 20.0, "off by {} degrees", off(&right[0]));
+        // Whoever was right stays, as if nothing else had been tried.
+        let searches = fitter.searches;
+        assert_eq!(fitter.found_both_ways(&body, &hulls, &right, false).unwrap(), right);
+        assert_eq!(fitter.searches, searches);
+    }
 }

@@ -158,24 +158,10 @@ pub fn fit_with(sequence: &Sequence, settings: &FitSettings, progress: &mut Adva
     let mut poses = match &settings.start {
         Some(path) => {
             let poses = start_poses(path, &body, &frames)?;
-            if weighs_evidence { poses } else { fitter.settle(poses)? }
+            if weighs_evidence { fitter.by_evidence(&body, poses)? } else { fitter.settle(poses)? }
         }
-        None => {
-            let found = hulls.iter().enumerate().map(|(at, hull)| fitter.first_pose(&body, at, hull, settings.heading));
-            let found = found.collect::<Result<Vec<_>>>()?;
-            let found = if settings.follow { fitter.follow(found)? } else { found };
-            found.into_iter().map(|(pose, _)| pose).collect()
-        }
+        None => fitter.found(&body, &hulls, settings.heading, settings.follow)?,
     };
-    if weighs_evidence {
-        // By what is no background at first, then by the colours of the person there.
-        fitter.relook(&body, &[])?;
-        poses = fitter.settle(poses)?;
-        fitter.lend(&mut poses)?;
-        fitter.relook(&body, &poses)?;
-        poses = fitter.settle(poses)?;
-        fitter.lend(&mut poses)?;
-    }
     let before = fitter.scorer.coverage(&poses)?;
     let mut fitted = body.clone();
     let proportions = match height {
