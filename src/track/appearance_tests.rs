@@ -154,10 +154,15 @@ fn frames_are_the_processor_s(device: &Device, mut evaluator: Box<dyn Evaluator>
             let [expected, found] = [&known, &asked].map(|views| {
                 let glance = glances.at(limb, &lifted, views).unwrap();
                 let evaluator = evaluator.as_mut();
-                let elsewhere =
-                    glance.elsewhere(Seer { evaluator: &mut *evaluator, objective: &objective }, 40).unwrap();
+                let margins = (-10..=10).map(|tenths| tenths as f32 / 10.0);
+                let elsewhere: Vec<bool> = margins
+                    .map(|margin| {
+                        let seer = Seer { evaluator: &mut *evaluator, objective: &objective };
+                        glance.is_elsewhere(seer, 40, margin).unwrap()
+                    })
+                    .collect();
                 let best = glance.best(Seer { evaluator, objective: &objective }, 40, 5).unwrap();
-                (best, elsewhere.to_bits())
+                (best, elsewhere)
             });
             assert_eq!(found, expected, "frame {frame}, limb {limb}");
             sights.push(expected);

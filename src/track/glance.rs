@@ -277,12 +277,14 @@ mod tests {
             let pose: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
             for limb in 0..glances.limbs().len() {
                 let glance = glances.at(limb, &pose, &views).unwrap();
-                let mut seer = || Seer { evaluator: &mut cpu, objective: &objective };
-                let support = |seer, rows: &[Vec<f32>]| glance.support(seer, rows).unwrap();
-                let most = support(seer(), &glance.lattice(300)).into_iter().fold(-1.0, f32::max);
-                let here = support(seer(), std::slice::from_ref(&pose))[0];
+                let mut rows = glance.lattice(300);
+                rows.push(pose.clone());
+                let mut support = glance.support(Seer { evaluator: &mut cpu, objective: &objective }, &rows).unwrap();
+                let here = support.pop().unwrap();
+                let most = support.into_iter().fold(-1.0, f32::max);
                 for margin in (-20..=20).map(|tenths| tenths as f32 / 10.0).chain([most - here, most - here - 1e-6]) {
-                    let found = glance.is_elsewhere(seer(), 300, margin).unwrap();
+                    let seer = Seer { evaluator: &mut cpu, objective: &objective };
+                    let found = glance.is_elsewhere(seer, 300, margin).unwrap();
                     assert_eq!(found, most - here > margin, "limb {limb}: {most} over {here} by {margin}");
                     answers[usize::from(found)] += 1;
                 }
