@@ -154,15 +154,12 @@ fn frames_are_the_processor_s(device: &Device, mut evaluator: Box<dyn Evaluator>
             let [expected, found] = [&known, &asked].map(|views| {
                 let glance = glances.at(limb, &lifted, views).unwrap();
                 let evaluator = evaluator.as_mut();
-                let margins = (-10..=10).map(|tenths| tenths as f32 / 10.0);
-                let elsewhere: Vec<bool> = margins
-                    .map(|margin| {
-                        let seer = Seer { evaluator: &mut *evaluator, objective: &objective };
-                        glance.is_elsewhere(seer, 40, margin).unwrap()
-                    })
-                    .collect();
+                let seer = Seer { evaluator: &mut *evaluator, objective: &objective };
+                let support = glance.support(seer, &glance.lattice(40)).unwrap();
+                let seer = Seer { evaluator: &mut *evaluator, objective: &objective };
+                let is_elsewhere = glance.is_elsewhere(seer, 40, 0.2).unwrap();
                 let best = glance.best(Seer { evaluator, objective: &objective }, 40, 5).unwrap();
-                (best, elsewhere)
+                (best, support.into_iter().map(f32::to_bits).collect::<Vec<_>>(), is_elsewhere)
             });
             assert_eq!(found, expected, "frame {frame}, limb {limb}");
             sights.push(expected);

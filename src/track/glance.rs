@@ -142,7 +142,7 @@ impl Glance<'_> {
 
     /// What is said of the limb as each row has it: the mean over places along its axes and views, from -1 to 1, and nothing where the rest of
     /// the body is anyway.
-    fn support(&self, seer: Seer<'_>, rows: &[Vec<f32>]) -> Result<Vec<f32>> {
+    pub(super) fn support(&self, seer: Seer<'_>, rows: &[Vec<f32>]) -> Result<Vec<f32>> {
         let Seer { evaluator, objective } = seer;
         if is_known(objective, self.views) {
             let support = |bones: &mut Vec<DAffine3>, row: &Vec<f32>| self.known_support(row, bones, f32::NEG_INFINITY);
@@ -183,7 +183,7 @@ impl Glance<'_> {
     }
 
     /// `count` poses of the limb on a lattice over its limits.
-    fn lattice(&self, count: usize) -> Vec<Vec<f32>> {
+    pub(super) fn lattice(&self, count: usize) -> Vec<Vec<f32>> {
         lattice(&self.glances.space, &self.limb.dofs, &self.pose, 0, count)
     }
 

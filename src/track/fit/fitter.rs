@@ -173,8 +173,7 @@ impl<'a> Fitter<'a> {
         follow: bool,
     ) -> Result<Vec<Vec<f32>>> {
         let each = hulls.iter().enumerate();
-        let own =
-            each.map(|(frame, hull)| Ok(self.first_pose(body, frame, hull, heading)?.0)).collect::<Result<Vec<_>>>()?;
+        let own = each.map(|(frame, hull)| self.first_pose(body, frame, hull, heading)).collect::<Result<Vec<_>>>()?;
         if heading.is_some() {
             self.found_on(body, own, follow)
         } else {
@@ -201,7 +200,7 @@ impl<'a> Fitter<'a> {
             let mut poses = own.to_vec();
             for (frame, pose) in poses.iter_mut().enumerate() {
                 if !is_along(headings[frame], way) {
-                    *pose = fitter.first_pose(body, frame, &hulls[frame], Some(way.to_degrees()))?.0;
+                    *pose = fitter.first_pose(body, frame, &hulls[frame], Some(way.to_degrees()))?;
                 }
             }
             let poses = fitter.found_on(body, poses, follow)?;
@@ -243,7 +242,7 @@ impl<'a> Fitter<'a> {
     }
 
     /// The pose of a frame from nothing but the hull.
-    fn first_pose(&mut self, body: &Body, frame: usize, hull: &Hull, heading: Option<f64>) -> Result<(Vec<f32>, f32)> {
+    fn first_pose(&mut self, body: &Body, frame: usize, hull: &Hull, heading: Option<f64>) -> Result<Vec<f32>> {
         let headings = match heading {
             Some(heading) => vec![heading],
             None => (0..HEADINGS).map(|turn| turn as f64 * 360.0 / HEADINGS as f64 - 180.0).collect(),
@@ -271,7 +270,7 @@ impl<'a> Fitter<'a> {
             }
         }
         found.sort_by(by_fitness);
-        Ok(found.into_iter().next().unwrap_or_default())
+        Ok(found.into_iter().next().unwrap_or_default().0)
     }
 
     /// Poses, each also searched round its neighbours', there and back: what fits better stays.
@@ -442,4 +441,56 @@ fn rest_pose(body: &Body, hull: &Hull, heading: f64, arms: f64) -> Result<Vec<f3
     }
     body.clamp_to_limits(&mut pose);
     Ok(pose.into_iter().map(|value| value as f32).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::features::SeenView;
+    use crate::track::fit_tests::{cameras_around, seen};
+
+    /// Whoever can be taken for one who faces the other way is tried both ways.
+    #[test]
+    fn nobody_stays_the_wrong_way_round() {
+        let body = Body::adult(1750.0).unwrap();
+        let names = body.dof_names();
+        let mut walking = body.standing_pose();
+        for (name, degrees) in [
+            ("pelvis.rz", 40.0_f64),
+            ("left_hip.ry", -25.0),
+            ("left_knee.ry", 20.0),
+            ("right_knee.ry", 35.0),
+            ("left_shoulder.ry", 20.0),
+            ("right_shoulder.ry", -20.0),
+            ("left_elbow.ry", -30.0),
+            ("right_elbow.ry", -50.0),
+        ] {
+            walking[index_of(&names, name).unwrap()] = degrees.to_radians();
+        }
+        body.clamp_to_limits(&mut walking);
+        let cameras = cameras_around();
+        let observations = seen(&body, &cameras, &walking);
+        let hulls = [Hull::carve(&cameras, &SeenView::all(&observations)).unwrap()];
+        let search = SearchSettings { particles: 100, iterations: 20, ..SearchSettings::default() };
+        // What was seen has no edges.
+        let objective = Objective { w1: 1.0, w2: 0.0, ..Objective::of(ObjectiveKind::Ws) };
+        let mut progress = |_: &str, _, _| {};
+        let mut fitter =
+            Fitter::new(&body, &cameras, Seen::of(vec![observations]), search, objective, &mut progress).unwrap();
+        let heading = index_of(&names, "pelvis.rz").unwrap();
+        let right: Vec<f32> = walking.iter().map(|value| *value as f32).collect();
+        let mut wrong = right.clone();
+        wrong[heading] -= PI as f32;
+        let fitness = |fitter: &Fitter<'_>, poses: &[Vec<f32>]| fitter.scorer.mean_fitness(poses).unwrap();
+        let wrong = [wrong];
+        let found = fitter.found_both_ways(&body, &hulls, &wrong, false).unwrap();
+        let off = f64::from(found[0][heading] - right[heading]);
+        let [after, before] = [fitness(&fitter, &found), fitness(&fitter, &wrong)];
+        println!("{:.1} degrees off, {after} over {before}", off.to_degrees());
+        assert!(off.cos() > 0.0 && after > before);
+        // Whoever was right stays, as if nothing else had been tried.
+        let (searches, right) = (fitter.searches, [right]);
+        assert_eq!(fitter.found_both_ways(&body, &hulls, &right, false).unwrap(), right);
+        assert_eq!(fitter.searches, searches);
+    }
 }

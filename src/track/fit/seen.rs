@@ -43,6 +43,13 @@ impl Seen {
         Ok(seen)
     }
 
+    /// Observations of frames, to be compared by silhouettes.
+    #[cfg(test)]
+    pub(super) fn of(observations: Vec<Vec<Observation>>) -> Self {
+        let likelihoods = observations.iter().map(|_| Vec::new()).collect();
+        Self { observations, likelihoods }
+    }
+
     /// Every second frame, the first among them, and the others.
     pub(super) fn halves(self) -> [Self; 2] {
         let [mut even, mut odd] = [(); 2].map(|()| Self { observations: Vec::new(), likelihoods: Vec::new() });
