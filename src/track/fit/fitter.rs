@@ -222,8 +222,8 @@ impl<'a> Fitter<'a> {
         Ok(ahead)
     }
 
-    /// First poses searched on, and then from frame to frame where they follow each other: by evidence where that is weighed, since silhouettes
-    /// alone fit best with legs exchanged as often as not.
+    /// First poses searched on, and then from frame to frame where they follow each other: by evidence where that is weighed: silhouettes alone may
+    /// fit better the wrong way round.
     fn found_on(&mut self, body: &Body, poses: Vec<Vec<f32>>, follow: bool) -> Result<Vec<Vec<f32>>> {
         let poses = self.by_evidence(body, poses)?;
         if follow { self.follow(poses) } else { Ok(poses) }
