@@ -18,15 +18,17 @@ const WIDTHS: [f32; 2] = [0.25, 2.0];
 /// What a joint may jerk along a path: deviation at rest, mm, and as a share of the way in a frame. Small, since that way is long too where a
 /// path leaps from one candidate to another.
 const JERK: [f64; 2] = [10.0, 0.05];
+/// How many times as far joints may jerk along the bolder path.
+pub(super) const BOLDER: f64 = 10.0;
 /// How far a joint may go from the first frame to the second, mm.
 const FIRST: f64 = 100.0;
 
 /// The second pass over windows of a run.
 pub(super) struct Mending<'a> {
     pub(super) scorer: Scorer<'a>,
-    limbs: Limbs,
+    pub(super) limbs: Limbs,
     /// The body's, from a frame to the next.
-    steps: Vec<f32>,
+    pub(super) steps: Vec<f32>,
     /// How many frames on either side tell of a frame.
     pub(super) reach: usize,
 }
@@ -58,16 +60,32 @@ impl<'a> Mending<'a> {
                 &mut candidates,
             )?;
         }
-        let path = choose(&candidates, before);
-        let mut poses: Vec<Settled> = before.to_vec();
-        for ((seen, candidates), &chosen) in seen.iter().zip(&candidates).zip(&path) {
-            let Candidate { pose, points, .. } = &candidates[chosen];
-            poses.push(Settled { frame: seen.index, pose: pose.clone(), points: points.clone() });
-        }
-        refining::refine(&mut self.scorer, seen, &spread, &mut poses, self.reach)?;
+        self.retrace(seen, given, &spread, before, &mut candidates)?;
+        let path = |bolder: f64| -> Vec<Settled> {
+            let chosen = choose(&candidates, before, bolder);
+            let of = |((seen, candidates), chosen): ((&&Seen, &Vec<Candidate>), usize)| {
+                let Candidate { pose, points, .. } = &candidates[chosen];
+                Settled { frame: seen.index, pose: pose.clone(), points: points.clone() }
+            };
+            before.iter().cloned().chain(seen.iter().zip(&candidates).zip(chosen).map(of)).collect()
+        };
+        let mut poses = path(1.0);
+        let bolder = path(BOLDER);
+        let all: Vec<usize> = (0..seen.len()).collect();
+        refining::refine(&mut self.scorer, seen, &all, &spread, &mut poses, [self.reach, refining::ROUNDS])?;
+        self.weigh_bolder(seen, &spread, &bolder, &mut poses)?;
         poses.drain(..before.len());
         Ok(poses)
     }
+}
+
+/// What it costs joints to be at `a`, `b` and `c` one after the other, where they may jerk `bolder` times as far as usual.
+pub(super) fn jerk(a: &[DVec3], b: &[DVec3], c: &[DVec3], bolder: f64) -> f64 {
+    let joints = a.iter().zip(b).zip(c).map(|((a, b), c)| {
+        let scale = bolder * (JERK[0] + JERK[1] * 0.5 * a.distance(*c));
+        robust((*a + *c - 2.0 * *b).length_squared() / (scale * scale))
+    });
+    joints.sum()
 }
 
 /// How wide to search around a track: by how much its degrees of freedom change, and by the body's steps.
@@ -80,25 +98,18 @@ pub(super) fn widths(steps: &[f32], track: &[Vec<f32>]) -> Vec<f32> {
     steps.iter().enumerate().map(width).collect()
 }
 
-/// The path through the candidates, going on from the frames before.
-fn choose(candidates: &[Vec<Candidate>], before: &[Settled]) -> Vec<usize> {
+/// The path through the candidates, going on from the frames before, along which joints may jerk `bolder` times as far as usual.
+pub(super) fn choose(candidates: &[Vec<Candidate>], before: &[Settled], bolder: f64) -> Vec<usize> {
     let fixed = &before[before.len().saturating_sub(2)..];
     let mut worth: Vec<Vec<f64>> = fixed.iter().map(|_| vec![0.0]).collect();
     worth.extend(candidates.iter().map(|found| found.iter().map(|candidate| candidate.worth).collect()));
     let points = |t: usize, k: usize| -> &[DVec3] {
         if t < fixed.len() { &fixed[t].points } else { &candidates[t - fixed.len()][k].points }
     };
-    let jerk = |a: &[DVec3], b: &[DVec3], c: &[DVec3]| -> f64 {
-        let joints = a.iter().zip(b).zip(c).map(|((a, b), c)| {
-            let scale = JERK[0] + JERK[1] * 0.5 * a.distance(*c);
-            robust((*a + *c - 2.0 * *b).length_squared() / (scale * scale))
-        });
-        joints.sum()
-    };
     let first = |j: usize, k: usize| {
         let pairs = points(0, j).iter().zip(points(1, k));
         pairs.map(|(a, b)| robust(a.distance_squared(*b) / (FIRST * FIRST))).sum::<f64>()
     };
-    let path = best_path(&worth, &first, &|t, i, j, k| jerk(points(t - 2, i), points(t - 1, j), points(t, k)));
+    let path = best_path(&worth, &first, &|t, i, j, k| jerk(points(t - 2, i), points(t - 1, j), points(t, k), bolder));
     path[fixed.len()..].to_vec()
 }

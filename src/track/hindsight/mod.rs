@@ -2,6 +2,7 @@
 //! and forwards make several poses a frame, the path through them that is worth most is taken, and then every frame is searched again
 //! close to where its neighbours expect it.
 
+mod bolder;
 mod delayed;
 mod hypotheses;
 mod limb_search;

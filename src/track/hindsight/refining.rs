@@ -9,7 +9,7 @@ use super::window::Seen;
 use crate::features::Observation;
 
 /// Times that every frame is searched again, and generations of that.
-const ROUNDS: usize = 2;
+pub(super) const ROUNDS: usize = 2;
 const REFINED: usize = 14;
 /// Width of these searches, as a share of that of a track's.
 const NARROW: f32 = 0.15;
@@ -69,21 +69,22 @@ fn weights(places: &[f64]) -> Vec<f64> {
     places.iter().map(|x| solved.iter().enumerate().map(|(k, c)| c * x.powi(k as i32)).sum()).collect()
 }
 
-/// Searches every frame again; those of `poses` before the frames seen stay.
+/// Searches the frames `searched` of those seen again, `rounds` times; the others of `poses`, and those before the frames seen, stay.
 ///
 /// # Errors
 /// When the evaluator fails.
 pub(super) fn refine(
     scorer: &mut Scorer<'_>,
     seen: &[&Seen],
+    searched: &[usize],
     spread: &[f32],
     poses: &mut [Settled],
-    reach: usize,
+    [reach, rounds]: [usize; 2],
 ) -> Result<()> {
     let first = poses.len() - seen.len();
     let narrow: Vec<f32> = spread.iter().map(|spread| NARROW * spread).collect();
-    for round in 0..ROUNDS {
-        let mut order: Vec<usize> = (0..seen.len()).collect();
+    for round in 0..rounds {
+        let mut order = searched.to_vec();
         if round % 2 == 1 {
             order.reverse();
         }

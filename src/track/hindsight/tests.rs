@@ -175,6 +175,44 @@ fn arms_that_a_track_never_saw_go_up_are_found() {
     assert!(worst(&before) > 900.0 && worst(&after) < 110.0, "{} to {after:?}", worst(&before));
 }
 
+/// An arm that goes up in the pictures, and lies still at the trunk in the track, is followed upwards although it was found by starts that shake:
+/// settled it is worth more. One that does hang stays where it is.
+#[test]
+fn an_arm_that_shakes_wins_over_one_that_lies_still() {
+    let reach = Moving::new(|t| vec![("left_shoulder.rx", 0.5 + 0.2 * t), ("left_elbow.ry", -0.4)]);
+    let [shoulder, elbow] = ["left_shoulder.rx", "left_elbow.ry"].map(|name| dof(&reach.body, name));
+    let settled = |poses: &[Vec<f32>]| -> Vec<Settled> {
+        let shape = Shape::new(&reach.body);
+        let of = |(frame, pose): (usize, &Vec<f32>)| Settled { frame, pose: pose.clone(), points: shape.points(pose) };
+        poses.iter().enumerate().map(of).collect()
+    };
+    let mut still = reach.truth.clone();
+    still[3..].iter_mut().for_each(|pose| pose[shoulder] = 0.0);
+    let mut shaking = reach.truth.clone();
+    for (t, pose) in shaking.iter_mut().enumerate().skip(3) {
+        let side = if t % 2 == 0 { 1.0 } else { -1.0 };
+        (pose[shoulder], pose[elbow]) = (pose[shoulder] + 0.15 * side, pose[elbow] - 0.3 * side);
+        reach.space.clamp(pose);
+    }
+    let weighed = |poses: &[Vec<f32>], bolder: &[Vec<f32>]| -> Vec<Vec<f32>> {
+        let mut poses = settled(poses);
+        reach.with_scorer(|scorer| {
+            let mut mending = Mending::new(scorer, &reach.body, &cameras_around(), 25.0).unwrap();
+            let spread = mending.steps.clone();
+            let seen: Vec<&Seen> = reach.seen.iter().collect();
+            mending.weigh_bolder(&seen, &spread, &settled(bolder), &mut poses).unwrap();
+        });
+        poses.into_iter().map(|settled| settled.pose).collect()
+    };
+    let found = weighed(&still, &shaking);
+    let errors = [&still, &shaking, &found].map(|poses| worst(&reach.errors(poses)));
+    println!("worst {errors:.1?} mm");
+    assert!(errors[0] > 500.0 && errors[1] > 100.0 && errors[2] < 0.5 * errors[1], "{errors:?}");
+    // Nothing to be gained, and nothing far apart.
+    assert_eq!(weighed(&reach.truth, &still), reach.truth);
+    assert_eq!(weighed(&still, &still), still);
+}
+
 /// Where an upper arm is right and the forearm folded back, a lattice over the whole arm's limits has nothing near.
 #[test]
 fn a_limb_is_found_from_its_end_inwards() {

@@ -15,6 +15,8 @@ const ANEW: usize = 20;
 const CONVINCING: f64 = 8.0;
 /// By how much less than the best frame of a window one is worth in which all limbs are looked for.
 const POOR: f64 = 12.0;
+/// What tells the random numbers of a track that is traced again from the others'.
+const RETRACED: u64 = 1000;
 /// Times that the limbs of a frame are looked for, and how many of those found are tried with all else moving along.
 const RESCUES: u64 = 3;
 const PROMISING: usize = 2;
@@ -22,6 +24,8 @@ const PROMISING: usize = 2;
 const EXPECTED: [f64; 2] = [30.0, 0.5];
 /// Share of a change that goes on in the next frame.
 const GOES_ON: f32 = 0.7;
+/// Share of these deviations for a track that is to be smooth.
+const CALM: f64 = 0.5;
 /// Distance of a joint from which poses are different, mm.
 const DIFFERENT: f64 = 30.0;
 
@@ -79,6 +83,35 @@ impl Track<'_> {
                 }
             }
             last = [last[1].take(), Some(chosen)];
+        }
+        Ok(())
+    }
+
+    /// Tracks the frames in this order on from the `last` two, closer to where these lead: limbs that were found in every frame by itself
+    /// shake, and a joint that shakes is taken for one that is elsewhere. What is found is added to the candidates.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(super) fn retrace(
+        &self,
+        scorer: &mut Scorer<'_>,
+        seen: &[&Seen],
+        order: &[usize],
+        mut last: [Option<Candidate>; 2],
+        candidates: &mut [Vec<Candidate>],
+    ) -> Result<()> {
+        for &t in order {
+            scorer.observe(&seen[t].observations)?;
+            let mut starts: Vec<Vec<f32>> = candidates[t].iter().map(|candidate| candidate.pose.clone()).collect();
+            let mut pull = self.lead(scorer, t, &last, &mut starts);
+            pull.iter_mut().flat_map(|pull| &mut pull.scales).for_each(|scale| *scale *= CALM);
+            let start = most_under(&scorer.candidates(&starts)?, pull.as_ref());
+            let generations = scorer.generations(TRACKED);
+            let effort = Effort { spread: self.spread, generations, turn: self.turn(RETRACED) };
+            let found = scorer.search_all(seen[t].index, &starts[start], effort, pull.as_ref())?.pose;
+            let found = scorer.candidate(found)?;
+            candidates[t].push(found.clone());
+            last = [last[1].take(), Some(found)];
         }
         Ok(())
     }

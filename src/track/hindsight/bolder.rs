@@ -1,0 +1,137 @@
+//! A second opinion on the path through the candidates (METHOD A14). They were found in every frame by itself, so they shake, and a limb that is
+//! right but shakes loses to one that lies still at the wrong place; which of the two is worth more shows when both are settled.
+
+use std::ops::Range;
+
+use anyhow::Result;
+use glam::DVec3;
+
+use super::mending::{BOLDER, Mending, choose, jerk};
+use super::refining::{self, Settled};
+use super::scorer::Candidate;
+use super::tracks::Track;
+use super::window::Seen;
+
+/// From which distance of a joint on both are apart, mm.
+const APART: f64 = 100.0;
+/// Times that the bolder path is searched again, before it is weighed.
+const ROUNDS: usize = 4;
+
+impl Mending<'_> {
+    /// Adds candidates where the two paths are apart: tracks go on from the frames before and after, and from the frame that is worth most
+    /// both ways, closer to where they lead than when limbs were looked for.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(super) fn retrace(
+        &mut self,
+        seen: &[&Seen],
+        given: &[Vec<f32>],
+        spread: &[f32],
+        before: &[Settled],
+        candidates: &mut [Vec<Candidate>],
+    ) -> Result<()> {
+        let [calm, bold] = [1.0, BOLDER].map(|bolder| choose(candidates, before, bolder));
+        let of_path = |path: &[usize]| -> Vec<Candidate> {
+            candidates.iter().zip(path).map(|(candidates, &chosen)| candidates[chosen].clone()).collect()
+        };
+        let [calm, bold] = [of_path(&calm), of_path(&bold)];
+        let are_apart: Vec<bool> = calm.iter().zip(&bold).map(|(a, b)| apart(&a.points, &b.points)).collect();
+        for stretch in stretches(&are_apart, 0) {
+            let [start, end] = [stretch.start, stretch.end];
+            let known = |t: Option<usize>| t.and_then(|t| calm.get(t)).cloned();
+            let Some(best) = stretch.clone().max_by(|a, b| bold[*a].worth.total_cmp(&bold[*b].worth)) else { continue };
+            let sure = || [None, Some(bold[best].clone())];
+            let ways = [
+                ([2, 1].map(|back| known(start.checked_sub(back))), stretch.clone().collect::<Vec<_>>(), false),
+                ([1, 0].map(|on| known(Some(end + on))), stretch.rev().collect(), true),
+                (sure(), (best + 1..end).collect(), false),
+                (sure(), (start..best).rev().collect(), true),
+            ];
+            for (last, order, is_back) in ways {
+                let track = Track { limbs: &self.limbs, given, spread, steps: &self.steps, is_back };
+                if last[1].is_some() {
+                    track.retrace(&mut self.scorer, seen, &order, last, candidates)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes the stretches of the bolder path that are worth more, once they are settled, than those of `poses`, which are.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(super) fn weigh_bolder(
+        &mut self,
+        seen: &[&Seen],
+        spread: &[f32],
+        bolder: &[Settled],
+        poses: &mut [Settled],
+    ) -> Result<()> {
+        let first = poses.len() - seen.len();
+        let pairs = poses[first..].iter().zip(&bolder[first..]);
+        let are_apart: Vec<bool> = pairs.map(|(a, b)| apart(&a.points, &b.points)).collect();
+        let stretches = stretches(&are_apart, self.reach);
+        let searched: Vec<usize> = stretches.iter().cloned().flatten().collect();
+        let mut tried = poses.to_vec();
+        for &t in &searched {
+            tried[first + t] = bolder[first + t].clone();
+        }
+        refining::refine(&mut self.scorer, seen, &searched, spread, &mut tried, [self.reach, ROUNDS])?;
+        for stretch in stretches {
+            let within = first + stretch.start..first + stretch.end;
+            let mut worth = [0.0; 2];
+            for t in stretch {
+                self.scorer.observe(&seen[t].observations)?;
+                for (sum, path) in worth.iter_mut().zip([&*poses, &tried]) {
+                    *sum += self.scorer.candidate(path[first + t].pose.clone())?.worth;
+                }
+            }
+            for (sum, path) in worth.iter_mut().zip([&*poses, &tried]) {
+                // What lies around the stretch is the same in both.
+                let triples = path[within.start.saturating_sub(2)..(within.end + 2).min(path.len())].windows(3);
+                let jerks = triples.map(|frames| jerk(&frames[0].points, &frames[1].points, &frames[2].points, BOLDER));
+                *sum -= jerks.sum::<f64>();
+            }
+            if worth[1] > worth[0] {
+                poses[within.clone()].clone_from_slice(&tried[within]);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether two poses have a joint far apart.
+fn apart(one: &[DVec3], other: &[DVec3]) -> bool {
+    one.iter().zip(other).any(|(a, b)| a.distance(*b) > APART)
+}
+
+/// The frames in a row that are marked, with `reach` of them on either side.
+fn stretches(is_marked: &[bool], reach: usize) -> Vec<Range<usize>> {
+    let mut stretches: Vec<Range<usize>> = Vec::new();
+    for t in (0..is_marked.len()).filter(|&t| is_marked[t]) {
+        let [start, end] = [t.saturating_sub(reach), (t + reach + 1).min(is_marked.len())];
+        match stretches.last_mut() {
+            Some(last) if last.end >= start => last.end = end,
+            _ => stretches.push(start..end),
+        }
+    }
+    stretches
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stretches_are_what_is_marked_and_around_it() {
+        let of = |text: &str, reach: usize| -> Vec<Range<usize>> {
+            stretches(&text.chars().map(|letter| letter == 'x').collect::<Vec<_>>(), reach)
+        };
+        assert!(of("....", 2).is_empty());
+        assert_eq!(of(".xx..x.", 0), [1..3, 5..6]);
+        assert_eq!(of("x......x", 2), [0..3, 5..8]);
+        assert_eq!(of("..x..x......x", 1), [1..7, 11..13]);
+    }
+}
