@@ -55,15 +55,7 @@ impl Track<'_> {
         let mut last: [Option<Candidate>; 2] = [None, None];
         let mut most = candidates.iter().flatten().map(|candidate| candidate.worth).fold(f64::NEG_INFINITY, f64::max);
         for &t in order {
-            scorer.observe(&seen[t].observations)?;
-            let index = seen[t].index;
-            let mut starts: Vec<Vec<f32>> = candidates[t].iter().map(|candidate| candidate.pose.clone()).collect();
-            let pull = self.lead(scorer, t, &last, &mut starts);
-            let start = most_under(&scorer.candidates(&starts)?, pull.as_ref());
-            let generations = scorer.generations(TRACKED);
-            let effort = Effort { spread: self.spread, generations, turn: self.turn(0) };
-            let chosen = scorer.search_all(index, &starts[start], effort, pull.as_ref())?.pose;
-            let mut chosen = scorer.candidate(chosen)?;
+            let mut chosen = self.searched(scorer, seen[t], t, &last, &candidates[t], (0, 1.0))?;
             let mut others = self.mended(scorer, seen[t], &mut chosen, most)?;
             most = most.max(chosen.worth);
             if !self.is_back {
@@ -101,19 +93,33 @@ impl Track<'_> {
         candidates: &mut [Vec<Candidate>],
     ) -> Result<()> {
         for &t in order {
-            scorer.observe(&seen[t].observations)?;
-            let mut starts: Vec<Vec<f32>> = candidates[t].iter().map(|candidate| candidate.pose.clone()).collect();
-            let mut pull = self.lead(scorer, t, &last, &mut starts);
-            pull.iter_mut().flat_map(|pull| &mut pull.scales).for_each(|scale| *scale *= CALM);
-            let start = most_under(&scorer.candidates(&starts)?, pull.as_ref());
-            let generations = scorer.generations(TRACKED);
-            let effort = Effort { spread: self.spread, generations, turn: self.turn(RETRACED) };
-            let found = scorer.search_all(seen[t].index, &starts[start], effort, pull.as_ref())?.pose;
-            let found = scorer.candidate(found)?;
+            let found = self.searched(scorer, seen[t], t, &last, &candidates[t], (RETRACED, CALM))?;
             candidates[t].push(found.clone());
             last = [last[1].take(), Some(found)];
         }
         Ok(())
+    }
+
+    /// What a search of frame `t` finds from the best of its candidates and of where the `last` two lead, with a number that tells its random
+    /// numbers apart, and a share of the deviations from there.
+    fn searched(
+        &self,
+        scorer: &mut Scorer<'_>,
+        seen: &Seen,
+        t: usize,
+        last: &[Option<Candidate>; 2],
+        known: &[Candidate],
+        (number, share): (u64, f64),
+    ) -> Result<Candidate> {
+        scorer.observe(&seen.observations)?;
+        let mut starts: Vec<Vec<f32>> = known.iter().map(|candidate| candidate.pose.clone()).collect();
+        let mut pull = self.lead(scorer, t, last, &mut starts);
+        pull.iter_mut().flat_map(|pull| &mut pull.scales).for_each(|scale| *scale *= share);
+        let start = most_under(&scorer.candidates(&starts)?, pull.as_ref());
+        let generations = scorer.generations(TRACKED);
+        let effort = Effort { spread: self.spread, generations, turn: self.turn(number) };
+        let found = scorer.search_all(seen.index, &starts[start], effort, pull.as_ref())?.pose;
+        scorer.candidate(found)
     }
 
     /// What tells the random numbers of this track's searches apart.
