@@ -10,12 +10,13 @@ use anyhow::{Context, Result, anyhow, bail};
 use image::{GrayImage, RgbImage};
 
 use super::ignored::IgnoredFrames;
-use super::manifest::{Sequence, View, is_plate_size};
+use super::manifest::Sequence;
 use super::pictures::{PicturePattern, read_picture, still};
 use super::program::Stopper;
 use super::resample::{area_average, nearest_mask};
 use super::source::Source;
 use super::video::{PixelFormat, VideoDecoder};
+use super::view::{View, is_plate_size};
 
 /// Frames a view's thread may be ahead of the reader. Together with the one it is working on this bounds the memory,
 /// however long the sequence is.

@@ -4,20 +4,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result, anyhow, bail};
-use serde::Deserialize;
 
 use super::calibration::read_cameras_sized;
 use super::coverage::check_coverage;
-use super::footage::{Footage, is_pattern};
-use super::ignored::Ignored;
 use super::likely_delays::likely_delays;
-use super::live_options;
-use super::person::{Person, PersonTable, check_names};
-use super::pictures::{shown, still};
+use super::manifest_file::ManifestFile;
+use super::named_files::NamedFiles;
+use super::person::Person;
 use super::source::{LiveSource, Source};
-use super::synchrony::{MOST_DELAY, Recorded, Stamps, synchronise};
-use super::turn::Turn;
-use crate::files::{beside, check_regular, choices, nearest, parse_toml, read_toml};
+use super::synchrony::{Recorded, Stamps, synchronise};
+use super::view::{View, check_sizes, open_view, working_size};
+use crate::files::{nearest, read_toml};
 use crate::geometry::Camera;
 
 /// A sequence: synchronised pictures of calibrated cameras, and what belongs to them (METHOD A2, FORMATS).
@@ -68,215 +65,8 @@ pub struct Sequence {
     pub features: Option<toml::Table>,
 }
 
-/// What one camera saw.
-#[derive(Clone, Debug)]
-pub struct View {
-    /// The camera's name.
-    pub camera: String,
-    /// The size of its pictures as they are read, pixels, width then height: that of the calibration.
-    pub size: [u32; 2],
-    /// Its pictures.
-    pub source: Source,
-    /// How many there are.
-    pub stored: usize,
-    /// The number of each frame's picture, ascending; none where frames and pictures are the same.
-    pub picks: Option<Arc<[u32]>>,
-    /// Frames by which its pictures come too late, as the manifest says.
-    pub delay: f64,
-    /// A picture of the empty scene.
-    pub background: Option<PathBuf>,
-    /// How much of it is doubtful since it was learnt from pictures with the person, % of the picture; 0 for one that was filmed.
-    pub background_doubtful: f64,
-    /// Ready silhouettes and the size they are stored at.
-    pub mask: Option<(Source, [u32; 2])>,
-    /// Pixels that count neither for nor against anybody.
-    pub ignored: Option<Ignored>,
-    /// A picture of the empty scene that was learnt, at the working size; no manifest names one.
-    pub learnt: Option<Arc<image::RgbImage>>,
-}
-
-impl View {
-    /// Whether it has neither mask nor plate, so that its background must be learnt from the frames.
-    pub fn learns_background(&self) -> bool {
-        self.mask.is_none() && self.background.is_none() && self.learnt.is_none()
-    }
-
-    /// Its pictures by themselves, all that there are.
-    pub fn footage(&self) -> Footage {
-        let shown = format!("the pictures of camera {:?}", self.camera);
-        Footage::plain(shown, self.source.clone(), self.size, self.stored)
-    }
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ManifestFile {
-    name: String,
-    fps: f64,
-    cameras: PathBuf,
-    body: Option<PathBuf>,
-    height: Option<f64>,
-    measure_again: Option<bool>,
-    start: Option<PathBuf>,
-    truth: Option<PathBuf>,
-    #[serde(default = "full_size")]
-    scale: f64,
-    timestamps: Option<Stamps>,
-    #[serde(default)]
-    view: Vec<ViewTable>,
-    #[serde(default)]
-    person: Vec<PersonTable>,
-    objective: Option<toml::Table>,
-    features: Option<toml::Table>,
-}
-
 /// A learnt background may be doubtful in this share of the picture, %.
 pub const DOUBTFUL: f64 = 1.0;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ViewTable {
-    camera: String,
-    source: PathBuf,
-    input: Option<Vec<String>>,
-    background: Option<PathBuf>,
-    background_doubtful: Option<f64>,
-    mask: Option<PathBuf>,
-    ignore: Option<PathBuf>,
-    delay: Option<f64>,
-    #[serde(default, deserialize_with = "number_or_name")]
-    orientation: Option<Orientation>,
-}
-
-choices! {
-    /// How the stored pictures of a view are turned when they are read.
-    "orientation" pub enum Orientation {
-        /// Turned as a video is marked to be for display, as players and OpenCV show it.
-        "upright" Upright,
-        /// As they are stored.
-        "stored" Stored,
-        /// As they are stored, turned clockwise by 90 degrees.
-        "90" Clockwise,
-        /// As they are stored, turned by 180 degrees.
-        "180" Half,
-        /// As they are stored, turned clockwise by 270 degrees.
-        "270" Counterclockwise,
-        /// As they are stored, left for right.
-        "mirrored" Mirrored,
-    }
-}
-
-impl Orientation {
-    /// How stored pictures are turned, where that does not depend on the file.
-    pub(crate) fn turn(self) -> Option<Turn> {
-        match self {
-            Self::Upright => None,
-            Self::Stored => Some(Turn::None),
-            Self::Clockwise => Some(Turn::Clockwise),
-            Self::Half => Some(Turn::Half),
-            Self::Counterclockwise => Some(Turn::Counterclockwise),
-            Self::Mirrored => Some(Turn::Mirrored),
-        }
-    }
-
-    /// The orientation in which stored pictures are turned so.
-    pub(crate) fn of(turn: Turn) -> Option<Self> {
-        Self::ALL.into_iter().find(|orientation| orientation.turn() == Some(turn))
-    }
-
-    /// As a manifest has it: degrees as a number.
-    pub(crate) fn value(self) -> toml::Value {
-        let name = self.name();
-        name.parse::<i64>().map_or_else(|_| name.into(), toml::Value::from)
-    }
-
-    /// Footage as a view wants it: as its manifest says, else as it fits the size that a camera is calibrated for, else upright.
-    pub(crate) fn orient(own: Option<Self>, footage: Footage, size: Option<[u32; 2]>) -> Footage {
-        match (own.map(Self::turn), size) {
-            (Some(Some(turn)), _) => footage.put(turn),
-            (None, Some(size)) => footage.fitting(size),
-            _ => footage,
-        }
-    }
-}
-
-/// An orientation by its name, which may be a number.
-fn number_or_name<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Option<Orientation>, D::Error> {
-    #[derive(Deserialize)]
-    #[serde(untagged)]
-    enum Written {
-        Number(i64),
-        Name(String),
-    }
-    let name = match Written::deserialize(deserializer)? {
-        Written::Number(number) => number.to_string(),
-        Written::Name(name) => name,
-    };
-    Orientation::from_name(&name).map(Some).map_err(serde::de::Error::custom)
-}
-
-impl ViewTable {
-    fn oriented(&self, footage: Footage, size: Option<[u32; 2]>) -> Footage {
-        Orientation::orient(self.orientation, footage, size)
-    }
-}
-
-/// The smallest working scale.
-const SMALLEST_SCALE: f64 = 0.01;
-
-/// Pixels a side that scaling leaves of a picture at least.
-const SMALLEST_SIDE: u32 = 8;
-
-fn full_size() -> f64 {
-    1.0
-}
-
-impl ManifestFile {
-    /// What can be said of a manifest without looking at the files it names.
-    fn check(&self, name: &str) -> Result<()> {
-        check_fps(self.fps).with_context(|| name.to_string())?;
-        check_scale(self.scale).with_context(|| name.to_string())?;
-        let own = [("body", self.body.is_some()), ("start", self.start.is_some()), ("truth", self.truth.is_some())];
-        let more = [("height", self.height.is_some()), ("measure_again", self.measure_again.is_some())];
-        let own = own.into_iter().chain(more).find(|(_, is_there)| *is_there);
-        if let (Some((key, _)), false) = (own, self.person.is_empty()) {
-            bail!("{name} has `{key}` and [[person]], expected a `body` and `start` in each [[person]] alone");
-        }
-        check_names(&self.person, name)?;
-        if self.body.is_none() && self.height.is_none() && self.person.is_empty() {
-            bail!(
-                "{name} has neither `body` nor `height`, expected the file of the person's body or how tall the person is, mm"
-            );
-        }
-        if let Some(height) = self.height.filter(|height| !(500.0..=2500.0).contains(height)) {
-            bail!("{name}: height is {height}, expected 500 to 2500 mm");
-        }
-        if self.view.is_empty() {
-            bail!("{name} has no views, expected a [[view]] with `camera` and `source` for each camera");
-        }
-        for view in &self.view {
-            let options = view.input.as_deref().unwrap_or_default();
-            let checked = live_options::check(&view.source.to_string_lossy(), options);
-            checked.with_context(|| format!("{name}: the source of camera {:?}", view.camera))?;
-            if let Some(delay) = view.delay.filter(|delay| delay.is_nan() || delay.abs() > MOST_DELAY) {
-                bail!(
-                    "{name}: the delay of camera {:?} is {}, expected at most {MOST_DELAY} frames, whole or not",
-                    view.camera,
-                    shown_number(delay)
-                );
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Checks a manifest's text alone, without the files it names; `name` stands for the file in messages.
-///
-/// # Errors
-/// As [`Sequence::open`], as far as the text goes.
-pub fn check_manifest(text: &str, name: &str) -> Result<()> {
-    parse_toml::<ManifestFile>(text, name)?.check(name)
-}
 
 impl Sequence {
     /// Opens a sequence: `path` is its manifest, or the folder with a `sequence.toml` in it. Every file it names is
@@ -416,27 +206,21 @@ impl Sequence {
         let shown_path = path.display();
         file.check(&shown_path.to_string())?;
         let dir = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        let existing = |key: &str, relative: &Path| -> Result<PathBuf> {
-            let file = beside(&dir, relative);
-            if let Err(why) = check_regular(&file) {
-                bail!("{shown_path}: {key} is {:?}, and {why}", relative.display());
-            }
-            Ok(file)
-        };
+        let files = NamedFiles { manifest: &path, dir: &dir };
         // A folder may hold a calibration file a camera.
-        let cameras_path = match beside(&dir, &file.cameras) {
+        let cameras_path = match files.place(&file.cameras) {
             folder if folder.is_dir() => folder,
-            _ => existing("cameras", &file.cameras)?,
+            _ => files.existing("cameras", &file.cameras)?,
         };
         let fitted = |key: &str, relative: &Path| -> Result<PathBuf> {
-            if is_fitted { existing(key, relative) } else { Ok(beside(&dir, relative)) }
+            if is_fitted { files.existing(key, relative) } else { Ok(files.place(relative)) }
         };
-        let people = file.person.iter().map(|person| person.open(&existing)).collect::<Result<Vec<Person>>>()?;
+        let people = file.person.iter().map(|person| person.open(files)).collect::<Result<Vec<Person>>>()?;
         let first = people.first();
         let names_body = file.body.is_some() || first.is_some();
         let body = file.body.as_deref().map_or_else(|| Ok(dir.join("body.toml")), |body| fitted("body", body))?;
         let start = file.start.as_deref().map(|start| fitted("start", start)).transpose()?;
-        let truth = file.truth.as_deref().map(|truth| existing("truth", truth)).transpose()?;
+        let truth = file.truth.as_deref().map(|truth| files.existing("truth", truth)).transpose()?;
         let body = first.map_or(body, |person| person.body.clone());
         let start = first.map(|person| person.start.clone()).or(start);
         let truth = first.and_then(|person| person.truth.clone()).or(truth);
@@ -446,8 +230,7 @@ impl Sequence {
             if LiveSource::of(&view.source, view.input.as_deref(), &dir).is_some() {
                 return Ok(None);
             }
-            let source =
-                open_source(&format!("the source of camera {camera:?}"), &view.source, &existing, (&path, &dir))?;
+            let source = files.footage(&format!("the source of camera {camera:?}"), &view.source)?;
             Ok(Some(view.oriented(source, None).size))
         };
         let calibrated = read_cameras_sized(&cameras_path, &size_of)?;
@@ -459,7 +242,7 @@ impl Sequence {
             }
             let camera = find_camera(&calibrated, &table.camera)
                 .ok_or_else(|| unknown_camera(&path, &cameras_path, &calibrated, &table.camera))?;
-            let (view, footage) = open_view(table, camera, &existing, (&path, &dir), file.scale)?;
+            let (view, footage) = open_view(table, camera, files, file.scale)?;
             opened.push(view);
             recorded.push(Recorded { camera: table.camera.clone(), footage, delay: table.delay });
             cameras.push(camera.clone());
@@ -501,59 +284,6 @@ impl Sequence {
     }
 }
 
-/// Holds a frame rate to what cameras record: steps in time, and how far a person gets in one, follow from it.
-///
-/// # Errors
-/// With the value and the range.
-pub(crate) fn check_fps(fps: f64) -> Result<()> {
-    let [lowest, highest] = [0.01, 1e5];
-    if !(lowest..=highest).contains(&fps) {
-        bail!("fps is {}, expected {lowest} to {highest} frames per second", shown_number(fps));
-    }
-    Ok(())
-}
-
-/// Holds the working scale to where a picture is left of a picture.
-///
-/// # Errors
-/// With the value and the range.
-pub(crate) fn check_scale(scale: f64) -> Result<()> {
-    if !(SMALLEST_SCALE..=1.0).contains(&scale) {
-        bail!("scale is {}, expected {SMALLEST_SCALE} to 1", shown_number(scale));
-    }
-    Ok(())
-}
-
-/// Without the hundreds of digits of the largest and the smallest.
-fn shown_number(value: f64) -> String {
-    if value != 0.0 && value.is_finite() && !(1e-6..1e9).contains(&value.abs()) {
-        format!("{value:e}")
-    } else {
-        value.to_string()
-    }
-}
-
-/// The size pictures are worked on at.
-fn working_size(size: [u32; 2], scale: f64) -> [u32; 2] {
-    size.map(|length| ((f64::from(length) * scale).round() as u32).max(1))
-}
-
-/// Refuses a scale that leaves nothing of a camera's pictures.
-fn check_sizes(views: &[View], scale: f64) -> Result<()> {
-    for View { camera, size, .. } in views {
-        let smallest = size.map(|side| side.min(SMALLEST_SIDE));
-        let working = working_size(*size, scale);
-        if working[0] < smallest[0] || working[1] < smallest[1] {
-            bail!(
-                "scale is {scale}, which leaves {} pixels of the {} of camera {camera:?}, expected {SMALLEST_SIDE} or more a side",
-                shown(working),
-                shown(*size)
-            );
-        }
-    }
-    Ok(())
-}
-
 fn find_camera<'a>(cameras: &'a [Camera], name: &str) -> Option<&'a Camera> {
     cameras.iter().find(|camera| camera.name == name)
 }
@@ -564,129 +294,9 @@ fn unknown_camera(path: &Path, cameras_path: &Path, cameras: &[Camera], name: &s
     anyhow!("{}: {} has no camera {name:?}, {nearest}", path.display(), cameras_path.display())
 }
 
-/// Whether a plate of size `found` shows what pictures of size `full` show: it is an exact fraction of them, or of the working size.
-pub(super) fn is_plate_size(found: [u32; 2], full: [u32; 2], working: [u32; 2]) -> bool {
-    let ([width, height], [full_width, full_height]) = (found.map(u64::from), full.map(u64::from));
-    (width * full_height == height * full_width && width <= full_width) || found == working
-}
-
-/// Looks at everything a view names, in the manifest `path` in `dir`; with the view, its pictures by themselves.
-fn open_view(
-    table: &ViewTable,
-    camera: &Camera,
-    existing: &impl Fn(&str, &Path) -> Result<PathBuf>,
-    (path, dir): (&Path, &Path),
-    scale: f64,
-) -> Result<(View, Footage)> {
-    let name = &table.camera;
-    let key = |part: &str| format!("the {part} of camera {name:?}");
-    let source = match LiveSource::of(&table.source, table.input.as_deref(), dir) {
-        Some(live) => {
-            if table.mask.is_some() {
-                bail!("{}: camera {name:?} is live and has `mask`, expected `background` alone", path.display());
-            }
-            if let Some(turned) = table.orientation.filter(|orientation| orientation.turn().is_some()) {
-                bail!(
-                    "{}: camera {name:?} is live and has `orientation = \"{turned}\"`, expected that of recordings alone",
-                    path.display()
-                );
-            }
-            let shown = live.address.clone();
-            // What it delivers is looked at when it is opened: a camera can be opened once.
-            let (size, frame_count) = (camera.size, Sequence::NO_END);
-            Footage::plain(shown, Source::Live(live), size, frame_count)
-        }
-        None => table.oriented(open_source(&key("source"), &table.source, existing, (path, dir))?, Some(camera.size)),
-    };
-    if source.size != camera.size {
-        bail!(
-            "{} has pictures of {} pixels, but camera {name:?} is calibrated for {}{}",
-            source.shown,
-            shown(source.size),
-            shown(camera.size),
-            source.why_another_size(camera.size)
-        );
-    }
-    let background = table.background.as_deref().map(|plate| existing(&key("background"), plate)).transpose()?;
-    if let Some(plate) = &background {
-        let working = working_size(camera.size, scale);
-        let (_, found) = still(plate, |found| is_plate_size(found, camera.size, working))?;
-        if !is_plate_size(found, camera.size, working) {
-            bail!(
-                "{} is {} pixels, expected {} (as camera {name:?} is calibrated), an exact fraction of that, or {} (the working \
-                 size)",
-                plate.display(),
-                shown(found),
-                shown(camera.size),
-                shown(working)
-            );
-        }
-    }
-    let background_doubtful = table.background_doubtful.unwrap_or(0.0);
-    if table.background_doubtful.is_some() && (background.is_none() || !(0.0..=100.0).contains(&background_doubtful)) {
-        bail!(
-            "{}: camera {name:?} has `background_doubtful = {background_doubtful}`, expected it beside `background`, 0 to 100 % of the picture",
-            path.display()
-        );
-    }
-    let mask = match &table.mask {
-        None => None,
-        Some(mask) => {
-            let mask = table.oriented(open_source(&key("mask"), mask, existing, (path, dir))?, None);
-            check_mask(name, camera.size, source.frame_count, &mask).with_context(|| path.display().to_string())?;
-            Some((mask.source, mask.size))
-        }
-    };
-    let length = Some(source.frame_count).filter(|count| *count != Sequence::NO_END);
-    let ignored =
-        table.ignore.as_deref().map(|ignore| Ignored::open(&key("ignore"), &beside(dir, ignore), camera.size, length));
-    let ignored = ignored.transpose().with_context(|| path.display().to_string())?;
-    let view = View {
-        camera: name.clone(),
-        size: camera.size,
-        source: source.source.clone(),
-        stored: source.frame_count,
-        picks: None,
-        delay: table.delay.unwrap_or(0.0),
-        background,
-        background_doubtful,
-        mask,
-        ignored,
-        learnt: None,
-    };
-    Ok((view, source))
-}
-
-/// Masks may be smaller or larger than the pictures, but of the same shape, to a pixel, and as many.
-fn check_mask(camera: &str, size: [u32; 2], frame_count: usize, mask: &Footage) -> Result<()> {
-    let ([width, height], [mask_width, mask_height]) = (size.map(u64::from), mask.size.map(u64::from));
-    if (width * mask_height).abs_diff(height * mask_width) > width.max(height) {
-        bail!("{} has masks of {} pixels, expected the shape of {}", mask.shown, shown(mask.size), shown(size));
-    }
-    if mask.frame_count != frame_count {
-        bail!(
-            "camera {camera:?} has {frame_count} pictures and {} masks ({}), expected as many",
-            mask.frame_count,
-            mask.shown
-        );
-    }
-    Ok(())
-}
-
-fn open_source(
-    key: &str,
-    relative: &Path,
-    existing: &impl Fn(&str, &Path) -> Result<PathBuf>,
-    (manifest, dir): (&Path, &Path),
-) -> Result<Footage> {
-    let file = beside(dir, relative);
-    if is_pattern(&file) {
-        return Footage::open(&file)
-            .with_context(|| format!("{}: {key} is {:?}", manifest.display(), relative.display()));
-    }
-    Footage::open(&existing(key, relative)?)
-}
-
+#[cfg(test)]
+#[path = "recordings_tests.rs"]
+pub(super) mod recordings_tests;
 #[cfg(test)]
 #[path = "manifest_tests.rs"]
 pub(super) mod tests;

@@ -10,6 +10,9 @@ mod likely_delays;
 mod live;
 mod live_options;
 mod manifest;
+mod manifest_file;
+mod named_files;
+mod orientation;
 mod person;
 mod pictures;
 mod player;
@@ -23,6 +26,7 @@ mod timestamps;
 mod turn;
 mod video;
 mod video_encoder;
+mod view;
 
 pub use calibration::{
     CalibrationFormat, cameras_toml, parse_cameras_toml, parse_opencv_xml, parse_opencv_yaml, parse_qualisys,
@@ -35,8 +39,10 @@ pub use frames::{FrameReader, FrameSet, STALL_TIMEOUT};
 pub use ignored::Ignored;
 pub use in_step::{InStep, in_step};
 pub use live::LiveReader;
-pub use manifest::{DOUBTFUL, Orientation, Sequence, View, check_manifest};
-pub(crate) use manifest::{check_fps, check_scale};
+pub use manifest::{DOUBTFUL, Sequence};
+pub use manifest_file::check_manifest;
+pub(crate) use manifest_file::{check_fps, check_scale};
+pub use orientation::Orientation;
 pub use person::Person;
 pub use pictures::PicturePattern;
 pub use player::{Captured, Playback, Player};
@@ -48,3 +54,4 @@ pub use timestamps::Timestamps;
 pub use turn::Turn;
 pub use video::{VideoInfo, probe_video};
 pub use video_encoder::VideoEncoder;
+pub use view::View;

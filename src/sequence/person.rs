@@ -1,9 +1,11 @@
 //! The people of a sequence that tracks several of them.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Result, bail};
 use serde::Deserialize;
+
+use super::named_files::NamedFiles;
 
 /// One of several people who are tracked together.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,17 +30,17 @@ pub(super) struct PersonTable {
 }
 
 impl PersonTable {
-    /// The person with the files found by `existing(key, path)`.
+    /// The person with the files of the manifest.
     ///
     /// # Errors
     /// When one of them is missing.
-    pub(super) fn open(&self, existing: &impl Fn(&str, &Path) -> Result<PathBuf>) -> Result<Person> {
+    pub(super) fn open(&self, files: NamedFiles<'_>) -> Result<Person> {
         let key = |part: &str| format!("the {part} of person {:?}", self.name);
         Ok(Person {
             name: self.name.clone(),
-            body: existing(&key("body"), &self.body)?,
-            start: existing(&key("start"), &self.start)?,
-            truth: self.truth.as_deref().map(|truth| existing(&key("truth"), truth)).transpose()?,
+            body: files.existing(&key("body"), &self.body)?,
+            start: files.existing(&key("start"), &self.start)?,
+            truth: self.truth.as_deref().map(|truth| files.existing(&key("truth"), truth)).transpose()?,
         })
     }
 }

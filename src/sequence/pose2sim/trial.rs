@@ -156,7 +156,7 @@ fn common_rate(videos: &[Recording]) -> Result<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sequence::manifest::tests::numbered_video;
+    use crate::sequence::manifest::recordings_tests::numbered_video;
     use crate::sequence::video::tests::ffmpeg_is_here;
 
     #[test]
