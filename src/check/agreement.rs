@@ -106,16 +106,18 @@ fn best(
     direction: DVec3,
     [mut around, mut reach, mut step]: [f64; 3],
 ) -> Option<(f64, f64)> {
-    let others = partners(view, cameras.len());
-    // The largest miss, or any that is no less than `bound`.
-    let miss = |along: f64, bound: f64| {
+    let mut others = partners(view, cameras.len());
+    // The largest miss, or any that is no less than `bound`. Who says that is asked first at the next point: it mostly says so there too.
+    let mut miss = |along: f64, bound: f64| {
         let point = origin + direction * along;
         let mut largest: Option<f64> = None;
-        for &other in &others {
+        for at in 0..others.len() {
+            let other = others[at];
             // A view whose picture ends before the point says nothing about it.
             let said = moment[other].and_then(|silhouette| silhouette.at(cameras[other].project(point)?));
             largest = said.map_or(largest, |said| Some(largest.map_or(said, |largest| largest.max(said))));
             if largest.is_some_and(|largest| largest >= bound) {
+                others.swap(0, at);
                 break;
             }
         }
