@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::hull::Hull;
 use super::searcher::Searched;
 use crate::body::{Body, DofAxis};
-use crate::evaluate::{Evaluator, Objective, ViewCounts};
+use crate::evaluate::{Evaluator, Objective};
 use crate::features::SeenView;
 use crate::geometry::Camera;
 use crate::search::{Estimate, SearchKind, SearchSettings, SearchSpace};
@@ -85,17 +85,17 @@ impl Recovery {
         self.lost_frames > 0
     }
 
-    /// Searches wider; replaces `found` by what fits better, if anything does. `is_sure` says whether a pose with these
-    /// counts would count as a find: that is always compared with what else the hull holds, since a person turned by half
-    /// agrees nearly as well.
+    /// Searches wider; replaces `found` by what fits better, if anything does. `is_sure` says whether what was found would
+    /// count as a find: that is always compared with what else the hull holds, since a person turned by half agrees nearly
+    /// as well.
     ///
     /// # Errors
-    /// When the evaluator fails.
+    /// When the evaluator or `is_sure` fails.
     pub(super) fn search(
         &self,
         mut frame: LostFrame<'_>,
         found: &mut Searched,
-        is_sure: &dyn Fn(&[ViewCounts]) -> bool,
+        is_sure: &dyn Fn(&mut dyn Evaluator, &Searched) -> Result<bool>,
     ) -> Result<()> {
         let mut searches = 0;
         if let Some(sure) = &self.sure {
@@ -106,7 +106,7 @@ impl Recovery {
         let is_turn = self.lost_frames == 0
             || self.lost_frames.is_power_of_two()
             || self.lost_frames.is_multiple_of(LONGEST_WAIT)
-            || is_sure(&found.views);
+            || is_sure(&mut *frame.evaluator, found)?;
         // Without a hull there is nobody to be found.
         let Some(hull) = is_turn.then(|| Hull::carve_coarsely(&self.cameras, frame.views).ok()).flatten() else {
             return Ok(());

@@ -25,7 +25,7 @@ use super::searcher::{Searched, Start};
 use super::timings::{Span, Thread, Timings};
 use super::truth::Truth;
 use super::{Passes, Prediction, TrackSettings, Width};
-use crate::evaluate::{Evaluator, ViewCounts};
+use crate::evaluate::Evaluator;
 use crate::files::{Occupied, OutputFolder};
 use crate::gpu::DeviceLost;
 use crate::sequence::Sequence;
@@ -478,9 +478,8 @@ impl<'a> Run<'a> {
             self.recovery.as_ref().filter(|recovery| recovery.is_lost() || self.confidence.is_loss_at(&found))
         {
             let begin = Instant::now();
-            let is_sure = |views: &[ViewCounts]| {
-                let views = views.iter().map(|view| objective.view_terms(view)).collect();
-                !self.confidence.is_loss_at(&FrameResult { views, ..found.clone() })
+            let is_sure = |evaluator: &mut dyn Evaluator, searched: &Searched| -> Result<bool> {
+                Ok(!self.confidence.is_loss_at(&result(evaluator, searched)?))
             };
             let lost =
                 LostFrame { evaluator: &mut *evaluator, objective, views: &views, number: counter, spread: &steps };
