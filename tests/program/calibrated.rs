@@ -1,6 +1,6 @@
 //! The constants of expected errors (docs/METHOD.md A13), fitted on scenes drawn by lot and tried on those held out.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -19,6 +19,9 @@ const TERMS: [&str; 5] = ["LOOSENESS", "SUPPORT", "FITNESS", "SEEN", "SPREAD"];
 const COUNT: usize = KINDS.len() + TERMS.len();
 /// Share of the joints that are to be within their expected error.
 const SHARE: f64 = 0.6827;
+/// A frame off by more than this on average is far off, and its joints should expect more than that, mm.
+const FAR: f64 = 100.0;
+const SAID: f64 = 70.0;
 /// How scenes are tracked: as by default, and worse, so that there are wrong poses.
 const RUNS: [&[&str]; 4] = [
     &[],
@@ -69,17 +72,43 @@ fn expected(joint: &Joint, weights: &[f64; COUNT]) -> f64 {
     joint.terms.iter().zip(weights).map(|(term, weight)| term * weight).sum()
 }
 
-/// Of each frame the logarithm of the root mean square over its joints of the expected errors, and of the errors.
-fn frames(joints: &[&Joint], weights: &[f64; COUNT]) -> Vec<[f64; 2]> {
-    let mut sums: HashMap<usize, [f64; 3]> = HashMap::new();
+/// Expected errors against errors of the joints of a frame, mm.
+struct Frame {
+    run: usize,
+    /// Root mean squares.
+    square: [f64; 2],
+    /// Means.
+    mean: [f64; 2],
+}
+
+/// The frames that joints are of, in their order.
+fn frames(joints: &[&Joint], weights: &[f64; COUNT]) -> Vec<Frame> {
+    let mut sums: BTreeMap<usize, (Frame, f64)> = BTreeMap::new();
     for joint in joints {
-        let sum = sums.entry(joint.frame).or_default();
-        let squares = [expected(joint, weights), joint.error].map(|logarithm| (2.0 * logarithm).exp());
-        *sum = [sum[0] + squares[0], sum[1] + squares[1], sum[2] + 1.0];
+        let nothing = Frame { run: joint.run, square: [0.0; 2], mean: [0.0; 2] };
+        let (sum, count) = sums.entry(joint.frame).or_insert((nothing, 0.0));
+        for (i, logarithm) in [expected(joint, weights), joint.error].into_iter().enumerate() {
+            sum.square[i] += (2.0 * logarithm).exp();
+            sum.mean[i] += logarithm.exp();
+        }
+        *count += 1.0;
     }
-    let mut frames: Vec<(usize, [f64; 3])> = sums.into_iter().collect();
-    frames.sort_by_key(|(frame, _)| *frame);
-    frames.into_iter().map(|(_, [a, b, count])| [a, b].map(|sum| 0.5 * (sum / count).ln())).collect()
+    let over = |(Frame { run, square, mean }, count): (Frame, f64)| Frame {
+        run,
+        square: square.map(|sum| (sum / count).sqrt()),
+        mean: mean.map(|sum| sum / count),
+    };
+    sums.into_values().map(over).collect()
+}
+
+/// The share of pairs of a bad frame and a good one of which more is said of the bad one.
+fn area(said: &[(f64, bool)]) -> f64 {
+    let of = |wanted: bool| said.iter().filter(move |(_, is_bad)| *is_bad == wanted).map(|(said, _)| *said);
+    let pairs = of(true).flat_map(|bad| {
+        of(false).map(move |good| if bad > good { 1.0 } else { 0.5 * f64::from(u8::from(bad >= good)) })
+    });
+    let (sum, count) = pairs.fold((0.0, 0.0), |(sum, count), pair| (sum + pair, count + 1.0));
+    sum / f64::max(count, 1.0)
 }
 
 fn fit(joints: &[&Joint]) -> Fitted {
@@ -106,13 +135,14 @@ fn fit(joints: &[&Joint]) -> Fitted {
     let offset: f64 = (KINDS.len()..COUNT).map(|i| means[i] * weights[i]).sum();
     weights[..KINDS.len()].iter_mut().for_each(|constant| *constant -= offset);
     let frames = frames(joints, &weights);
-    let middle = frames.iter().map(|frame| frame[0]).sum::<f64>() / frames.len() as f64;
+    let logarithms: Vec<[f64; 2]> = frames.iter().map(|frame| frame.square.map(f64::ln)).collect();
+    let middle = logarithms.iter().map(|[expected, _]| expected).sum::<f64>() / frames.len() as f64;
     let [constant, slope] = descend([0.0; 2], 0.05, 6000, |[constant, slope]| {
         let mut gradient = [0.0; 2];
-        for [expected, error] in &frames {
+        for [expected, error] in &logarithms {
             let x = expected - middle;
             let off = 1.0 / (1.0 + (-(constant + slope * x)).exp()) - f64::from(u8::from(*error > WRONG.ln()));
-            gradient = [gradient[0] + off / frames.len() as f64, gradient[1] + off * x / frames.len() as f64];
+            gradient = [gradient[0] + off / logarithms.len() as f64, gradient[1] + off * x / logarithms.len() as f64];
         }
         gradient
     });
@@ -187,9 +217,8 @@ fn expected_errors_hold_on_scenes_left_out() {
         let fitted = fit(&others);
         held.extend(tried.iter().map(|joint| (expected(joint, &fitted.weights), joint.error, joint.run)));
         let [constant, slope] = fitted.wrong;
-        let logistic = |expected: f64| 1.0 / (1.0 + (-(constant + slope * expected)).exp());
-        judged
-            .extend(frames(&tried, &fitted.weights).iter().map(|[expected, error]| (logistic(*expected), error.exp())));
+        let said = |frame: &Frame| 1.0 / (1.0 + (-(constant + slope * frame.square[0].ln())).exp());
+        judged.extend(frames(&tried, &fitted.weights).into_iter().map(|frame| (said(&frame), frame)));
     }
     held.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut text = "expected_mm,within,error_mm\n".to_string();
@@ -215,9 +244,10 @@ fn expected_errors_hold_on_scenes_left_out() {
         let some: Vec<_> = judged.iter().filter(|(said, _)| range.contains(said)).collect();
         let share = |sum: f64| 100.0 * sum / some.len().max(1) as f64;
         let (said, were) =
-            (some.iter().map(|(said, _)| said).sum(), some.iter().filter(|(_, rms)| *rms > WRONG).count());
+            (some.iter().map(|(said, _)| said).sum(), some.iter().filter(|(_, frame)| is_wrong(frame)).count());
         println!("| {range:?} | {} | {:.1} % | {:.1} % |", some.len(), share(said), share(were as f64));
     }
+    tell_of_frames(&judged);
     fs::write(folder.join("reliability.csv"), text).unwrap();
     draw(&folder.join("reliability.svg"), &points);
     let Fitted { weights, wrong } = fit(&joints.iter().collect::<Vec<_>>());
@@ -227,6 +257,50 @@ fn expected_errors_hold_on_scenes_left_out() {
     TERMS.iter().zip(&weights[KINDS.len()..]).for_each(|(term, weight)| println!("{term} {weight:.3}"));
     println!("WRONG_AT [{:.3}, {:.3}]", wrong[0], wrong[1]);
     assert!((0.6..0.76).contains(&within), "{within} of the joints held out are within their expected error");
+}
+
+fn is_wrong(frame: &Frame) -> bool {
+    frame.square[1] > WRONG
+}
+
+/// What thresholds of `wrong` find, and what mean expected errors say of frames that are far off.
+fn tell_of_frames(judged: &[(f64, Frame)]) {
+    let count =
+        |is_one: &dyn Fn(f64, &Frame) -> bool| judged.iter().filter(|(said, frame)| is_one(*said, frame)).count();
+    let percent = |part: usize, whole: usize| 100.0 * part as f64 / whole.max(1) as f64;
+    let wrong = count(&|_, frame| is_wrong(frame));
+    println!(
+        "\n| threshold | misses (of {wrong}) | false alarms (of {}) | said by run, and right |\n|---|---|---|---|",
+        judged.len() - wrong
+    );
+    for threshold in [0.5, 0.6, 0.7, 0.8] {
+        let misses = count(&|said, frame| is_wrong(frame) && said < threshold);
+        let alarms = count(&|said, frame| !is_wrong(frame) && said >= threshold);
+        let by_run = |run: usize| {
+            let said = count(&|said, frame| frame.run == run && said >= threshold);
+            format!("{said}, {}", count(&|said, frame| frame.run == run && said >= threshold && is_wrong(frame)))
+        };
+        let by_run: Vec<String> = (0..RUNS.len()).map(by_run).collect();
+        let [misses, alarms] = [percent(misses, wrong), percent(alarms, judged.len() - wrong)];
+        println!("| {threshold} | {misses:.0} % | {alarms:.1} % | {} |", by_run.join("; "));
+    }
+    let pairs = |said: &dyn Fn(f64, &Frame) -> (f64, bool)| -> Vec<(f64, bool)> {
+        judged.iter().map(|(wrong, frame)| said(*wrong, frame)).collect()
+    };
+    let far = |frame: &Frame| frame.mean[1] > FAR;
+    let many = count(&|_, frame| far(frame));
+    println!(
+        "\nArea under the curve: {:.2} for `wrong`, {:.2} of mean expected errors for the {many} frames off by more than {FAR} mm on average; of \
+         these {:.0} % have one over {SAID} mm, of the others {:.0} %.",
+        area(&pairs(&|said, frame| (said, is_wrong(frame)))),
+        area(&pairs(&|_, frame| (frame.mean[0], far(frame)))),
+        percent(count(&|_, frame| far(frame) && frame.mean[0] > SAID), many),
+        percent(count(&|_, frame| !far(frame) && frame.mean[0] > SAID), judged.len() - many),
+    );
+    for run in 0..RUNS.len() {
+        let wrong = count(&|_, frame| frame.run == run && is_wrong(frame));
+        println!("Run {run}: {} frames, {wrong} wrong.", count(&|_, frame| frame.run == run));
+    }
 }
 
 /// The share of errors that are at most the expected ones; (expected, error, run), in logarithms.

@@ -7,27 +7,27 @@ use crate::body::without_side;
 
 /// Constant of each kind of joint, left and right together, in the logarithm of its error.
 const JOINTS: [(&str, f64); 12] = [
-    ("pelvis", 1.307),
-    ("hip", 1.500),
-    ("knee", 0.663),
-    ("ankle", 0.091),
-    ("axis", 1.307),
-    ("thorax", 1.442),
-    ("clavicle", 1.191),
-    ("shoulder", 1.187),
-    ("elbow", 0.667),
-    ("wrist", 0.159),
-    ("head", 0.913),
-    ("head_top", 0.195),
+    ("pelvis", 1.164),
+    ("hip", 1.349),
+    ("knee", 0.536),
+    ("ankle", -0.017),
+    ("axis", 1.164),
+    ("thorax", 1.275),
+    ("clavicle", 1.127),
+    ("shoulder", 1.268),
+    ("elbow", 0.619),
+    ("wrist", 0.295),
+    ("head", 0.978),
+    ("head_top", 0.256),
 ];
 /// Constant of a joint of another name.
-const OTHER_JOINT: f64 = 0.885;
+const OTHER_JOINT: f64 = 0.834;
 /// Factors of what is known, in the same logarithm.
-const LOOSENESS: f64 = 0.605;
-const SUPPORT: f64 = 0.745;
-const FITNESS: f64 = 1.378;
-const SEEN: f64 = 0.049;
-const SPREAD: f64 = 0.103;
+const LOOSENESS: f64 = 0.528;
+const SUPPORT: f64 = 0.770;
+const FITNESS: f64 = 1.689;
+const SEEN: f64 = 0.032;
+const SPREAD: f64 = 0.186;
 /// Added to looseness, mm; and the sum up to which support tells nothing: what the fitness holds is where it is, whatever its colours.
 const LOOSENESS_MORE: f64 = 5.0;
 const HELD: f64 = 30.0;
@@ -37,7 +37,7 @@ const LIMITS: [f64; 2] = [3.0, 1000.0];
 /// An error, root mean square over the joints, from which on a pose is wrong, mm: what `wrong` is the probability of.
 pub const WRONG: f64 = 150.0;
 /// The logit of a wrong pose over the logarithm of the joints' expected error: root mean square.
-const WRONG_AT: [f64; 2] = [-10.904, 2.217];
+const WRONG_AT: [f64; 2] = [-11.458, 2.332];
 /// An agreement of the views at which it is as likely as not that nobody stands there, and how quickly that changes.
 const NOBODY_AT: f64 = 0.8;
 const NOBODY_WIDTH: f64 = 0.04;
