@@ -11,7 +11,7 @@ use super::likely_delays::likely_delays;
 use super::manifest_file::ManifestFile;
 use super::named_files::NamedFiles;
 use super::person::Person;
-use super::source::{LiveSource, Source};
+use super::source::{LiveSource, NO_END, Source};
 use super::synchrony::{Recorded, Stamps, synchronise};
 use super::view::{View, check_sizes, open_view, working_size};
 use crate::files::{nearest, read_toml};
@@ -93,7 +93,7 @@ impl Sequence {
     }
 
     /// The number of frames of a live sequence.
-    pub const NO_END: usize = u32::MAX as usize;
+    pub const NO_END: usize = NO_END;
 
     /// Whether its views are live sources.
     pub fn is_live(&self) -> bool {

@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 use super::pictures::PicturePattern;
 use super::turn::Turn;
 
+/// Pictures of a live source: no end is known.
+pub(super) const NO_END: usize = u32::MAX as usize;
+
 /// Where the pictures (or masks) of a view come from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {

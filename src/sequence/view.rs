@@ -7,12 +7,11 @@ use anyhow::{Context, Result, bail};
 
 use super::footage::Footage;
 use super::ignored::Ignored;
-use super::manifest::Sequence;
 use super::manifest_file::ViewTable;
 use super::named_files::NamedFiles;
 use super::orientation::Orientation;
 use super::pictures::{shown, still};
-use super::source::{LiveSource, Source};
+use super::source::{LiveSource, NO_END, Source};
 use crate::geometry::Camera;
 
 /// What one camera saw.
@@ -116,7 +115,7 @@ pub(super) fn open_view(
             }
             let shown = live.address.clone();
             // What it delivers is looked at when it is opened: a camera can be opened once.
-            let (size, frame_count) = (camera.size, Sequence::NO_END);
+            let (size, frame_count) = (camera.size, NO_END);
             Footage::plain(shown, Source::Live(live), size, frame_count)
         }
         None => table.oriented(files.footage(&key("source"), &table.source)?, Some(camera.size)),
@@ -161,7 +160,7 @@ pub(super) fn open_view(
             Some((mask.source, mask.size))
         }
     };
-    let length = Some(source.frame_count).filter(|count| *count != Sequence::NO_END);
+    let length = Some(source.frame_count).filter(|count| *count != NO_END);
     let ignored =
         table.ignore.as_deref().map(|ignore| Ignored::open(&key("ignore"), &files.place(ignore), camera.size, length));
     let ignored = ignored.transpose().with_context(|| files.manifest.display().to_string())?;
