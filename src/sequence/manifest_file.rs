@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, bail};
 use serde::Deserialize;
 
+use super::footage::Footage;
 use super::live_options;
 use super::orientation::{Orientation, number_or_name};
 use super::person::{PersonTable, check_names};
@@ -46,6 +47,13 @@ pub(super) struct ViewTable {
     pub(super) delay: Option<f64>,
     #[serde(default, deserialize_with = "number_or_name")]
     pub(super) orientation: Option<Orientation>,
+}
+
+impl ViewTable {
+    /// Pictures that it names, turned as it says or as they fit a size.
+    pub(super) fn oriented(&self, footage: Footage, size: Option<[u32; 2]>) -> Footage {
+        Orientation::orient(self.orientation, footage, size)
+    }
 }
 
 /// The smallest working scale.

@@ -9,7 +9,6 @@ use super::footage::Footage;
 use super::ignored::Ignored;
 use super::manifest_file::ViewTable;
 use super::named_files::NamedFiles;
-use super::orientation::Orientation;
 use super::pictures::{shown, still};
 use super::source::{LiveSource, NO_END, Source};
 use crate::geometry::Camera;
@@ -51,12 +50,6 @@ impl View {
     pub fn footage(&self) -> Footage {
         let shown = format!("the pictures of camera {:?}", self.camera);
         Footage::plain(shown, self.source.clone(), self.size, self.stored)
-    }
-}
-
-impl ViewTable {
-    pub(super) fn oriented(&self, footage: Footage, size: Option<[u32; 2]>) -> Footage {
-        Orientation::orient(self.orientation, footage, size)
     }
 }
 

@@ -135,14 +135,15 @@ fn fit(joints: &[&Joint]) -> Fitted {
     let offset: f64 = (KINDS.len()..COUNT).map(|i| means[i] * weights[i]).sum();
     weights[..KINDS.len()].iter_mut().for_each(|constant| *constant -= offset);
     let frames = frames(joints, &weights);
-    let logarithms: Vec<[f64; 2]> = frames.iter().map(|frame| frame.square.map(f64::ln)).collect();
-    let middle = logarithms.iter().map(|[expected, _]| expected).sum::<f64>() / frames.len() as f64;
+    let judged: Vec<(f64, bool)> = frames.iter().map(|frame| (frame.square[0].ln(), is_wrong(frame))).collect();
+    let count = judged.len() as f64;
+    let middle = judged.iter().map(|(expected, _)| expected).sum::<f64>() / count;
     let [constant, slope] = descend([0.0; 2], 0.05, 6000, |[constant, slope]| {
         let mut gradient = [0.0; 2];
-        for [expected, error] in &logarithms {
+        for (expected, is_wrong) in &judged {
             let x = expected - middle;
-            let off = 1.0 / (1.0 + (-(constant + slope * x)).exp()) - f64::from(u8::from(*error > WRONG.ln()));
-            gradient = [gradient[0] + off / logarithms.len() as f64, gradient[1] + off * x / logarithms.len() as f64];
+            let off = 1.0 / (1.0 + (-(constant + slope * x)).exp()) - f64::from(u8::from(*is_wrong));
+            gradient = [gradient[0] + off / count, gradient[1] + off * x / count];
         }
         gradient
     });

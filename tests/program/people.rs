@@ -110,17 +110,24 @@ fn two_people_are_followed_past_each_other() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     write(folder);
-    let together = errors(&track(folder, "sequence.toml", "together", &[]));
-    // Where they go wrong alone they would be called lost, and what is lost counts in no error.
-    let keeping = ["--recover", "no"];
-    let alone =
-        NAMES.map(|name| errors(&track(folder, &format!("{name}.toml"), &format!("alone_{name}"), &keeping))[0]);
-    println!("together {together:?} mm, each alone {alone:?} mm");
-    // Six seeds gave 16 to 37 mm.
-    assert!(together.len() == 2 && together.iter().all(|error| *error < 40.0), "{together:?}");
-    // 18 % more with this seed.
-    assert!(alone[0] + alone[1] > 1.1 * (together[0] + together[1]), "{alone:?} alone, {together:?} together");
+    // One seed says little: the six of them gave 1.15 to 1.49 times the error where each was followed alone.
+    let mut sums = [0.0; 2];
+    for seed in 1..=6 {
+        let with = ["--seed", &seed.to_string()];
+        let together = errors(&track(folder, "sequence.toml", &format!("together_{seed}"), &with));
+        // Where they go wrong alone they would be called lost, and what is lost counts in no error.
+        let keeping = [&with[..], &["--recover", "no"]].concat();
+        let alone = NAMES
+            .map(|name| errors(&track(folder, &format!("{name}.toml"), &format!("alone_{name}_{seed}"), &keeping))[0]);
+        println!("seed {seed}: together {together:?} mm, each alone {alone:?} mm");
+        // They gave 16 to 37 mm.
+        assert!(together.len() == 2 && together.iter().all(|error| *error < 40.0), "{together:?}");
+        sums = [sums[0] + alone.iter().sum::<f64>(), sums[1] + together.iter().sum::<f64>()];
+    }
+    let [alone, together] = sums;
+    assert!(alone > 1.2 * together, "{alone} alone, {together} together");
 
+    succeeded(&track(folder, "sequence.toml", "together", &[]));
     // A folder each, with everything; gone on with, the same bytes, whoever was further.
     let files = |name: &str| {
         ["poses.csv", "journal.txt", "joints.csv", "confidence.csv"]

@@ -409,7 +409,7 @@ fn segments_of_a_mesh_stay_near_the_reference() {
                 mesh_tests::observed(&drawn).with_segmentation(segmentation).unwrap()
             })
             .collect();
-        // The processor has the reference's integers.
+        // The processor has the reference's integers: tests/agreement/meshes.rs holds it to that, segments too.
         let mut processor = Cpu::of_mesh(&body, mesh.clone(), &cameras).unwrap();
         processor.observe(&seen).unwrap();
         let expected = found(&mut processor, &poses);
