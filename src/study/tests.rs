@@ -119,6 +119,11 @@ fn real_time_is_a_pace_of_a_study() {
         assert!((read.outcome.error.unwrap() - row.outcome.error.unwrap()).abs() < 1e-4);
         assert_eq!(read.outcome.stages.len(), row.outcome.stages.len());
     }
+    // What is stopped midway is no run of the study, though it ends well with the poses that it has.
+    let stopped = OutputFolder::open(&folder.path().join("stopped")).unwrap();
+    assert!(run_one(&study, &stopped, 1, &StopAfter::new(0)).unwrap().is_none());
+    let row = run_one(&study, &stopped, 1, &StopAfter::new(usize::MAX)).unwrap().unwrap();
+    assert!(row.outcome.skipped.is_some());
     let error = Study::parse(&text.replace("spread", "passes = \"both\"\nspread"), "s").unwrap_err();
     assert!(format!("{error:#}").contains("paces holds realtime"), "{error:#}");
 }
