@@ -14,6 +14,9 @@ const REACH: f64 = 1600.0;
 /// First and last step along a ray, mm.
 const COARSE: f64 = 40.0;
 const FINE: f64 = 2.5;
+/// To either side of a ray's best point: where the slopes there are measured, and as far as a small change is taken to move it, mm.
+const BESIDE: f64 = 10.0;
+const NEAR: f64 = 20.0;
 
 /// Rays a silhouette for a search that needs many of them.
 pub(super) const FEWER_RAYS: usize = 60;
@@ -47,8 +50,12 @@ pub(super) struct Ray {
 impl Ray {
     /// What is left to be explained, pixels: the pixel just inside the border may be half a pixel inside the others.
     pub(super) fn excess(&self) -> f64 {
-        (self.miss + 0.5).max(0.0)
+        excess(self.miss)
     }
+}
+
+fn excess(miss: f64) -> f64 {
+    (miss + 0.5).max(0.0)
 }
 
 /// Every ray of every moment, at most `rays` a silhouette.
@@ -91,10 +98,73 @@ pub(super) fn rays_of(
         .collect()
 }
 
-/// The same ray after a change of the cameras so small that its best point hardly moved.
-pub(super) fn again(cameras: &[Camera], moment: &Moment, ray: &Ray) -> Option<f64> {
-    let (origin, direction) = cameras[ray.view].ray(ray.pixel)?;
-    best(cameras, moment, ray.view, origin, direction, [ray.along, 2.0 * COARSE, COARSE / 2.0]).map(|(_, miss)| miss)
+/// A ray about its best point, for changes of a camera so small that this moves little: what the other views say is taken to change evenly
+/// along it. A search of the ray for each change would take twenty times as long.
+pub(super) struct Near<'a> {
+    cameras: &'a [Camera],
+    ray: &'a Ray,
+    /// Those of the views it is compared with that say something there.
+    others: Vec<Other<'a>>,
+}
+
+/// What a view says at the best point of another's ray.
+struct Other<'a> {
+    view: usize,
+    silhouette: &'a SignedDistance,
+    /// Pixels.
+    miss: f64,
+    /// Pixels more a mm along the ray.
+    slope: f64,
+}
+
+impl<'a> Near<'a> {
+    pub(super) fn of(cameras: &'a [Camera], moment: &Moment<'a>, ray: &'a Ray) -> Self {
+        let away = (ray.point - cameras[ray.view].centre_in_world()).normalize_or_zero() * BESIDE;
+        let other = |view: usize| {
+            let silhouette = moment[view]?;
+            let said = |point: DVec3| said(&cameras[view], silhouette, point);
+            let slope = match (said(ray.point + away), said(ray.point - away)) {
+                (Some(beyond), Some(before)) => (beyond - before) / (2.0 * BESIDE),
+                _ => 0.0,
+            };
+            Some(Other { view, silhouette, miss: said(ray.point)?, slope })
+        };
+        let others = partners(ray.view, cameras.len()).into_iter().filter_map(other).collect();
+        Self { cameras, ray, others }
+    }
+
+    /// The ray's [`Ray::excess`] with one of the cameras changed; None where no other view says anything. Views whose pictures end beside
+    /// the point say what they said: whether it lies within one changes with the smallest turn, and a search would go round that.
+    pub(super) fn excess_with(&self, view: usize, changed: &Camera) -> Option<f64> {
+        let is_own = view == self.ray.view;
+        let point = if is_own {
+            let (origin, direction) = changed.ray(self.ray.pixel)?;
+            origin + direction * self.ray.along
+        } else {
+            self.ray.point
+        };
+        let line = |other: &Other| {
+            let camera = if is_own { &self.cameras[other.view] } else { changed };
+            let is_moved = is_own || other.view == view;
+            let now = if is_moved { said(camera, other.silhouette, point) } else { None };
+            (now.unwrap_or(other.miss), other.slope)
+        };
+        let lines: Vec<(f64, f64)> = self.others.iter().map(line).collect();
+        least_of_the_largest(&lines).map(excess)
+    }
+}
+
+/// By how many pixels a point misses what a camera sees; None where its picture ends before the point.
+fn said(camera: &Camera, silhouette: &SignedDistance, point: DVec3) -> Option<f64> {
+    silhouette.at(camera.project(point)?)
+}
+
+/// Where lines (value at 0, slope) have the least largest value within [`NEAR`] of 0: that value. None without lines.
+fn least_of_the_largest(lines: &[(f64, f64)]) -> Option<f64> {
+    let largest = |at: f64| lines.iter().map(|(value, slope)| value + slope * at).reduce(f64::max);
+    let crossings = lines.iter().enumerate().flat_map(|(index, a)| lines[..index].iter().map(move |b| (a, b)));
+    let crossings = crossings.filter(|(a, b)| a.1 * b.1 < 0.0).map(|(a, b)| (b.0 - a.0) / (a.1 - b.1));
+    crossings.filter(|at| at.abs() < NEAR).chain([-NEAR, NEAR]).filter_map(largest).reduce(f64::min)
 }
 
 /// The best point of a ray, `reach` to either side of `around`: first in steps, then ever finer about the best one.
@@ -106,15 +176,22 @@ fn best(
     direction: DVec3,
     [mut around, mut reach, mut step]: [f64; 3],
 ) -> Option<(f64, f64)> {
-    let mut others = partners(view, cameras.len());
+    // Who sees anything, and the ray in his axes: a third of the work of leading each point there.
+    let mut others: Vec<(&Camera, &SignedDistance, DVec3, DVec3)> = partners(view, cameras.len())
+        .into_iter()
+        .filter_map(|other| {
+            let (camera, silhouette) = (&cameras[other], moment[other]?);
+            let map = &camera.camera_from_world;
+            Some((camera, silhouette, map.transform_point3(origin), map.transform_vector3(direction)))
+        })
+        .collect();
     // The largest miss, or any that is no less than `bound`. Who says that is asked first at the next point: it mostly says so there too.
     let mut miss = |along: f64, bound: f64| {
-        let point = origin + direction * along;
         let mut largest: Option<f64> = None;
         for at in 0..others.len() {
-            let other = others[at];
+            let (camera, silhouette, origin, direction) = others[at];
             // A view whose picture ends before the point says nothing about it.
-            let said = moment[other].and_then(|silhouette| silhouette.at(cameras[other].project(point)?));
+            let said = camera.image_of(origin + direction * along).and_then(|pixel| silhouette.at(pixel));
             largest = said.map_or(largest, |said| Some(largest.map_or(said, |largest| largest.max(said))));
             if largest.is_some_and(|largest| largest >= bound) {
                 others.swap(0, at);
@@ -184,3 +261,7 @@ pub(super) fn disagreement<'a>(rays: impl IntoIterator<Item = &'a Ray>, cap: f64
     let (sum, count) = rays.into_iter().fold((0.0, 0), |(sum, count), ray| (sum + ray.excess().min(cap), count + 1));
     sum / f64::from(count.max(1))
 }
+
+#[cfg(test)]
+#[path = "agreement_tests.rs"]
+mod tests;

@@ -127,7 +127,7 @@ pub(super) fn faults(
             changes.extend(belief.far_changes(suspects));
         }
         if explained.iter().any(|percent| *percent < UNLIKE) {
-            changes.extend(belief.zoom_changes());
+            changes.extend(belief.zoom_changes(&measured));
         }
         let Some((view, change, _)) = changes.into_iter().max_by(|a, b| a.2.total_cmp(&b.2)) else {
             let is_suspected = measured.iter().any(|measured| Direction::of(&measured.turn).is_beside());
@@ -179,8 +179,7 @@ impl<'a> Belief<'a> {
             best_turns(self.cameras, &moments, &self.turns, &[view])
         };
         let rays = |turns: &[Turn]| rays_that_show(&all_turned(self.cameras, turns), &moments, &[view]);
-        let mut unturned = turns.clone();
-        unturned[view] = self.straight(view);
+        let unturned = self.with(view, self.straight(view));
         let turning = Betterment::of(&rays(&unturned), &rays(&turns), moments.len());
         let about = if SHIFTS.contains(&self.delays[view]) { 0 } else { self.delays[view] };
         Measured { turn: turns[view], turning, delay: self.delay(view, about) }
@@ -226,6 +225,13 @@ impl<'a> Belief<'a> {
         changes
     }
 
+    /// What is believed, but for one camera's turn.
+    fn with(&self, view: usize, turn: Turn) -> Vec<Turn> {
+        let mut turns = self.turns.clone();
+        turns[view] = turn;
+        turns
+    }
+
     /// A camera that is not turned, with the focal length that is believed.
     fn straight(&self, view: usize) -> Turn {
         let Turn { zoom, zoom_scatter, .. } = self.turns[view];
@@ -234,12 +240,16 @@ impl<'a> Belief<'a> {
 
     /// Cameras whose focal length is believed to be another one: that must take away most of what turns leave, in every view about as much as a
     /// right lens does, since silhouettes that lose legs or a head look taken from farther off too.
-    fn zoom_changes(&self) -> Vec<(usize, Change, f64)> {
+    fn zoom_changes(&self, measured: &[Measured]) -> Vec<(usize, Change, f64)> {
         let moments = self.moments();
         let change = |view: usize| {
             let rays = |turns: &[Turn]| rays_that_show(&all_turned(self.cameras, turns), &moments, &[view]);
             let as_is = rays(&self.turns);
-            let turned = rays(&best_turns(self.cameras, &moments, &self.turns, &[view]));
+            let turned = rays(&if self.is_turned[view] {
+                best_turns(self.cameras, &moments, &self.turns, &[view])
+            } else {
+                self.with(view, measured[view].turn)
+            });
             let turns = best_turn_and_zoom(self.cameras, &moments, &self.turns, view);
             let zoomed = rays(&turns);
             let turn = turns[view];

@@ -95,8 +95,10 @@ impl SignedDistance {
     }
 
     fn is_ignored(&self, pixel: DVec2) -> bool {
-        let [x, y] = pixel.round().max(DVec2::ZERO).to_array();
-        self.ignored.as_ref().is_some_and(|ignored| ignored.get(x as u32, y as u32))
+        self.ignored.as_ref().is_some_and(|ignored| {
+            let [x, y] = pixel.round().max(DVec2::ZERO).to_array();
+            ignored.get(x as u32, y as u32)
+        })
     }
 
     /// The largest distance told apart, pixels.
@@ -122,7 +124,8 @@ impl SignedDistance {
         let place = place.clamp(DVec2::ZERO, last);
         let (x, y) = (place.x as usize, place.y as usize);
         let (right, below) = ((x + 1).min(self.width - 1), (y + 1).min(self.height - 1));
-        let part = place - place.floor();
+        // A whole part that is not negative is what conversion leaves: rounding down is a call where processors may lack the instruction.
+        let part = place - DVec2::new(x as f64, y as f64);
         let value = |x: usize, y: usize| f64::from(self.values[y * self.width + x]);
         let top = value(x, y) + part.x * (value(right, y) - value(x, y));
         let bottom = value(x, below) + part.x * (value(right, below) - value(x, below));

@@ -5,8 +5,8 @@ use glam::{DVec3, DVec4};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::agreement::{CAP, Moment, Ray, again, disagreement, rays_of};
-use super::partners::{fewer, partners, shows};
+use super::agreement::{CAP, Moment, Near, Ray, disagreement, rays_of};
+use super::partners::{fewer, shows};
 use crate::geometry::{Camera, Lens, rodrigues_matrix};
 
 /// Residuals beyond this many pixels are taken for faults of the silhouettes and weigh ever less.
@@ -222,36 +222,30 @@ impl Search<'_> {
         let each = self.what.count();
         let unknowns = each * self.free.len();
         let current = all_turned(self.cameras, turns);
-        let moved: Vec<[Vec<Camera>; 2]> = (0..unknowns)
+        let moved: Vec<(usize, [Camera; 2])> = (0..unknowns)
             .map(|unknown| {
-                [STEP, -STEP].map(|step| {
-                    let mut moved = current.clone();
+                let camera = self.free[unknown / each];
+                let by = |step: f64| {
                     let mut turn = DVec4::ZERO;
                     turn[unknown % each] = step;
-                    let camera = self.free[unknown / each];
                     let own = turned(&current[camera], turn.truncate());
-                    moved[camera] = if turn.w == 0.0 { own } else { zoomed(&own, turn.w) };
-                    moved
-                })
+                    if turn.w == 0.0 { own } else { zoomed(&own, turn.w) }
+                };
+                (camera, [STEP, -STEP].map(by))
             })
             .collect();
         // What moves a ray's miss: its own camera's turn and those of the cameras that it is compared with.
         let row = |ray: &Ray| {
-            let moment = &self.moments[ray.moment];
-            let excess = |cameras: &[Camera]| again(cameras, moment, ray).map(|miss| (miss + 0.5).max(0.0));
-            let partners = partners(ray.view, current.len());
-            let slope = |unknown: usize| {
-                let [up, down] = &moved[unknown];
-                match (excess(up), excess(down)) {
-                    (Some(up), Some(down)) => (up - down) / (2.0 * STEP),
-                    _ => 0.0,
-                }
+            let near = Near::of(&current, &self.moments[ray.moment], ray);
+            let slope = |camera: usize, [up, down]: &[Camera; 2]| match (
+                near.excess_with(camera, up),
+                near.excess_with(camera, down),
+            ) {
+                (Some(up), Some(down)) => (up - down) / (2.0 * STEP),
+                _ => 0.0,
             };
-            let involved = (0..unknowns).filter(|unknown| {
-                let camera = self.free[unknown / each];
-                camera == ray.view || partners.contains(&camera)
-            });
-            involved.map(|unknown| (unknown, slope(unknown))).collect::<Vec<_>>()
+            let involved = moved.iter().enumerate().filter(|(_, (camera, _))| shows(*camera, ray.view, current.len()));
+            involved.map(|(unknown, (camera, moved))| (unknown, slope(*camera, moved))).collect::<Vec<_>>()
         };
         // Summed in the rays' order, so that the sums are the same on every run.
         let rows: Vec<_> = rays.par_iter().map(row).collect();

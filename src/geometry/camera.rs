@@ -78,7 +78,11 @@ impl Camera {
     /// A point of the world (mm) to pixels, origin in the centre of the top-left one. None behind the camera and past the
     /// end of the distortion's branch; never NaN. The picture's border plays no part: a pixel may lie outside `size`.
     pub fn project(&self, point_in_world: DVec3) -> Option<DVec2> {
-        let point = self.camera_from_world.transform_point3(point_in_world);
+        self.image_of(self.camera_from_world.transform_point3(point_in_world))
+    }
+
+    /// [`Self::project`] of a point that is in the camera's own axes (x right, y down, z ahead; mm).
+    pub fn image_of(&self, point: DVec3) -> Option<DVec2> {
         if point.z.is_nan() || point.z <= 0.0 {
             return None;
         }
