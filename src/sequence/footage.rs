@@ -6,7 +6,7 @@ use std::sync::Arc;
 use anyhow::{Context, Result, bail};
 use image::RgbImage;
 
-use super::pictures::{PicturePattern, shown as shown_size};
+use super::pictures::{PicturePattern, in_colour, shown as shown_size};
 use super::resample::area_average;
 use super::source::{Source, Video};
 use super::timestamps::Timestamps;
@@ -190,7 +190,7 @@ impl SpreadFrames {
             // The same frames as a video's: the last of each share.
             Frames::Pictures(pattern) => {
                 let frame = last_of_share(self.next, self.total, self.count);
-                Ok(area_average(pattern.read(frame, self.stored)?.into_rgb8(), self.size))
+                Ok(area_average(in_colour(pattern.read(frame, self.stored)?), self.size))
             }
         }
     }

@@ -11,7 +11,7 @@ use image::{GrayImage, RgbImage};
 
 use super::ignored::IgnoredFrames;
 use super::manifest::Sequence;
-use super::pictures::{PicturePattern, read_picture, still};
+use super::pictures::{PicturePattern, in_colour, read_picture, still};
 use super::program::Stopper;
 use super::resample::{area_average, nearest_mask};
 use super::source::Source;
@@ -112,7 +112,7 @@ impl Sequence {
             let (turn, found) = still(path, |found| is_plate_size(found, view.size, size))?;
             let expected = if is_plate_size(found, view.size, size) { vec![found] } else { vec![view.size, size] };
             let expected: Vec<[u32; 2]> = expected.into_iter().map(|size| turn.back().turned(size)).collect();
-            Ok(Some(area_average(turn.of(read_picture(path, &expected)?).into_rgb8(), size)))
+            Ok(Some(area_average(in_colour(turn.of(read_picture(path, &expected)?)), size)))
         });
         plates.collect()
     }
@@ -265,7 +265,7 @@ impl ViewStream {
                 let bytes = decoder.next_frame()?.unwrap_or_default();
                 RgbImage::from_raw(width, height, bytes).with_context(|| format!("frame {frame} has too few bytes"))?
             }
-            Stream::Pictures(pattern) => area_average(pattern.read(number, self.picture_size)?.into_rgb8(), self.size),
+            Stream::Pictures(pattern) => area_average(in_colour(pattern.read(number, self.picture_size)?), self.size),
         };
         let ignored = self.ignored.as_ref().map(|ignored| ignored.of_frame(number, self.size)).transpose()?;
         let Some((masks, stored)) = &mut self.masks else { return Ok((picture, None, ignored)) };

@@ -5,7 +5,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
-use image::{DynamicImage, ImageDecoder, ImageReader};
+use image::{DynamicImage, ImageDecoder, ImageReader, RgbImage};
 
 use super::turn::Turn;
 use crate::files::{Limit, PICTURE_FORMATS};
@@ -89,6 +89,17 @@ impl PicturePattern {
     pub(super) fn header(&self) -> Result<(Turn, [u32; 2])> {
         header(&self.file(0))
     }
+}
+
+/// A picture in colour. The library leads grey ones through single precision, which takes longer than decoding them.
+pub(super) fn in_colour(picture: DynamicImage) -> RgbImage {
+    let DynamicImage::ImageLuma8(grey) = picture else { return picture.into_rgb8() };
+    let (width, height) = grey.dimensions();
+    let mut colour = RgbImage::new(width, height);
+    for (colour, grey) in colour.pixels_mut().zip(grey.as_raw()) {
+        colour.0 = [*grey; 3];
+    }
+    colour
 }
 
 /// A pattern's text before the number, its digits, and the text after.
@@ -230,7 +241,7 @@ mod tests {
     fn broken_pictures_are_sentences() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("p.png");
-        image::RgbImage::new(40, 30).save(&path).unwrap();
+        RgbImage::new(40, 30).save(&path).unwrap();
         assert_eq!(picture_size(&path).unwrap(), [40, 30]);
         let error = format!("{:#}", read_picture(&path, &[[80, 60], [20, 15]]).unwrap_err());
         assert!(error.contains("p.png is 40x30 pixels, expected 80x60 or 20x15"), "{error}");
@@ -244,9 +255,19 @@ mod tests {
     }
 
     #[test]
+    fn grey_pictures_have_the_library_s_colours() {
+        let grey = DynamicImage::from(image::GrayImage::from_fn(32, 8, |x, y| image::Luma([(8 * x + y) as u8])));
+        assert_eq!(in_colour(grey.clone()), grey.to_rgb8());
+        let deep = image::ImageBuffer::from_fn(32, 8, |x, y| image::Luma([(2040 * x + 255 * y) as u16]));
+        for other in [DynamicImage::from(deep), DynamicImage::from(grey.to_luma_alpha8()), grey.to_rgba8().into()] {
+            assert_eq!(in_colour(other.clone()), other.to_rgb8());
+        }
+    }
+
+    #[test]
     fn every_format_is_read_and_held_to_its_size_before_it_is_decoded() {
         let folder = tempfile::tempdir().unwrap();
-        let picture = image::RgbImage::from_fn(40, 30, |x, y| image::Rgb([(6 * x) as u8, (8 * y) as u8, 90]));
+        let picture = RgbImage::from_fn(40, 30, |x, y| image::Rgb([(6 * x) as u8, (8 * y) as u8, 90]));
         for (end, off) in [("png", 0), ("bmp", 0), ("tiff", 0), ("webp", 0), ("gif", 40), ("jpg", 40)] {
             let path = folder.path().join(format!("p_1.{end}"));
             picture.save(&path).unwrap();
@@ -272,7 +293,7 @@ mod tests {
     }
 
     /// A JPEG with a mark of its orientation (EXIF, 1 to 8): a small TIFF with that one entry.
-    fn save_marked(path: &Path, picture: &image::RgbImage, orientation: u8) {
+    fn save_marked(path: &Path, picture: &RgbImage, orientation: u8) {
         use image::ImageEncoder as _;
         let mut exif = b"II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0".to_vec();
         exif.extend([orientation, 0, 0, 0, 0, 0, 0, 0]);
@@ -287,7 +308,7 @@ mod tests {
     #[test]
     fn photographs_are_read_as_they_are_marked() {
         let folder = tempfile::tempdir().unwrap();
-        let upright = image::RgbImage::from_fn(48, 32, |x, y| image::Rgb([if x < 16 && y < 8 { 20 } else { 230 }; 3]));
+        let upright = RgbImage::from_fn(48, 32, |x, y| image::Rgb([if x < 16 && y < 8 { 20 } else { 230 }; 3]));
         for orientation in 1..=8 {
             let path = folder.path().join(format!("p{orientation}_1.jpg"));
             let mark = Turn::of_photograph(image::metadata::Orientation::from_exif(orientation).unwrap());
@@ -318,7 +339,7 @@ mod tests {
     fn headers_that_promise_too_much_are_sentences() {
         let folder = tempfile::tempdir().unwrap();
         let mut gif = Vec::new();
-        let small = image::RgbImage::new(8, 6);
+        let small = RgbImage::new(8, 6);
         small.write_to(&mut std::io::Cursor::new(&mut gif), image::ImageFormat::Gif).unwrap();
         gif[6..10].fill(255);
         let mut bmp = b"BM".to_vec();
