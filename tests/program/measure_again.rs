@@ -9,8 +9,11 @@ use pantin::files::Overwrite;
 use super::drawn;
 use super::support::{pantin, refused, stderr, stdout, succeeded};
 
-/// Pictures of somebody whose trunk lies before the spine and whose calves lie behind the knees, as those of real people do, and whose arms are of
-/// other lengths; the manifest names an adult of the usual measures, and says that he was measured in one posture.
+/// How far the upper arms reach over the shoulders' joints, mm.
+const OVER_SHOULDER: f64 = 30.0;
+
+/// Pictures of somebody whose trunk lies before the spine, whose calves lie behind the knees and whose arms reach over the shoulders' joints, as
+/// those of real people do, and whose arms are of other lengths; the manifest names an adult of the usual measures, and says that he was measured in one posture.
 fn write_sequence(folder: &Path) -> [Body; 2] {
     let adult = Body::adult(1700.0).unwrap();
     let factors = [("upper arm".to_string(), 0.85), ("forearm".to_string(), 1.12)];
@@ -24,6 +27,9 @@ fn write_sequence(folder: &Path) -> [Body; 2] {
         };
         part.a.x += near;
         part.b.x += far;
+        if part.name.ends_with("upper_arm") {
+            part.a.z += OVER_SHOULDER;
+        }
     }
     for bone in &mut person.bones {
         if bone.name.ends_with("shoulder") || bone.name == "head" {
@@ -88,18 +94,21 @@ fn a_person_made_otherwise_is_measured_on_the_way() {
     assert!(told.contains("the results are of refined_body.toml beside them"), "{told}");
     let refined = Body::load(&folder.path().join("again/refined_body.toml")).unwrap();
     let chest = |body: &Body| body.parts.iter().find(|part| part.name == "chest").unwrap().a.x;
+    let over_shoulder = |body: &Body| body.parts.iter().find(|part| part.name == "left_upper_arm").unwrap().a.z;
     let upper_arm = |body: &Body| body.bones[body.bone_index("left_elbow").unwrap()].offset.length();
     let [adult, person] = bodies.each_ref();
     let [before, after] = [&given, &again].map(|output| error(&stdout(output)));
     println!(
-        "chest {:.0} mm before the spine, {:.0} true; upper arm {:.0} mm, {:.0} given, {:.0} true; error {before:.1} -> {after:.1} mm",
+        "chest {:.0} mm before the spine, {:.0} true; {:.0} mm over the shoulder, {OVER_SHOULDER} true; upper arm {:.0} mm, {:.0} given, {:.0} true; error {before:.1} -> {after:.1} mm",
         chest(&refined),
         chest(person),
+        over_shoulder(&refined),
         upper_arm(&refined),
         upper_arm(adult),
         upper_arm(person)
     );
     assert!(chest(&refined) > 0.5 * (chest(adult) + chest(person)) && upper_arm(&refined) < upper_arm(adult));
+    assert!(over_shoulder(&refined) > 0.5 * OVER_SHOULDER);
     assert!(after < 0.8 * before, "{before} -> {after} mm");
     // The poses are the refined body's: with it the joints are where joints.csv has them.
     let poses = PoseTable::read(&folder.path().join("again/poses.csv"), &refined).unwrap();

@@ -16,8 +16,8 @@ use crate::sequence::Sequence;
 use crate::track::summary::mean;
 
 /// By how much the frames that were not measured in must fit better on average, for the new body to be believed: in fitness, and in standard
-/// errors of that mean. Cones gain 0.007 by taking after a person of ellipsoids whose joints they had right, and lose up to 4 mm; from 0.009
-/// on joints came nearer (METHOD A3).
+/// errors of that mean. Cones that end at the shoulders gained 0.007 by taking after a person of ellipsoids whose joints they had right, and
+/// lost up to 4 mm; from 0.009 on joints came nearer, with flesh over the shoulders ellipsoids' too (METHOD A3).
 const GAIN: f64 = 0.008;
 const STANDARD_ERRORS: f64 = 2.0;
 

@@ -10,14 +10,33 @@ struct Offset {
     ends: &'static [(&'static str, bool)],
     /// The bones whose joints it moves, without their sides.
     joints: &'static [&'static str],
-    /// Away from the other side, not forwards.
-    is_outward: bool,
+    towards: Towards,
     /// Standard deviation, mm.
     deviation: f64,
 }
 
+/// Which way an offset goes at rest.
+#[derive(Clone, Copy, Debug)]
+enum Towards {
+    Front,
+    /// Away from the other side.
+    Outside,
+    Top,
+}
+
+impl Towards {
+    fn direction(self, is_right: bool) -> DVec3 {
+        match self {
+            Self::Front => DVec3::X,
+            Self::Outside if is_right => DVec3::NEG_Y,
+            Self::Outside => DVec3::Y,
+            Self::Top => DVec3::Z,
+        }
+    }
+}
+
 const fn forwards(ends: &'static [(&'static str, bool)], joints: &'static [&'static str]) -> Offset {
-    Offset { ends, joints, is_outward: false, deviation: 20.0 }
+    Offset { ends, joints, towards: Towards::Front, deviation: 20.0 }
 }
 
 /// All of the trunk, with arms and head.
@@ -36,7 +55,9 @@ const OFFSETS: [Offset; Shape::OFFSETS] = [
     forwards(&[("thigh", false)], &[]),
     forwards(&[("thigh", true)], &[]),
     forwards(&[("calf", false)], &[]),
-    Offset { is_outward: true, ..forwards(&[("thigh", false)], &[]) },
+    Offset { towards: Towards::Outside, ..forwards(&[("thigh", false)], &[]) },
+    // The muscle over the shoulder's joint, which else is drawn up to the skin (METHOD A3).
+    Offset { towards: Towards::Top, deviation: 40.0, ..forwards(&[("upper_arm", false)], &[]) },
 ];
 
 /// How far an offset may go, mm.
@@ -64,7 +85,7 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    const OFFSETS: usize = 11;
+    const OFFSETS: usize = 12;
     /// Values of a row.
     pub(super) const COUNT: usize = Proportions::COUNT + Self::OFFSETS;
 
@@ -103,11 +124,11 @@ impl Shape {
     pub(super) fn apply(&self, body: &Body) -> Body {
         let mut result = self.proportions.apply(body);
         let moves = |side: &str| {
-            let outward = if side.starts_with("right_") { DVec3::NEG_Y } else { DVec3::Y };
+            let is_right = side.starts_with("right_");
             OFFSETS
                 .iter()
                 .zip(self.offsets)
-                .map(move |(offset, value)| (offset, value * if offset.is_outward { outward } else { DVec3::X }))
+                .map(move |(offset, value)| (offset, value * offset.towards.direction(is_right)))
         };
         for part in &mut result.parts {
             for (offset, by) in moves(&part.name) {
