@@ -266,7 +266,7 @@ fn make(
         begun(folder.path()) || sequence.people.iter().any(|person| begun(&folder.path().join(&person.name)));
     let settings = TrackSettings { resume: is_begun, ..settings.clone() };
     let summaries = track_all(&sequence, &settings, &folder, &mut Watch(&|| progress.should_stop()))?;
-    if summaries.iter().any(|(_, summary)| summary.stopped_before.is_some()) {
+    if summaries.iter().any(|(_, summary)| summary.is_cut) {
         return Ok(Outcome::Stopped);
     }
     let rows: Vec<TrialRow> = summaries

@@ -1,6 +1,5 @@
 //! The runs of a study, one after the other.
 
-use std::cell::Cell;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::path::Path;
@@ -184,11 +183,7 @@ fn make(run: &Run, prepared: &Prepared, output: &OutputFolder, progress: &dyn Pr
     let folder = OutputFolder::open(&output.path().join(run.place()))?;
     let sequence = prepared.with_model(run.model, output)?;
     let mut settings = settings(run, folder.path())?;
-    let is_told_to_stop = Cell::new(false);
-    let should_stop = || {
-        is_told_to_stop.set(progress.should_stop());
-        is_told_to_stop.get()
-    };
+    let should_stop = || progress.should_stop();
     let mut watch = Watch(&should_stop);
     let summary = match track(&sequence, &settings, &folder, &mut watch) {
         // What was begun with other inputs cannot be gone on with, and what has no frame left to track tells no times: the
@@ -197,11 +192,9 @@ fn make(run: &Run, prepared: &Prepared, output: &OutputFolder, progress: &dyn Pr
             settings.resume = false;
             track(&sequence, &settings, &folder, &mut watch)?
         }
-        // One in real time that is stopped ends well, but is one of fewer frames than were asked for.
-        _ if settings.realtime.is_some() && is_told_to_stop.get() => return Ok(None),
         summary => summary?,
     };
-    if summary.stopped_before.is_some() {
+    if summary.is_cut {
         return Ok(None);
     }
     let row = Row { run: run.clone(), outcome: outcome(prepared, &folder, &summary)? };

@@ -39,7 +39,9 @@ pub struct TrackSummary {
     pub backend: [&'static str; 2],
     /// Sentences the user should read.
     pub warnings: Vec<String>,
-    /// The next frame, when the run was asked to stop before its end; the folder then holds the journal alone.
+    /// Whether the run was asked to stop before its last frame. One in real time has results all the same, of fewer frames.
+    pub is_cut: bool,
+    /// The next frame of a run that was cut and can be gone on with; the folder then holds the journal alone.
     pub stopped_before: Option<usize>,
     /// How a run in real time kept time.
     pub realtime: Option<RealtimeSummary>,

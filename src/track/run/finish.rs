@@ -25,8 +25,9 @@ impl Run<'_> {
     ) -> Result<TrackSummary> {
         let (sequence, output, body) = (self.sequence, self.output, &self.plan.body);
         let next = self.next_frame();
-        let is_stopped = self.is_stopped || next < self.plan.range.end;
-        let stopped_before = (!self.pace.ends_anywhere() && is_stopped).then_some(next);
+        let ends_anywhere = self.pace.ends_anywhere();
+        let is_cut = self.is_cut || (!ends_anywhere && next < self.plan.range.end);
+        let stopped_before = (is_cut && !ends_anywhere).then_some(next);
         let extent = Extent::of(body, &sequence.cameras);
         let frames = self.pace.all_frames(self.frames, &output.path().join(Journal::NAME), extent, self.done)?;
         let confidences = Confidence::of_all(body, LossRule::default(), &frames);
@@ -42,6 +43,7 @@ impl Run<'_> {
             timings: Vec::new(),
             backend: [self.plan.backend.evaluator.name(), self.plan.backend.evaluator.variant()],
             warnings,
+            is_cut,
             stopped_before,
             realtime: None,
             frames,

@@ -57,8 +57,8 @@ pub(super) struct Run<'a> {
     appearance: Option<RunAppearance>,
     /// The frames that are lost.
     lost: Vec<usize>,
-    /// Whether the second pass was stopped.
-    is_stopped: bool,
+    /// Whether it was asked to stop before its work was done.
+    is_cut: bool,
     /// How the person moves, where a search starts by that.
     motion: LearntMotion,
     /// The frames that wait for those after them, where there is a delay.
@@ -110,7 +110,7 @@ impl<'a> Run<'a> {
             timings,
             pace,
             lost: Vec::new(),
-            is_stopped: false,
+            is_cut: false,
         })
     }
 
@@ -227,6 +227,7 @@ impl<'a> Run<'a> {
             };
             progress.frame(&done);
             if progress.should_stop() {
+                self.is_cut = frame + 1 < self.plan.range.end;
                 return Ok(());
             }
         }
@@ -269,7 +270,7 @@ impl<'a> Run<'a> {
             Ok(!progress.should_stop())
         })?;
         if results.len() < self.frames.len() {
-            self.is_stopped = true;
+            self.is_cut = true;
         } else {
             self.frames = results;
         }
