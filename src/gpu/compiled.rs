@@ -5,8 +5,9 @@ use std::sync::Mutex;
 use anyhow::Result;
 
 use super::executables::Executable;
+use super::fixed_function::Drawing;
 use super::lock::lock;
-use super::pipeline::{Drawing, Pipeline};
+use super::pipeline::Pipeline;
 use super::shader::ShaderStage;
 
 /// What has been compiled.

@@ -17,12 +17,13 @@ use super::capability::{Capabilities, DeviceFacts, PORTABILITY_SUBSET, QueuePlac
 use super::compiled::{Compiled, Source};
 use super::device_shared::{DeviceSettings, DeviceShared, Inspect, PIPELINES, kept_file};
 use super::executables::Executable;
+use super::fixed_function::Drawing;
 use super::image::{Format, Image, ImageUse};
 use super::instance::Instance;
 use super::lanes::{BESIDE, LANES, Lanes, MAIN};
 use super::marks::Marks;
 use super::memory::Memory;
-use super::pipeline::{Drawing, Pipeline};
+use super::pipeline::Pipeline;
 use super::shader::ShaderStage;
 use super::timing::{ClockPair, tick_mask};
 use super::transform_feedback::FeedbackFunctions;

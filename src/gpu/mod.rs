@@ -4,6 +4,7 @@
 //! label, its row of timings and its breadcrumb should the device be lost. What a pass must wait for is derived from
 //! what it reads and writes.
 
+mod barriers;
 mod buffer;
 mod capability;
 mod compiled;
@@ -14,6 +15,7 @@ mod device;
 mod device_shared;
 mod drawing;
 mod executables;
+mod fixed_function;
 mod float_controls;
 mod hazards;
 mod image;
@@ -46,13 +48,14 @@ pub use device::Device;
 pub(crate) use device_shared::kept_file;
 pub use device_shared::{Breadcrumbs, DeviceSettings, Inspect};
 pub use executables::Executable;
+pub use fixed_function::{Blend, Drawing, Topology};
 pub use image::{Format, Image, ImageUse};
 pub use instance::Instance;
 pub use interface::{Access, BindingKind, ShaderKind};
 pub use loss::{DeviceLost, OutOfMemory};
 pub use memory::Memory;
 pub use pass::{Clear, Dispatch, Draw, Feedback, Groups, Target, Viewport};
-pub use pipeline::{Blend, Drawing, Pipeline, Topology};
+pub use pipeline::Pipeline;
 pub use recorder::Recorder;
 pub use recording::Recording;
 pub(crate) use shader::words;
