@@ -15,6 +15,7 @@ mod finish;
 pub mod gait;
 mod hash;
 mod lottery;
+mod manifest;
 pub mod noise;
 mod packing;
 pub mod performance;
@@ -32,11 +33,11 @@ pub mod triangle;
 
 pub use finish::{Finish, FinishParameters, FinishSettings};
 pub use lottery::{Lottery, LotterySettings};
+pub(crate) use manifest::FileNames;
 pub use portrait::portrait;
 pub use recording::Advance;
 pub use scene::{
     ActorSettings, CameraSettings, Gait, Garment, LensKind, LightSettings, MotionSettings, MotionUnit, OutputSettings,
     PictureForm, RigKind, RigSettings, RoomSettings, Scene, ScenePreset, SensorSettings, StationSettings,
 };
-pub(crate) use sequence::FileNames;
 pub use sequence::SyntheticSequence;

@@ -2,18 +2,18 @@
 
 use anyhow::{Context, Result, bail};
 use rayon::prelude::*;
-use serde::Serialize;
 
 use super::build::{Build, body_of};
 use super::device::DevicePainter;
 use super::figure::{Figure, Wardrobe};
+use super::manifest::{FileNames, Manifest};
 use super::packing::PackedFinishes;
 use super::performance::Performance;
-use super::recording::{Advance, Shutter, Studio, shutters, source_of, write_picture};
+use super::recording::{Advance, Shutter, Studio, shutters, write_picture};
 use super::render::View;
 use super::rig;
 use super::room::Room;
-use super::scene::{PictureForm, Scene, USUAL_SOFTNESS};
+use super::scene::{Scene, USUAL_SOFTNESS};
 use crate::body::{Body, MeshSource, PoseTable, Skinning};
 use crate::files::{Limit, OutputFolder, Overwrite};
 use crate::geometry::Camera;
@@ -45,47 +45,6 @@ pub struct SyntheticSequence {
     performances: Vec<Performance>,
     shutters: Vec<Shutter>,
     poses: PoseTable,
-}
-
-/// Names of a sequence's manifest, and of the body and the start pose that it names.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct FileNames<'a> {
-    pub(crate) manifest: &'a str,
-    pub(crate) body: &'a str,
-    pub(crate) start: &'a str,
-    /// Whether the manifest names the exact silhouettes, where there are any.
-    pub(crate) masks: bool,
-    /// Whether the body was measured in one posture.
-    pub(crate) measure_again: bool,
-}
-
-impl Default for FileNames<'_> {
-    fn default() -> Self {
-        Self { manifest: "sequence.toml", body: "body.toml", start: "start.csv", masks: true, measure_again: false }
-    }
-}
-
-/// sequence.toml as this room writes it.
-#[derive(Serialize)]
-struct Manifest<'a> {
-    name: &'a str,
-    fps: f64,
-    cameras: &'a str,
-    body: &'a str,
-    start: &'a str,
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    measure_again: bool,
-    truth: &'a str,
-    view: Vec<ManifestView<'a>>,
-    features: Option<&'a toml::Table>,
-}
-
-#[derive(Serialize)]
-struct ManifestView<'a> {
-    camera: &'a str,
-    source: String,
-    background: String,
-    mask: Option<String>,
 }
 
 impl SyntheticSequence {
@@ -244,7 +203,8 @@ impl SyntheticSequence {
     /// # Errors
     /// When it cannot be written.
     pub(crate) fn write_manifest(&self, names: &FileNames<'_>, folder: &OutputFolder) -> Result<()> {
-        let manifest = toml::to_string(&self.manifest(names)).context("cannot write the manifest")?;
+        let manifest =
+            toml::to_string(&Manifest::new(&self.scene, &self.cameras, names)).context("cannot write the manifest")?;
         folder.write(names.manifest, |writer| Ok(writer.write_all(manifest.as_bytes())?))
     }
 
@@ -277,34 +237,6 @@ impl SyntheticSequence {
         }
         Ok(())
     }
-
-    fn manifest<'a>(&'a self, names: &FileNames<'a>) -> Manifest<'a> {
-        let masks = names.masks && self.scene.output.masks;
-        let view = |camera| ManifestView::of(camera, self.scene.output.pictures, masks);
-        Manifest {
-            name: &self.scene.name,
-            fps: self.scene.fps,
-            cameras: "cameras.toml",
-            body: names.body,
-            start: names.start,
-            measure_again: names.measure_again,
-            truth: "truth.trc",
-            view: self.cameras.iter().map(view).collect(),
-            features: self.scene.features.as_ref(),
-        }
-    }
-}
-
-impl<'a> ManifestView<'a> {
-    fn of(camera: &'a Camera, pictures: PictureForm, masks: bool) -> Self {
-        let name = &camera.name;
-        Self {
-            camera: name,
-            source: source_of(camera, pictures),
-            background: format!("plates/{name}.png"),
-            mask: masks.then(|| format!("masks/{name}_%04d.png")),
-        }
-    }
 }
 
 #[cfg(test)]
@@ -314,7 +246,7 @@ mod tests {
     use super::*;
 
     use super::super::render::Cast;
-    use super::super::scene::{ActorSettings, CameraSettings, Gait, MotionSettings};
+    use super::super::scene::{ActorSettings, CameraSettings, Gait, MotionSettings, PictureForm};
 
     fn short() -> Scene {
         let mut scene = Scene { frames: 3, ..Scene::default() };
