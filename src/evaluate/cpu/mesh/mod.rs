@@ -3,6 +3,8 @@
 mod counting;
 mod eight;
 mod raster;
+mod setup;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod vertices;
@@ -23,7 +25,8 @@ use super::group::Sums;
 use super::instruction_set::Code;
 use super::simd::{Simd, Task};
 use counting::View;
-use raster::{Canvas, Seen, Surface};
+use raster::Canvas;
+use surface::{Seen, Surface};
 use vertices::{Posed, Vertices};
 
 /// A mesh, drawn and compared.

@@ -4,7 +4,9 @@ use glam::{DAffine3, Vec3};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 
-use super::raster::{Canvas, EXACT, Seen, Surface};
+use super::raster::Canvas;
+use super::setup::EXACT;
+use super::surface::{Seen, Surface};
 use crate::body::{Mesh, MeshVertex, Skinning};
 use crate::evaluate::cpu::InstructionSet;
 use crate::evaluate::cpu::instruction_set::Code;

@@ -8,7 +8,7 @@ use crate::evaluate::mesh_projection::{EDGE_BIAS, MeshProjector, NEAR, NEAREST, 
 use crate::evaluate::rig::{Affine, RigCamera, RigLens, compose, snap, transform};
 
 use super::super::front::LANES;
-use super::raster::Seen;
+use super::surface::Seen;
 
 type Row = [f32; LANES];
 
