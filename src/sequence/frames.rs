@@ -11,7 +11,7 @@ use image::{GrayImage, RgbImage};
 
 use super::ignored::IgnoredFrames;
 use super::manifest::Sequence;
-use super::pictures::{PicturePattern, in_colour, read_picture, still};
+use super::pictures::{PicturePattern, in_colour, in_grey, read_picture, still};
 use super::program::Stopper;
 use super::resample::{area_average, nearest_mask};
 use super::source::Source;
@@ -275,7 +275,7 @@ impl ViewStream {
                 GrayImage::from_raw(stored[0], stored[1], bytes)
                     .with_context(|| format!("the mask of frame {frame} has too few bytes"))?
             }
-            Stream::Pictures(pattern) => pattern.read(number, *stored)?.into_luma8(),
+            Stream::Pictures(pattern) => in_grey(pattern.read(number, *stored)?),
         };
         Ok((picture, Some(nearest_mask(&mask, self.size)), ignored))
     }

@@ -8,7 +8,7 @@ use image::GrayImage;
 
 use crate::files::check_regular;
 
-use super::pictures::{PicturePattern, picture_size, read_picture, shown};
+use super::pictures::{PicturePattern, in_grey, picture_size, read_picture, shown};
 use super::resample::nearest_mask;
 
 /// Where a view's ignored pixels are stored: white, at least half as bright, is ignored.
@@ -101,5 +101,5 @@ impl IgnoredFrames {
 }
 
 fn read(path: &Path, stored: [u32; 2], working: [u32; 2]) -> Result<GrayImage> {
-    Ok(nearest_mask(&read_picture(path, &[stored])?.into_luma8(), working))
+    Ok(nearest_mask(&in_grey(read_picture(path, &[stored])?), working))
 }

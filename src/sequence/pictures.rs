@@ -5,7 +5,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
-use image::{DynamicImage, ImageDecoder, ImageReader, RgbImage};
+use image::{DynamicImage, GrayImage, ImageDecoder, ImageReader, RgbImage};
 
 use super::turn::Turn;
 use crate::files::{Limit, PICTURE_FORMATS};
@@ -100,6 +100,22 @@ pub(super) fn in_colour(picture: DynamicImage) -> RgbImage {
         colour.0 = [*grey; 3];
     }
     colour
+}
+
+/// A picture in grey, as the library makes it; where it holds nothing but grey, without the way through single precision either.
+pub(super) fn in_grey(picture: DynamicImage) -> GrayImage {
+    fn grey<const N: usize>(picture: &DynamicImage) -> Option<GrayImage> {
+        let (pixels, _) = picture.as_bytes().as_chunks::<N>();
+        let is_grey = pixels.iter().all(|pixel| pixel[0] == pixel[1] && pixel[0] == pixel[2]);
+        let values = is_grey.then(|| pixels.iter().map(|pixel| pixel[0]).collect())?;
+        GrayImage::from_raw(picture.width(), picture.height(), values)
+    }
+    let found = match &picture {
+        DynamicImage::ImageRgb8(_) => grey::<3>(&picture),
+        DynamicImage::ImageRgba8(_) => grey::<4>(&picture),
+        _ => None,
+    };
+    found.unwrap_or_else(|| picture.into_luma8())
 }
 
 /// A pattern's text before the number, its digits, and the text after.
@@ -256,11 +272,28 @@ mod tests {
 
     #[test]
     fn grey_pictures_have_the_library_s_colours() {
-        let grey = DynamicImage::from(image::GrayImage::from_fn(32, 8, |x, y| image::Luma([(8 * x + y) as u8])));
+        let grey = DynamicImage::from(GrayImage::from_fn(32, 8, |x, y| image::Luma([(8 * x + y) as u8])));
         assert_eq!(in_colour(grey.clone()), grey.to_rgb8());
         let deep = image::ImageBuffer::from_fn(32, 8, |x, y| image::Luma([(2040 * x + 255 * y) as u16]));
         for other in [DynamicImage::from(deep), DynamicImage::from(grey.to_luma_alpha8()), grey.to_rgba8().into()] {
             assert_eq!(in_colour(other.clone()), other.to_rgb8());
+        }
+    }
+
+    #[test]
+    fn masks_have_the_library_s_grey() {
+        let colour = |spread: u32| {
+            DynamicImage::from(RgbImage::from_fn(32, 8, |x, y| {
+                let grey = 8 * x + y;
+                image::Rgb([grey, grey.saturating_sub(spread * (x % 3)), grey].map(|value| value as u8))
+            }))
+        };
+        for picture in [colour(0), colour(40)] {
+            let whole =
+                [picture.clone(), picture.to_rgba8().into(), picture.to_luma8().into(), picture.to_rgb16().into()];
+            for picture in whole {
+                assert_eq!(in_grey(picture.clone()), picture.to_luma8(), "{:?}", picture.color());
+            }
         }
     }
 
