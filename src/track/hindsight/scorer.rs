@@ -54,6 +54,8 @@ pub(super) struct Candidate {
     pub(super) points: Vec<DVec3>,
     /// What the frame alone says for it.
     pub(super) worth: f64,
+    /// Whether it is what came of looking for its limbs.
+    pub(super) is_looked_into: bool,
 }
 
 /// The index of the candidate that is worth most under a pull, or by itself; of equals the first.
@@ -156,7 +158,7 @@ impl<'a> Scorer<'a> {
         let candidates = poses.iter().zip(fitness).map(|(pose, fitness)| {
             self.shape.pose(pose, &mut posed);
             let worth = matched(fitness) - INTRUSION * self.shape.intrusion(&posed);
-            Candidate { pose: pose.clone(), points: posed.points.clone(), worth }
+            Candidate { pose: pose.clone(), points: posed.points.clone(), worth, is_looked_into: false }
         });
         Ok(candidates.collect())
     }

@@ -56,7 +56,9 @@ impl Track<'_> {
         let mut most = candidates.iter().flatten().map(|candidate| candidate.worth).fold(f64::NEG_INFINITY, f64::max);
         for &t in order {
             let mut chosen = self.searched(scorer, seen[t], t, &last, &candidates[t], (0, 1.0))?;
-            let mut others = self.mended(scorer, seen[t], &mut chosen, most)?;
+            // Where the track the other way ended in this pose, having looked for its limbs, another look finds no more.
+            let is_known = candidates[t].iter().any(|known| known.is_looked_into && !is_different(known, &chosen));
+            let mut others = if is_known { Vec::new() } else { self.mended(scorer, seen[t], &mut chosen, most)? };
             most = most.max(chosen.worth);
             if !self.is_back {
                 let twins = self.limbs.twins.iter();
@@ -215,6 +217,7 @@ impl Track<'_> {
             }
             std::mem::swap(chosen, &mut others[best]);
         }
+        chosen.is_looked_into = true;
         Ok(others)
     }
 
