@@ -8,11 +8,12 @@ use super::mending::Mending;
 use super::refining::Settled;
 use super::scorer::Scorer;
 use super::shape::{Posed, Shape};
+use super::tracks::Track;
 use super::window::Seen;
 use crate::body::Body;
 use crate::evaluate::cpu::Cpu;
 use crate::evaluate::{Evaluator as _, Objective, ObjectiveKind};
-use crate::features::SeenView;
+use crate::features::{Observation, SeenView};
 use crate::search::{Estimate, SearchSettings, SearchSpace};
 use crate::track::fit_tests::{cameras_around, seen};
 use crate::track::searcher::Searched;
@@ -211,6 +212,48 @@ fn an_arm_that_shakes_wins_over_one_that_lies_still() {
     // Nothing to be gained, and nothing far apart.
     assert_eq!(weighed(&reach.truth, &still), reach.truth);
     assert_eq!(weighed(&still, &still), still);
+}
+
+/// A frame that shows something nobody explains has its limbs looked for on the way back, and on the way forwards only where that came to
+/// another pose.
+#[test]
+fn limbs_are_looked_for_once() {
+    const POOR: usize = 5;
+    let mut standing = Moving::new(|t| vec![("left_shoulder.rx", 0.6), ("pelvis.tx", 10.0 * t)]);
+    for observation in &mut standing.seen[POOR].observations {
+        let row = observation.width as usize;
+        let marked = observation.bytes.chunks_exact_mut(row).take(40).flat_map(|row| &mut row[..40]);
+        marked.for_each(|byte| *byte |= Observation::SILHOUETTE);
+    }
+    let steps = standing.space.spread(1.0 / 25.0).unwrap();
+    let seen: Vec<&Seen> = standing.seen.iter().collect();
+    let limbs = Limbs::new(&standing.body, &cameras_around(), &standing.space);
+    let track = |is_back| Track { limbs: &limbs, given: &standing.truth, spread: &steps, steps: &steps, is_back };
+    // Poses scored on the way forwards, where it is known what was looked into and where it is not.
+    let [known, forgotten] = [true, false].map(|is_known| {
+        standing.with_scorer(|mut scorer| {
+            let mut candidates = Vec::new();
+            for (seen, pose) in seen.iter().zip(&standing.truth) {
+                scorer.observe(&seen.observations).unwrap();
+                candidates.push(scorer.candidates(std::slice::from_ref(pose)).unwrap());
+            }
+            let forwards: Vec<usize> = (0..FRAMES).collect();
+            let back: Vec<usize> = forwards.iter().rev().copied().collect();
+            track(true).follow(&mut scorer, &seen, &back, &mut candidates).unwrap();
+            let looked_into: Vec<bool> =
+                candidates.iter().map(|of_frame| of_frame.iter().any(|candidate| candidate.is_looked_into)).collect();
+            assert_eq!(looked_into, (0..FRAMES).map(|t| t == POOR).collect::<Vec<_>>());
+            if !is_known {
+                candidates.iter_mut().flatten().for_each(|candidate| candidate.is_looked_into = false);
+            }
+            let before = scorer.scored;
+            track(false).follow(&mut scorer, &seen, &forwards, &mut candidates).unwrap();
+            scorer.scored - before
+        })
+    });
+    println!("{known} poses scored, {forgotten} where it is forgotten what was looked into");
+    // A search round the pose, and one round the best of each limb.
+    assert!(known + 2000 < forgotten, "{known} and {forgotten}");
 }
 
 /// Where an upper arm is right and the forearm folded back, a lattice over the whole arm's limits has nothing near.
