@@ -171,7 +171,7 @@ impl Cpu {
         self.classes = classes;
     }
 
-    /// Evaluates `poses` sixteen at a time and hands what is summed of each group to `finish` with its share of `results`.
+    /// Evaluates `poses` in groups and hands what is summed of each to `finish` with its share of `results`.
     fn run<T: Send>(
         &mut self,
         (poses, besides): (&[f32], Besides),
@@ -181,9 +181,11 @@ impl Cpu {
     ) -> Result<()> {
         let (dof_count, views) = (self.dof_count(), self.view_count());
         let segments = self.segments.as_ref().map_or(0, |segments| segments.as_slice().len());
-        let groups = Mutex::new(poses.chunks(LANES * dof_count).zip(results.chunks_mut(LANES * per_pose)));
         let (model, code, sums) = (&self.model, self.code, &self.sums);
-        let completed = self.workers.run(poses.len().div_ceil(LANES * dof_count), &|worker| {
+        let count = poses.len() / dof_count;
+        let size = group_size(count, sums.len());
+        let groups = Mutex::new(poses.chunks(size * dof_count).zip(results.chunks_mut(size * per_pose)));
+        let completed = self.workers.run(count.div_ceil(size), &|worker| {
             let mut sums = sums[worker].lock().unwrap_or_else(PoisonError::into_inner);
             loop {
                 let Some((poses, results)) = groups.lock().unwrap_or_else(PoisonError::into_inner).next() else {
@@ -205,6 +207,16 @@ impl Cpu {
         ensure!(completed, "a worker thread of the cpu evaluator failed; its message stands above");
         Ok(())
     }
+}
+
+/// Poses that whoever helps with fewer is not called for: waking takes as long as scoring them.
+const FEWEST: usize = 4;
+
+/// How many of so many poses to evaluate at a time, at least 1 and at most as many as there are lanes, so that all workers have nearly
+/// the same to do: the generations of most searches are a few groups only.
+fn group_size(poses: usize, workers: usize) -> usize {
+    let groups = poses.div_ceil(LANES).next_multiple_of(workers).min(poses.div_ceil(FEWEST));
+    poses.div_ceil(groups.max(1)).clamp(1, LANES)
 }
 
 /// What is summed of up to sixteen candidates.
@@ -322,6 +334,37 @@ impl Evaluator for Cpu {
             }
             // What is drawn in is as large as the candidate.
             Model::Mesh(_) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn workers_have_nearly_the_same_to_do() {
+        for (poses, workers, size) in [
+            (50, 1, 13),
+            (50, 2, 13),
+            (50, 3, 9),
+            (50, 16, 4),
+            (512, 2, 16),
+            (300, 4, 15),
+            (16, 2, 8),
+            (5, 2, 3),
+            (3, 8, 3),
+            (1, 2, 1),
+            (0, 2, 1),
+        ] {
+            assert_eq!(group_size(poses, workers), size, "{poses} poses, {workers} workers");
+        }
+        for poses in 0..200 {
+            for workers in 1..20 {
+                let size = group_size(poses, workers);
+                let rounds = poses.div_ceil(size).div_ceil(workers);
+                assert!((1..=LANES).contains(&size) && rounds <= poses.div_ceil(LANES).div_ceil(workers).max(1));
+            }
         }
     }
 }
