@@ -10,7 +10,7 @@ use super::scorer::Scorer;
 use super::seen::Seen;
 use super::shape::{Shape, proportions};
 use crate::body::{Body, Proportions};
-use crate::evaluate::{Objective, ObjectiveKind};
+use crate::evaluate::Objective;
 use crate::geometry::Camera;
 use crate::observe::Advance;
 use crate::search::{SearchKind, SearchSettings, SearchSpace};
@@ -33,6 +33,8 @@ const ROUNDS: i32 = 10;
 const NARROWING: f64 = 0.75;
 /// Where shape and poses are nearly right, as many times fewer are scored at once: what learns the shape of the hill wants no crowd.
 const CLOSE: usize = 6;
+/// As many times longer than that a first pose is searched round.
+const LONGER: usize = 2;
 /// Rounds before which the person's colours are learnt anew.
 const RELOOKS: [i32; 2] = [2, 5];
 
@@ -57,7 +59,7 @@ pub(super) struct Fitter<'a> {
 }
 
 impl<'a> Fitter<'a> {
-    /// Poses are searched by silhouettes until [`Self::relook`], where `objective` weighs evidence.
+    /// Where `objective` weighs evidence, nothing can be compared before [`Self::relook`].
     ///
     /// # Errors
     /// When what was seen does not fit the cameras.
@@ -69,7 +71,7 @@ impl<'a> Fitter<'a> {
         objective: Objective,
         progress: &'a mut Advance<'a>,
     ) -> Result<Self> {
-        let scorer = Scorer::new(body, cameras, &seen.observations, silhouettes_first(objective))?;
+        let scorer = Scorer::new(body, cameras, &seen.observations, objective)?;
         Ok(Self {
             space: SearchSpace::of(body)?,
             search,
@@ -129,6 +131,11 @@ impl<'a> Fitter<'a> {
         self.scorer.look_anew(&self.seen.observations, self.objective)
     }
 
+    /// [`Self::relook`] by what is no background, where evidence is weighed: silhouettes lose limbs that are nearly of its colour.
+    fn look_untaught(&mut self, body: &Body) -> Result<()> {
+        if self.objective.weighs_evidence() { self.relook(body, &[]) } else { Ok(()) }
+    }
+
     /// The best pose of one frame round `centre`, by a swarm; `spread` is in steps of the body.
     fn pose(&mut self, frame: usize, centre: &[f32], spread: f32, iterations: usize) -> Result<(Vec<f32>, f32)> {
         self.pose_by(SearchSettings { iterations, ..self.search }, frame, centre, spread)
@@ -172,6 +179,7 @@ impl<'a> Fitter<'a> {
         heading: Option<f64>,
         follow: bool,
     ) -> Result<Vec<Vec<f32>>> {
+        self.look_untaught(body)?;
         let each = hulls.iter().enumerate();
         let own = each.map(|(frame, hull)| self.first_pose(body, frame, hull, heading)).collect::<Result<Vec<_>>>()?;
         if heading.is_some() {
@@ -209,7 +217,7 @@ impl<'a> Fitter<'a> {
         };
         let (ahead, fitness) = on(self, way)?;
         let (taught, searches) = (self.taught.clone(), self.searches);
-        self.scorer.look_anew(&self.seen.observations, silhouettes_first(self.objective))?;
+        self.look_untaught(body)?;
         let (turned, turned_fitness) = on(self, way.rem_euclid(TAU) - PI)?;
         if turned_fitness > fitness {
             return Ok(turned);
@@ -294,11 +302,11 @@ impl<'a> Fitter<'a> {
         Ok(found.into_iter().map(|(pose, _)| pose).collect())
     }
 
-    /// A pose searched round with one spread after the other. A swarm has its centre among its particles, so nothing gets
-    /// worse.
+    /// A pose searched round with one spread after the other. The centre is among what is scored, so nothing gets worse.
     fn narrowed(&mut self, frame: usize, mut pose: (Vec<f32>, f32)) -> Result<(Vec<f32>, f32)> {
+        let search = SearchSettings { iterations: LONGER * self.search.iterations, ..self.close() };
         for spread in SPREADS {
-            pose = self.pose(frame, &pose.0, spread, self.search.iterations)?;
+            pose = self.pose_by(search, frame, &pose.0, spread)?;
         }
         Ok(pose)
     }
@@ -315,7 +323,7 @@ impl<'a> Fitter<'a> {
 
     fn settled(&mut self, frame: usize, mut pose: Vec<f32>) -> Result<Vec<f32>> {
         for spread in SETTLING {
-            pose = self.pose(frame, &pose, spread, self.search.iterations)?.0;
+            pose = self.pose_by(self.close(), frame, &pose, spread)?.0;
         }
         Ok(pose)
     }
@@ -369,7 +377,7 @@ impl<'a> Fitter<'a> {
             self.scorer.set_body(&proportions(&centre[..known.len()]).apply(body))?;
             for frame in 0..frames {
                 let row = known.len() + frame * dofs..known.len() + (frame + 1) * dofs;
-                let (pose, _) = self.pose(frame, &centre[row.clone()], narrow, self.search.iterations)?;
+                let (pose, _) = self.pose_by(self.close(), frame, &centre[row.clone()], narrow)?;
                 centre[row].copy_from_slice(&pose);
             }
         }
@@ -412,11 +420,6 @@ impl<'a> Fitter<'a> {
     }
 }
 
-/// What poses are compared by where none is known that tells the person's colours.
-fn silhouettes_first(objective: Objective) -> Objective {
-    if objective.weighs_evidence() { Objective::of(ObjectiveKind::Sp) } else { objective }
-}
-
 /// The place of a degree of freedom in a pose.
 fn index_of(names: &[String], name: &str) -> Result<usize> {
     let index = names.iter().position(|known| known == name);
@@ -446,6 +449,7 @@ fn rest_pose(body: &Body, hull: &Hull, heading: f64, arms: f64) -> Result<Vec<f3
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evaluate::ObjectiveKind;
     use crate::features::SeenView;
     use crate::track::fit_tests::{cameras_around, seen};
 

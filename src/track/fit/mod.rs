@@ -48,8 +48,8 @@ pub struct FitSettings {
     /// Whether a frame's first pose is searched round those found in the frames beside it too: where limbs are apart in one of them,
     /// they are told apart in all.
     pub follow: bool,
-    /// What a good pose is, evidence where nobody says; over the sequence's `[objective]` table. Where no pose is known yet, it is
-    /// searched by silhouettes first.
+    /// What a good pose is, evidence where nobody says; over the sequence's `[objective]` table. Where no pose is known yet, evidence is
+    /// of what is no background first.
     pub objective: ObjectiveChoice,
     /// Poses scored at once.
     pub particles: usize,
@@ -138,7 +138,7 @@ pub fn fit_with(sequence: &Sequence, settings: &FitSettings, progress: &mut Adva
         Some(height) => Body::adult(height).context("the height of the person")?,
         None => Body::load(&sequence.body)?,
     };
-    // Rounds that narrow by themselves; the swarm is what they were tried with.
+    // What begins far off and what moves all poses at once is searched by the swarm, all else by what learns the shape of the hill.
     let search = SearchSettings {
         kind: SearchKind::Pso,
         particles: settings.particles,
