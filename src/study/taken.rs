@@ -19,7 +19,9 @@ struct Manifest<'a> {
     name: &'a str,
     fps: f64,
     cameras: &'a str,
-    body: &'a Path,
+    body: Option<&'a Path>,
+    height: Option<f64>,
+    measure_again: Option<bool>,
     start: Option<&'a Path>,
     view: Vec<ManifestView>,
     objective: Option<&'a toml::Table>,
@@ -122,7 +124,7 @@ fn write(sequence: &Sequence, settings: &SequenceSettings, folder: &OutputFolder
             }
         }
     }
-    let body = std::path::absolute(&sequence.body)?;
+    let body = if sequence.needs_body() { None } else { Some(std::path::absolute(&sequence.body)?) };
     // What was the first frame is the last one now.
     let start = match (&settings.start, settings.reversed) {
         (Some(start), _) => Some(std::path::absolute(start)?),
@@ -148,7 +150,9 @@ fn write(sequence: &Sequence, settings: &SequenceSettings, folder: &OutputFolder
             name: &sequence.name,
             fps: sequence.fps / settings.every.unwrap_or(1).max(1) as f64,
             cameras: "cameras.toml",
-            body: &body,
+            body: body.as_deref(),
+            height: sequence.height,
+            measure_again: sequence.measure_again,
             start,
             view: sequence.views.iter().zip(&plates).map(view).collect(),
             objective: sequence.objective.as_ref(),
@@ -156,18 +160,19 @@ fn write(sequence: &Sequence, settings: &SequenceSettings, folder: &OutputFolder
         };
         toml::to_string(&manifest).context("cannot write the manifest")
     };
-    let start = match start {
-        None if settings.reversed => {
+    let start = match (start, &body) {
+        // Where there is no body either, a run finds both.
+        (None, Some(body)) if settings.reversed => {
             let unfitted = folder.file("unfitted.toml")?;
             folder.write("unfitted.toml", |out| Ok(out.write_all(write_manifest(None)?.as_bytes())?))?;
             let first = FrameRange { start: Some(0), end: Some(1) };
             let once =
                 FitSettings { keep_body: true, frames: first, heading: settings.heading, ..FitSettings::default() };
             let found = fit(&Sequence::open(&unfitted)?, &once).context("the first pose of the reversed sequence")?;
-            found.poses.write(&folder.file("start.csv")?, Overwrite::Replace, &Body::load(&body)?)?;
+            found.poses.write(&folder.file("start.csv")?, Overwrite::Replace, &Body::load(body)?)?;
             Some("start.csv".into())
         }
-        start => start,
+        (start, _) => start,
     };
     folder.write("sequence.toml", |out| Ok(out.write_all(write_manifest(start.as_deref())?.as_bytes())?))
 }
@@ -190,6 +195,8 @@ impl SequenceSettings {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     fn settings(every: usize, reversed: bool) -> SequenceSettings {
@@ -222,7 +229,8 @@ mod tests {
         let mut scene = crate::synth::Scene { frames: 5, ..crate::synth::Scene::default() };
         scene.rig.size = [160, 90];
         crate::synth::SyntheticSequence::new(&scene).unwrap().write(&made, false, None, &|_| Ok(())).unwrap();
-        let sequence = Sequence::open(made.path()).unwrap();
+        let mut sequence = Sequence::open(made.path()).unwrap();
+        sequence.measure_again = Some(true);
         let output = OutputFolder::open(folder.path()).unwrap();
         let asked = SequenceSettings {
             cameras: vec!["cam3".into(), "cam1".into()],
@@ -231,11 +239,21 @@ mod tests {
         };
         let taken = taken(sequence.clone(), &asked, &output).unwrap();
         assert_eq!((taken.frame_count, taken.fps, taken.views.len()), (3, 12.5, 2));
+        assert_eq!((taken.measure_again, taken.needs_body()), (Some(true), false));
         assert_eq!(taken.cameras.iter().map(|camera| camera.name.as_str()).collect::<Vec<_>>(), ["cam1", "cam3"]);
         let read = |path: &Path| image::open(path).unwrap().into_rgb8();
         let now = read(&taken.dir.join("frames/cam3_0000.png"));
         assert_eq!(now, read(&made.path().join("frames/cam3_0004.png")));
         assert_ne!(now, read(&made.path().join("frames/cam3_0000.png")));
+        // Of someone of whom a height is known alone.
+        let manifest = fs::read_to_string(made.path().join("sequence.toml")).unwrap();
+        let is_kept = |line: &&str| !["body", "start"].iter().any(|key| line.starts_with(key));
+        let kept: Vec<&str> = manifest.lines().filter(is_kept).collect();
+        let unknown = made.path().join("unknown.toml");
+        fs::write(&unknown, format!("height = 1750.0\n{}", kept.join("\n"))).unwrap();
+        let asked = SequenceSettings { name: Some("unknown".into()), ..settings(1, true) };
+        let taken = super::taken(Sequence::open(&unknown).unwrap(), &asked, &output).unwrap();
+        assert_eq!((taken.height, taken.start.as_deref(), taken.needs_body()), (Some(1750.0), None, true));
         let unknown = SequenceSettings { cameras: vec!["cam7".into()], ..settings(1, false) };
         let error = super::taken(sequence, &unknown, &output).unwrap_err().to_string();
         assert!(error.contains("cameras names `cam7`") && error.contains("cam1"), "{error}");
