@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail};
 
 use crate::features::{
     BitImage, Extractor, FeatureSettings, HeldFrame, Likelihood, Observation, ViewFeatures, ViewSource,
@@ -139,14 +139,11 @@ impl Observer {
 /// # Errors
 /// When one must be learnt and no frame comes before `range` to learn it from.
 pub fn check_background(sequence: &Sequence, range: &Range<usize>) -> Result<()> {
-    let learnt = sequence.views.iter().find(|view| view.learns_background());
-    ensure!(
-        range.start > 0 || learnt.is_none(),
-        "{}: camera {:?} has neither a background picture nor masks, and no frame comes before frame 0 to learn the empty \
-         scene from: give it one of them, or start later with --frames",
-        sequence.path.display(),
-        learnt.map_or("", |view| view.camera.as_str())
-    );
+    if let Some(unknown) = sequence.unknown_background().filter(|_| range.start == 0) {
+        bail!(
+            "{unknown}, and no frame comes before frame 0 to learn the empty scene from: give it one of them, or start later with --frames"
+        );
+    }
     Ok(())
 }
 

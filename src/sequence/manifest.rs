@@ -169,6 +169,12 @@ impl Sequence {
         Ok(())
     }
 
+    /// Which view's background must be learnt from the frames, the first of them, where there is one.
+    pub fn unknown_background(&self) -> Option<String> {
+        let view = self.views.iter().find(|view| view.learns_background())?;
+        Some(format!("{}: camera {:?} has neither a background picture nor masks", self.path.display(), view.camera))
+    }
+
     /// Whether the manifest names no body, so that one has to be measured first.
     pub fn needs_body(&self) -> bool {
         !self.names_body

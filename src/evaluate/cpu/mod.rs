@@ -1,7 +1,7 @@
 //! The fast evaluator. It gives the reference's integers.
 //!
 //! Of the flat model no picture is ever drawn. Rows of a candidate lie in lanes, columns in bits; the comparison is bit operations and bit
-//! counts. Sixteen candidates are posed at a time, their sixteen parts projected at a time, each image drawn and counted in a few hundred
+//! counts. Up to sixteen candidates are posed at a time, their sixteen parts projected at a time, each image drawn and counted in a few hundred
 //! bytes of bit columns. A mesh is drawn into keys of depth and label (`mesh/`). The work is shared by threads that stay; nothing is
 //! allocated in an iteration.
 

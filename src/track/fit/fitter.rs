@@ -136,11 +136,6 @@ impl<'a> Fitter<'a> {
         if self.objective.weighs_evidence() { self.relook(body, &[]) } else { Ok(()) }
     }
 
-    /// The best pose of one frame round `centre`, by a swarm; `spread` is in steps of the body.
-    fn pose(&mut self, frame: usize, centre: &[f32], spread: f32, iterations: usize) -> Result<(Vec<f32>, f32)> {
-        self.pose_by(SearchSettings { iterations, ..self.search }, frame, centre, spread)
-    }
-
     /// What searches close to something that is nearly right.
     fn close(&self) -> SearchSettings {
         SearchSettings { kind: SearchKind::MaEs, particles: self.search.particles.div_ceil(CLOSE), ..self.search }
@@ -148,17 +143,12 @@ impl<'a> Fitter<'a> {
 
     /// The fitness of all frames, each searched round its pose.
     pub(super) fn settled_fitness(&mut self, poses: &[Vec<f32>]) -> Result<Vec<f32>> {
-        let search = |(frame, pose): (usize, &Vec<f32>)| Ok(self.pose_by(self.close(), frame, pose, 1.0)?.1);
+        let search = |(frame, pose): (usize, &Vec<f32>)| Ok(self.pose(self.close(), frame, pose, 1.0)?.1);
         poses.iter().enumerate().map(search).collect()
     }
 
-    fn pose_by(
-        &mut self,
-        settings: SearchSettings,
-        frame: usize,
-        centre: &[f32],
-        spread: f32,
-    ) -> Result<(Vec<f32>, f32)> {
+    /// The best pose of one frame round `centre`, and its fitness; `spread` is in steps of the body.
+    fn pose(&mut self, settings: SearchSettings, frame: usize, centre: &[f32], spread: f32) -> Result<(Vec<f32>, f32)> {
         let mut search = settings.build(&self.space)?;
         let steps = self.space.spread(1.0 / 25.0)?;
         let spread: Vec<f32> = steps.into_iter().map(|step| step * spread).collect();
@@ -230,21 +220,31 @@ impl<'a> Fitter<'a> {
         Ok(ahead)
     }
 
-    /// First poses searched on, and then from frame to frame where they follow each other: by evidence where that is weighed: silhouettes alone may
-    /// fit better the wrong way round.
+    /// First poses searched on, and then from frame to frame where they follow each other.
     fn found_on(&mut self, body: &Body, poses: Vec<Vec<f32>>, follow: bool) -> Result<Vec<Vec<f32>>> {
-        let poses = self.by_evidence(body, poses)?;
+        let poses = if self.objective.weighs_evidence() { self.by_evidence(body, poses)? } else { poses };
         if follow { self.follow(poses) } else { Ok(poses) }
     }
 
-    /// First poses searched on by evidence, where that is weighed: by what is no background at first, then by the colours of the person there.
-    pub(super) fn by_evidence(&mut self, body: &Body, mut poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
+    /// The poses of all frames from given ones.
+    pub(super) fn found_round(&mut self, body: &Body, poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
         if self.objective.weighs_evidence() {
-            for is_taught in [false, true] {
-                self.relook(body, if is_taught { &poses } else { &[] })?;
-                poses = self.settle(poses)?;
-                self.lend(&mut poses)?;
+            self.look_untaught(body)?;
+            self.by_evidence(body, poses)
+        } else {
+            self.settle(poses)
+        }
+    }
+
+    /// Poses searched on by evidence as it is, of what is no background, then by the colours of the person there: silhouettes alone may fit
+    /// better the wrong way round.
+    fn by_evidence(&mut self, body: &Body, mut poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
+        for is_taught in [false, true] {
+            if is_taught {
+                self.relook(body, &poses)?;
             }
+            poses = self.settle(poses)?;
+            self.lend(&mut poses)?;
         }
         Ok(poses)
     }
@@ -255,7 +255,7 @@ impl<'a> Fitter<'a> {
             Some(heading) => vec![heading],
             None => (0..HEADINGS).map(|turn| turn as f64 * 360.0 / HEADINGS as f64 - 180.0).collect(),
         };
-        let iterations = self.search.iterations;
+        let swarm = SearchSettings { iterations: self.search.iterations.div_ceil(3), ..self.search };
         let by_fitness = |a: &(Vec<f32>, f32), b: &(Vec<f32>, f32)| b.1.total_cmp(&a.1);
         let mut found = Vec::new();
         // Of each heading the best arms go on: the best of all together would be one heading several times.
@@ -263,7 +263,7 @@ impl<'a> Fitter<'a> {
             let mut tried = Vec::new();
             for arms in ARMS {
                 let centre = rest_pose(body, hull, heading, arms)?;
-                tried.push(self.pose(frame, &centre, 2.0, iterations.div_ceil(3))?);
+                tried.push(self.pose(swarm, frame, &centre, 2.0)?);
             }
             tried.sort_by(by_fitness);
             if let Some(best) = tried.into_iter().next() {
@@ -306,13 +306,13 @@ impl<'a> Fitter<'a> {
     fn narrowed(&mut self, frame: usize, mut pose: (Vec<f32>, f32)) -> Result<(Vec<f32>, f32)> {
         let search = SearchSettings { iterations: LONGER * self.search.iterations, ..self.close() };
         for spread in SPREADS {
-            pose = self.pose_by(search, frame, &pose.0, spread)?;
+            pose = self.pose(search, frame, &pose.0, spread)?;
         }
         Ok(pose)
     }
 
     /// Poses of all frames improved from given ones.
-    pub(super) fn settle(&mut self, poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
+    fn settle(&mut self, poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
         let mut settled = Vec::new();
         for (frame, mut pose) in poses.into_iter().enumerate() {
             self.space.clamp(&mut pose);
@@ -323,7 +323,7 @@ impl<'a> Fitter<'a> {
 
     fn settled(&mut self, frame: usize, mut pose: Vec<f32>) -> Result<Vec<f32>> {
         for spread in SETTLING {
-            pose = self.pose_by(self.close(), frame, &pose, spread)?.0;
+            pose = self.pose(self.close(), frame, &pose, spread)?.0;
         }
         Ok(pose)
     }
@@ -377,7 +377,7 @@ impl<'a> Fitter<'a> {
             self.scorer.set_body(&proportions(&centre[..known.len()]).apply(body))?;
             for frame in 0..frames {
                 let row = known.len() + frame * dofs..known.len() + (frame + 1) * dofs;
-                let (pose, _) = self.pose_by(self.close(), frame, &centre[row.clone()], narrow)?;
+                let (pose, _) = self.pose(self.close(), frame, &centre[row.clone()], narrow)?;
                 centre[row].copy_from_slice(&pose);
             }
         }
@@ -413,7 +413,7 @@ impl<'a> Fitter<'a> {
             self.scorer.set_body(&stretched)?;
             for (frame, (pose, following)) in poses.iter_mut().zip(&following).enumerate() {
                 let moved = following.with(&stretched)?;
-                *pose = self.pose_by(self.close(), frame, &moved, narrow)?.0;
+                *pose = self.pose(self.close(), frame, &moved, narrow)?.0;
             }
         }
         Ok(stretched)

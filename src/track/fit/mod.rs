@@ -158,7 +158,7 @@ pub fn fit_with(sequence: &Sequence, settings: &FitSettings, progress: &mut Adva
     let mut poses = match &settings.start {
         Some(path) => {
             let poses = start_poses(path, &body, &frames)?;
-            if weighs_evidence { fitter.by_evidence(&body, poses)? } else { fitter.settle(poses)? }
+            fitter.found_round(&body, poses)?
         }
         None => fitter.found(&body, &hulls, settings.heading, settings.follow)?,
     };

@@ -22,12 +22,8 @@ impl Seen {
     /// # Errors
     /// When a view has neither background nor masks, or pictures cannot be read.
     pub(super) fn look(sequence: &Sequence, frames: &[usize], weighs_evidence: bool) -> Result<Self> {
-        if let Some(view) = sequence.views.iter().find(|view| view.learns_background()) {
-            bail!(
-                "{}: camera {:?} has neither a background picture nor masks, expected one of them to measure a person with",
-                sequence.path.display(),
-                view.camera
-            );
+        if let Some(unknown) = sequence.unknown_background() {
+            bail!("{unknown}, expected one of them to measure a person with");
         }
         let mut seen = Self { observations: Vec::new(), likelihoods: Vec::new() };
         let (Some(&first), Some(last)) = (frames.first(), frames.last()) else { return Ok(seen) };

@@ -23,15 +23,12 @@ const AMONG: usize = 1000;
 
 /// Why the person of a run cannot be measured again, where that is so: whole silhouettes before known backgrounds are measured by.
 pub(in crate::track) fn why_not_again(sequence: &Sequence, plan: &Plan) -> Option<String> {
-    let name = sequence.path.display();
     if !plan.features.segment.is_empty() {
+        let name = sequence.path.display();
         return Some(format!("{name} has [[features.segment]], and a person is measured again by whole silhouettes"));
     }
-    let view = sequence.views.iter().find(|view| view.learns_background())?;
-    let camera = &view.camera;
-    Some(format!(
-        "{name}: camera {camera:?} has neither a background picture nor masks, and a person is measured again with one of them"
-    ))
+    let unknown = sequence.unknown_background()?;
+    Some(format!("{unknown}, and a person is measured again with one of them"))
 }
 
 impl Run<'_> {
