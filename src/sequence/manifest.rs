@@ -169,7 +169,8 @@ impl Sequence {
         Ok(())
     }
 
-    /// Which view's background must be learnt from the frames, the first of them, where there is one.
+    /// Which view's background must be learnt from the frames, the first of them, where there is one: the beginning of a sentence that names
+    /// the manifest and the camera.
     pub fn unknown_background(&self) -> Option<String> {
         let view = self.views.iter().find(|view| view.learns_background())?;
         Some(format!("{}: camera {:?} has neither a background picture nor masks", self.path.display(), view.camera))

@@ -16,7 +16,7 @@ const DOCUMENT: Limit = Limit { what: "a document", most: 16 << 20 };
 const END: &str = "<!-- end of study -->";
 
 /// Writes the study's tables of runs.csv and stages.csv in `folder` into a Markdown file, each between the marks
-/// `<!-- study: NAME TABLE -->` and `<!-- end of study -->`, and its plots beside the rows. Gives the number of tables.
+/// `<!-- study: NAME TABLE -->` and `<!-- end of study -->`, and the plots that the file shows beside the rows. Gives the number of tables.
 ///
 /// # Errors
 /// When rows or document cannot be read, no table of the study has a mark in it, or a table with a mark would be empty: times without
@@ -27,7 +27,7 @@ pub fn write_docs(study: &Study, folder: &OutputFolder, document: &Path) -> Resu
     let (text, count) = with_tables(study, &text, |settings| body(settings, &rows, folder.path()))
         .with_context(|| document.display().to_string())?;
     write_atomically(document, Overwrite::Replace, |out| Ok(out.write_all(text.as_bytes())?))?;
-    write_pictures(study, &rows, folder)?;
+    write_pictures(study, &rows, folder, |file| text.contains(file))?;
     Ok(count)
 }
 
@@ -99,7 +99,13 @@ mod tests {
         assert!(error.contains("table \"times\"") && error.contains("stages.csv, which is not there"), "{error}");
         write("stages.csv", &format!("{settings},stage,ms\ndemo,cpu,flat,sp,pso,100,10,1,search,12.5\n"));
         assert_eq!(write_docs(&study, &output, &document).unwrap(), 1);
-        assert!(std::fs::read_to_string(document).unwrap().contains("| 100 | 12.5 |"));
+        assert!(std::fs::read_to_string(&document).unwrap().contains("| 100 | 12.5 |"));
+        // Of the study's plots the one that is shown.
+        let is_there = |name: &str| folder.path().join(name).exists();
+        assert!(!is_there("plot-error.svg") && !is_there("plot-rate.svg"));
+        write("doc.md", "<!-- study: s times --><!-- end of study -->\n![Errors](results/plot-error.svg)\n");
+        write_docs(&study, &output, &document).unwrap();
+        assert!(is_there("plot-error.svg") && !is_there("plot-rate.svg"));
     }
 
     /// What the documents say is what the rows beside the studies say: nobody wrote it by hand.

@@ -248,7 +248,7 @@ fn outcome(prepared: &Prepared, folder: &OutputFolder, summary: &TrackSummary) -
 fn write(study: &Study, rows: &[Row], output: &OutputFolder) -> Result<String> {
     output.write("runs.csv", |out| write_runs(out, rows))?;
     output.write("stages.csv", |out| write_stages(out, rows))?;
-    write_pictures(study, rows, output)?;
+    write_pictures(study, rows, output, |_| true)?;
     let mut text = String::new();
     for settings in tables::settings(study) {
         let table = Table::new(&settings, rows);
@@ -260,15 +260,26 @@ fn write(study: &Study, rows: &[Row], output: &OutputFolder) -> Result<String> {
     Ok(text)
 }
 
-/// Writes the plots.
-pub(super) fn write_pictures(study: &Study, rows: &[Row], output: &OutputFolder) -> Result<()> {
-    let svg =
-        |name: &str, svg: String| output.write(&format!("plot-{name}.svg"), |out| Ok(out.write_all(svg.as_bytes())?));
+/// Writes the plots, of those that are wanted by the names of their files.
+pub(super) fn write_pictures(
+    study: &Study,
+    rows: &[Row],
+    output: &OutputFolder,
+    is_wanted: impl Fn(&str) -> bool,
+) -> Result<()> {
+    let svg = |name: &str, picture: &dyn Fn() -> Result<String>| {
+        let file = format!("plot-{name}.svg");
+        if !is_wanted(&file) {
+            return Ok(());
+        }
+        let svg = picture()?;
+        output.write(&file, |out| Ok(out.write_all(svg.as_bytes())?))
+    };
     for settings in plots::settings(study) {
-        svg(&settings.name, plots::plot(&settings, rows)?)?;
+        svg(&settings.name, &|| plots::plot(&settings, rows))?;
     }
     for settings in plots::share_settings(study) {
-        svg(&settings.name, plots::shares(&settings, rows)?)?;
+        svg(&settings.name, &|| plots::shares(&settings, rows))?;
     }
     Ok(())
 }
