@@ -1,10 +1,9 @@
 //! The searches of one fit.
 
-use std::f64::consts::{PI, TAU};
+mod first;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 
-use super::super::hull::Hull;
 use super::following::Following;
 use super::scorer::Scorer;
 use super::seen::Seen;
@@ -15,19 +14,11 @@ use crate::geometry::Camera;
 use crate::observe::Advance;
 use crate::search::{SearchKind, SearchSettings, SearchSpace};
 
-/// Headings a first pose is searched from, evenly round the circle.
-const HEADINGS: usize = 8;
-/// Angles the arms are lifted sideways to at first, degrees: hanging, half way, a T.
-const ARMS: [f64; 3] = [10.0, 45.0, 88.0];
 /// Spreads, in steps of the body, that a promising first pose is searched with one after the other: an arm on the wrong
 /// side of the trunk needs a wide one to come round.
 const SPREADS: [f32; 4] = [4.0, 3.0, 2.0, 1.0];
 /// Spreads of a pose that is settled.
 const SETTLING: [f32; 2] = [2.0, 1.0];
-/// First poses that are followed further.
-const SURVIVORS: usize = 3;
-/// Times they are searched round once more.
-const ENCORES: usize = 3;
 /// Rounds that proportions and poses are searched together in, each narrower than the one before by [`NARROWING`].
 const ROUNDS: i32 = 10;
 const NARROWING: f64 = 0.75;
@@ -87,33 +78,6 @@ impl<'a> Fitter<'a> {
         })
     }
 
-    /// Works out how many searches there will be, for who waits: in `frames` frames, with poses to start from or
-    /// one heading of all, with frames that are followed, and with a body that is measured or kept.
-    pub(super) fn expect(
-        &mut self,
-        frames: usize,
-        has_start: bool,
-        has_heading: bool,
-        follows: bool,
-        is_measured: bool,
-    ) {
-        let weighs_evidence = self.objective.weighs_evidence();
-        let followed = if follows { 2 * frames.saturating_sub(1) * SPREADS.len() } else { 0 };
-        let settled = if weighs_evidence { 2 * frames * SETTLING.len() } else { 0 };
-        let from = |headings: usize| {
-            let each = headings * (ARMS.len() + SPREADS.len()) + SURVIVORS.min(headings) * ENCORES * SPREADS.len();
-            frames * each + followed + settled
-        };
-        let first = match (has_start, has_heading) {
-            (true, _) if weighs_evidence => settled,
-            (true, _) => frames * SETTLING.len(),
-            (false, true) => from(1),
-            (false, false) => from(HEADINGS) + from(1),
-        };
-        let stretched = if is_measured { ROUNDS as usize * (1 + frames) } else { 0 };
-        self.expected = first + stretched;
-    }
-
     /// Counts a search that begins.
     fn begin(&mut self) {
         (self.progress)("fitting", self.begun.min(self.expected), self.expected);
@@ -161,124 +125,27 @@ impl<'a> Fitter<'a> {
         Ok((found.pose, found.fitness))
     }
 
-    /// The poses of all frames from nothing but their hulls, of one heading (degrees) where that is given.
-    pub(super) fn found(
-        &mut self,
-        body: &Body,
-        hulls: &[Hull],
-        heading: Option<f64>,
-        follow: bool,
-    ) -> Result<Vec<Vec<f32>>> {
-        self.look_untaught(body)?;
-        let each = hulls.iter().enumerate();
-        let own = each.map(|(frame, hull)| self.first_pose(body, frame, hull, heading)).collect::<Result<Vec<_>>>()?;
-        if heading.is_some() {
-            self.found_on(body, own, follow)
-        } else {
-            self.found_both_ways(body, hulls, &own, follow)
-        }
-    }
-
-    /// Poses of all frames from the first ones of each by itself. Front and back of a person look nearly alike, and a swarm that has arms and
-    /// legs in their places the wrong way round does not turn any more: so all frames are tried both ways, that of most of them and its
-    /// opposite, and what fits better in all of them together stays.
-    fn found_both_ways(
-        &mut self,
-        body: &Body,
-        hulls: &[Hull],
-        own: &[Vec<f32>],
-        follow: bool,
-    ) -> Result<Vec<Vec<f32>>> {
-        let dof = index_of(&body.dof_names(), "pelvis.rz")?;
-        let headings: Vec<f64> = own.iter().map(|pose| f64::from(pose[dof])).collect();
-        let is_along = |heading: f64, way: f64| (heading - way).cos() > 0.0;
-        let alike = |way: f64| headings.iter().filter(|heading| is_along(**heading, way)).count();
-        let Some(way) = headings.iter().rev().copied().max_by_key(|way| alike(*way)) else { return Ok(Vec::new()) };
-        let on = |fitter: &mut Self, way: f64| -> Result<(Vec<Vec<f32>>, f32)> {
-            let mut poses = own.to_vec();
-            for (frame, pose) in poses.iter_mut().enumerate() {
-                if !is_along(headings[frame], way) {
-                    *pose = fitter.first_pose(body, frame, &hulls[frame], Some(way.to_degrees()))?;
-                }
-            }
-            let poses = fitter.found_on(body, poses, follow)?;
-            let fitness = fitter.scorer.mean_fitness(&poses)?;
-            Ok((poses, fitness))
-        };
-        let (ahead, fitness) = on(self, way)?;
-        let (taught, searches) = (self.taught.clone(), self.searches);
-        self.look_untaught(body)?;
-        let (turned, turned_fitness) = on(self, way.rem_euclid(TAU) - PI)?;
-        if turned_fitness > fitness {
-            return Ok(turned);
-        }
-        // As if nothing had been tried.
-        self.searches = searches;
-        if self.objective.weighs_evidence() {
-            self.relook(body, &taught)?;
-        }
-        Ok(ahead)
-    }
-
     /// First poses searched on, and then from frame to frame where they follow each other.
     fn found_on(&mut self, body: &Body, poses: Vec<Vec<f32>>, follow: bool) -> Result<Vec<Vec<f32>>> {
-        let poses = if self.objective.weighs_evidence() { self.by_evidence(body, poses)? } else { poses };
+        let poses = self.settled_and_taught(body, poses)?;
         if follow { self.follow(poses) } else { Ok(poses) }
     }
 
     /// The poses of all frames from given ones.
     pub(super) fn found_round(&mut self, body: &Body, poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
-        if self.objective.weighs_evidence() {
-            self.look_untaught(body)?;
-            self.by_evidence(body, poses)
-        } else {
-            self.settle(poses)
-        }
+        self.look_untaught(body)?;
+        self.settled_and_taught(body, poses)
     }
 
-    /// Poses searched on by evidence as it is, of what is no background, then by the colours of the person there: silhouettes alone may fit
-    /// better the wrong way round.
-    fn by_evidence(&mut self, body: &Body, mut poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
-        for is_taught in [false, true] {
-            if is_taught {
-                self.relook(body, &poses)?;
-            }
-            poses = self.settle(poses)?;
-            self.lend(&mut poses)?;
+    /// Poses searched on, and where evidence is weighed, which is of what is no background so far, once more by the colours of the person there:
+    /// silhouettes alone may fit better the wrong way round.
+    fn settled_and_taught(&mut self, body: &Body, poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
+        let poses = self.settle(poses)?;
+        if !self.objective.weighs_evidence() {
+            return Ok(poses);
         }
-        Ok(poses)
-    }
-
-    /// The pose of a frame from nothing but the hull.
-    fn first_pose(&mut self, body: &Body, frame: usize, hull: &Hull, heading: Option<f64>) -> Result<Vec<f32>> {
-        let headings = match heading {
-            Some(heading) => vec![heading],
-            None => (0..HEADINGS).map(|turn| turn as f64 * 360.0 / HEADINGS as f64 - 180.0).collect(),
-        };
-        let swarm = SearchSettings { iterations: self.search.iterations.div_ceil(3), ..self.search };
-        let by_fitness = |a: &(Vec<f32>, f32), b: &(Vec<f32>, f32)| b.1.total_cmp(&a.1);
-        let mut found = Vec::new();
-        // Of each heading the best arms go on: the best of all together would be one heading several times.
-        for heading in headings {
-            let mut tried = Vec::new();
-            for arms in ARMS {
-                let centre = rest_pose(body, hull, heading, arms)?;
-                tried.push(self.pose(swarm, frame, &centre, 2.0)?);
-            }
-            tried.sort_by(by_fitness);
-            if let Some(best) = tried.into_iter().next() {
-                found.push(self.narrowed(frame, best)?);
-            }
-        }
-        found.sort_by(by_fitness);
-        found.truncate(SURVIVORS);
-        for pose in &mut found {
-            for _ in 0..ENCORES {
-                *pose = self.narrowed(frame, std::mem::take(pose))?;
-            }
-        }
-        found.sort_by(by_fitness);
-        Ok(found.into_iter().next().unwrap_or_default().0)
+        self.relook(body, &poses)?;
+        self.settle(poses)
     }
 
     /// Poses, each also searched round its neighbours', there and back: what fits better stays.
@@ -311,13 +178,14 @@ impl<'a> Fitter<'a> {
         Ok(pose)
     }
 
-    /// Poses of all frames improved from given ones.
+    /// Poses of all frames improved from given ones, and by each other's.
     fn settle(&mut self, poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
         let mut settled = Vec::new();
         for (frame, mut pose) in poses.into_iter().enumerate() {
             self.space.clamp(&mut pose);
             settled.push(self.settled(frame, pose)?);
         }
+        self.lend(&mut settled)?;
         Ok(settled)
     }
 
@@ -417,84 +285,5 @@ impl<'a> Fitter<'a> {
             }
         }
         Ok(stretched)
-    }
-}
-
-/// The place of a degree of freedom in a pose.
-fn index_of(names: &[String], name: &str) -> Result<usize> {
-    let index = names.iter().position(|known| known == name);
-    index.with_context(|| format!("the body has no {name}, expected the joints of the default body"))
-}
-
-/// Standing in the hull, facing `heading` (degrees), arms lifted by `arms` degrees.
-fn rest_pose(body: &Body, hull: &Hull, heading: f64, arms: f64) -> Result<Vec<f32>> {
-    let names = body.dof_names();
-    let mut pose = body.standing_pose();
-    for (name, value) in [
-        ("pelvis.tx", hull.centre.x),
-        ("pelvis.ty", hull.centre.y),
-        ("pelvis.rz", heading.to_radians()),
-        ("left_shoulder.rx", arms.to_radians()),
-        ("right_shoulder.rx", -arms.to_radians()),
-    ] {
-        pose[index_of(&names, name)?] = value;
-    }
-    if let Some(lift) = names.iter().position(|name| name == "pelvis.tz") {
-        pose[lift] += hull.span[0];
-    }
-    body.clamp_to_limits(&mut pose);
-    Ok(pose.into_iter().map(|value| value as f32).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::evaluate::ObjectiveKind;
-    use crate::features::SeenView;
-    use crate::track::fit_tests::{cameras_around, seen};
-
-    /// Whoever can be taken for one who faces the other way is tried both ways.
-    #[test]
-    fn nobody_stays_the_wrong_way_round() {
-        let body = Body::adult(1750.0).unwrap();
-        let names = body.dof_names();
-        let mut walking = body.standing_pose();
-        for (name, degrees) in [
-            ("pelvis.rz", 40.0_f64),
-            ("left_hip.ry", -25.0),
-            ("left_knee.ry", 20.0),
-            ("right_knee.ry", 35.0),
-            ("left_shoulder.ry", 20.0),
-            ("right_shoulder.ry", -20.0),
-            ("left_elbow.ry", -30.0),
-            ("right_elbow.ry", -50.0),
-        ] {
-            walking[index_of(&names, name).unwrap()] = degrees.to_radians();
-        }
-        body.clamp_to_limits(&mut walking);
-        let cameras = cameras_around();
-        let observations = seen(&body, &cameras, &walking);
-        let hulls = [Hull::carve(&cameras, &SeenView::all(&observations)).unwrap()];
-        let search = SearchSettings { particles: 100, iterations: 20, ..SearchSettings::default() };
-        // What was seen has no edges.
-        let objective = Objective { w1: 1.0, w2: 0.0, ..Objective::of(ObjectiveKind::Ws) };
-        let mut progress = |_: &str, _, _| {};
-        let mut fitter =
-            Fitter::new(&body, &cameras, Seen::of(vec![observations]), search, objective, &mut progress).unwrap();
-        let heading = index_of(&names, "pelvis.rz").unwrap();
-        let right: Vec<f32> = walking.iter().map(|value| *value as f32).collect();
-        let mut wrong = right.clone();
-        wrong[heading] -= PI as f32;
-        let fitness = |fitter: &Fitter<'_>, poses: &[Vec<f32>]| fitter.scorer.mean_fitness(poses).unwrap();
-        let wrong = [wrong];
-        let found = fitter.found_both_ways(&body, &hulls, &wrong, false).unwrap();
-        let off = f64::from(found[0][heading] - right[heading]);
-        let [after, before] = [fitness(&fitter, &found), fitness(&fitter, &wrong)];
-        println!("{:.1} degrees off, {after} over {before}", off.to_degrees());
-        assert!(off.cos() > 0.0 && after > before);
-        // Whoever was right stays, as if nothing else had been tried.
-        let (searches, right) = (fitter.searches, [right]);
-        assert_eq!(fitter.found_both_ways(&body, &hulls, &right, false).unwrap(), right);
-        assert_eq!(fitter.searches, searches);
     }
 }
