@@ -267,19 +267,13 @@ pub(super) fn write_pictures(
     output: &OutputFolder,
     is_wanted: impl Fn(&str) -> bool,
 ) -> Result<()> {
-    let svg = |name: &str, picture: &dyn Fn() -> Result<String>| {
-        let file = format!("plot-{name}.svg");
-        if !is_wanted(&file) {
-            return Ok(());
-        }
-        let svg = picture()?;
-        output.write(&file, |out| Ok(out.write_all(svg.as_bytes())?))
-    };
-    for settings in plots::settings(study) {
-        svg(&settings.name, &|| plots::plot(&settings, rows))?;
+    let file = |name: &str| format!("plot-{name}.svg");
+    let write = |name: &str, svg: String| output.write(&file(name), |out| Ok(out.write_all(svg.as_bytes())?));
+    for settings in plots::settings(study).iter().filter(|it| is_wanted(&file(&it.name))) {
+        write(&settings.name, plots::plot(settings, rows)?)?;
     }
-    for settings in plots::share_settings(study) {
-        svg(&settings.name, &|| plots::shares(&settings, rows))?;
+    for settings in plots::share_settings(study).iter().filter(|it| is_wanted(&file(&it.name))) {
+        write(&settings.name, plots::shares(settings, rows)?)?;
     }
     Ok(())
 }

@@ -134,6 +134,20 @@ impl Scorer {
         Ok((sum / frames - PRIOR * oddness - PRIOR * stature * stature) as f32)
     }
 
+    /// What `work` makes of every frame with its evaluator; frames are shared among the threads.
+    pub(super) fn each_frame<T: Send>(&self, work: impl Fn(usize, &mut Cpu) -> Result<T> + Sync) -> Result<Vec<T>> {
+        let count = self.frame_count();
+        // A thread's evaluators are locked once for all its frames: whoever helps while it waits takes those of another.
+        let shares = self.threads.par_iter().enumerate().map(|(first, thread)| {
+            let mut cpus = thread.lock().unwrap_or_else(PoisonError::into_inner);
+            let frames = (first..count).step_by(self.threads.len());
+            frames.map(|frame| Ok((frame, work(frame, &mut cpus[frame])?))).collect::<Result<Vec<_>>>()
+        });
+        let mut done: Vec<(usize, T)> = shares.collect::<Result<Vec<_>>>()?.into_iter().flatten().collect();
+        done.sort_by_key(|(frame, _)| *frame);
+        Ok(done.into_iter().map(|(_, made)| made).collect())
+    }
+
     fn frame_count(&self) -> usize {
         self.with_first(|cpus| cpus.len())
     }

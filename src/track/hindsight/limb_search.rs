@@ -1,11 +1,12 @@
-//! Limbs looked for in the only pass of a run, which has no second one that would find them: forwards, or in real time (METHOD A14).
+//! Limbs looked for where no second pass would find them: in the only one of a run, forwards or in real time (METHOD A14), and in the first poses of
+//! a fit (METHOD A3).
 
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
 
 use super::hypotheses::Limbs;
-use super::scorer::{Effort, Scorer};
+use super::scorer::{Candidate, Effort, Scorer};
 use super::shape::Shape;
 use crate::body::Body;
 use crate::evaluate::{Evaluator, Objective};
@@ -43,10 +44,16 @@ pub(crate) struct SearchedFrame<'a> {
     /// What was seen, one a view.
     pub(crate) views: &'a [SeenView<'a>],
     pub(crate) index: usize,
+    /// What time there is, where there is a deadline.
+    pub(crate) time: Option<TimeLeft>,
+}
+
+/// When a frame must be done.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TimeLeft {
+    pub(crate) until: Instant,
     /// How long its search took.
     pub(crate) took: Duration,
-    /// When to be done.
-    pub(crate) until: Option<Instant>,
 }
 
 impl LimbSearch {
@@ -65,12 +72,12 @@ impl LimbSearch {
     /// # Errors
     /// When the evaluator fails.
     pub(crate) fn improve(&self, frame: SearchedFrame<'_>, found: &mut Searched) -> Result<()> {
-        let SearchedFrame { evaluator, objective, settings, space, views, index, took, until } = frame;
+        let SearchedFrame { evaluator, objective, settings, space, views, index, time } = frame;
         let mut scorer = Scorer::new(evaluator, objective, space, &self.shape, settings);
         let share = scorer.generations(SCORED) as f64 / found.estimate.evaluations.max(1) as f64;
         let limbs = self.limbs.count();
         for limb in (0..limbs).map(|nth| (index + nth) % limbs) {
-            if until.is_some_and(|until| Instant::now() + took.mul_f64(share) > until) {
+            if time.is_some_and(|time| Instant::now() + time.took.mul_f64(share) > time.until) {
                 break;
             }
             let pose = &found.estimate.pose;
@@ -78,11 +85,7 @@ impl LimbSearch {
                 continue;
             }
             let before = scorer.candidate(pose.clone())?;
-            let turn = TURN + 10 * limb as u64;
-            let elsewhere = self.limbs.ends_inward(&mut scorer, views, index, limb, &before.pose, turn)?;
-            let effort = Effort { spread: &self.steps, generations: scorer.generations(SETTLED), turn: turn + 1 };
-            let settled = scorer.search_all(index, &elsewhere.pose, effort, None)?.pose;
-            let after = scorer.candidate(settled)?;
+            let after = self.elsewhere(&mut scorer, views, index, limb, &before.pose)?;
             if after.worth > before.worth + CONVINCING {
                 let mut fitness = [0.0];
                 scorer.evaluator.fitness(&after.pose, objective, &mut fitness)?;
@@ -92,5 +95,38 @@ impl LimbSearch {
         }
         found.estimate.evaluations += scorer.scored;
         Ok(())
+    }
+
+    /// The pose with every limb looked for, whatever the pictures say of it; what is worth more is found instead, however little.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(crate) fn look_everywhere(&self, frame: SearchedFrame<'_>, pose: Vec<f32>) -> Result<Vec<f32>> {
+        let SearchedFrame { evaluator, objective, settings, space, views, index, .. } = frame;
+        let mut scorer = Scorer::new(evaluator, objective, space, &self.shape, settings);
+        let mut found = scorer.candidate(pose)?;
+        for limb in 0..self.limbs.count() {
+            let after = self.elsewhere(&mut scorer, views, index, limb, &found.pose)?;
+            if after.worth > found.worth {
+                found = after;
+            }
+        }
+        Ok(found.pose)
+    }
+
+    /// A pose with a limb looked for everywhere, and then all of it searched round.
+    fn elsewhere(
+        &self,
+        scorer: &mut Scorer<'_>,
+        views: &[SeenView<'_>],
+        index: usize,
+        limb: usize,
+        pose: &[f32],
+    ) -> Result<Candidate> {
+        let turn = TURN + 10 * limb as u64;
+        let elsewhere = self.limbs.ends_inward(scorer, views, index, limb, pose, turn)?;
+        let effort = Effort { spread: &self.steps, generations: scorer.generations(SETTLED), turn: turn + 1 };
+        let settled = scorer.search_all(index, &elsewhere.pose, effort, None)?.pose;
+        scorer.candidate(settled)
     }
 }

@@ -18,7 +18,7 @@ use anyhow::{Context, Result};
 use image::RgbImage;
 
 pub(super) use self::delayed::Delayed;
-pub(super) use self::limb_search::{LimbSearch, SearchedFrame};
+pub(super) use self::limb_search::{LimbSearch, SearchedFrame, TimeLeft};
 use self::mending::Mending;
 use self::refining::Settled;
 use self::scorer::Scorer;

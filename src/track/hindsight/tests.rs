@@ -3,7 +3,7 @@ use std::time::{Duration, Instant};
 use rayon::ThreadPoolBuilder;
 
 use super::hypotheses::Limbs;
-use super::limb_search::{LimbSearch, SearchedFrame};
+use super::limb_search::{LimbSearch, SearchedFrame, TimeLeft};
 use super::mending::Mending;
 use super::refining::Settled;
 use super::scorer::Scorer;
@@ -331,8 +331,7 @@ fn a_limb_is_found_in_a_pass_that_is_the_only_one() {
             space: &reach.space,
             views: &SeenView::all(&seen.observations),
             index: seen.index,
-            took: Duration::from_millis(100),
-            until,
+            time: until.map(|until| TimeLeft { until, took: Duration::from_millis(100) }),
         };
         search.improve(frame, &mut found).unwrap();
         let views = cpu.view_counts(&found.estimate.pose, &objective).unwrap();

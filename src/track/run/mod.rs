@@ -14,7 +14,7 @@ use anyhow::{Context, Result, anyhow};
 use super::appearance::RunAppearance;
 use super::confidence::{Confidence, FrameConfidence, JointProbe, LossRule};
 use super::feed::{Frames, Prepared};
-use super::hindsight::{Delayed, LimbSearch, SearchedFrame};
+use super::hindsight::{Delayed, LimbSearch, SearchedFrame, TimeLeft};
 use super::journal::{FrameResult, Journal};
 use super::motion::LearntMotion;
 use super::overlay::Overlay;
@@ -401,8 +401,7 @@ impl<'a> Run<'a> {
                 space,
                 views: &views,
                 index: frame,
-                took: begin.elapsed(),
-                until: turn.until,
+                time: turn.until.map(|until| TimeLeft { until, took: begin.elapsed() }),
             };
             limbs.improve(frame, &mut searched).with_context(in_frame)?;
             searched.passes.extend(evaluator.device_passes());

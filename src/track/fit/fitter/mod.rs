@@ -4,16 +4,20 @@ mod first;
 
 use anyhow::Result;
 
+use super::super::hindsight::{LimbSearch, SearchedFrame};
 use super::following::Following;
 use super::scorer::Scorer;
 use super::seen::Seen;
 use super::shape::{Shape, proportions};
 use crate::body::{Body, Proportions};
 use crate::evaluate::Objective;
+use crate::features::SeenView;
 use crate::geometry::Camera;
 use crate::observe::Advance;
 use crate::search::{SearchKind, SearchSettings, SearchSpace};
 
+/// The rate that the body's steps are taken for: frames that are fitted may lie any time apart.
+const FPS: f64 = 25.0;
 /// Spreads, in steps of the body, that a promising first pose is searched with one after the other: an arm on the wrong
 /// side of the trunk needs a wide one to come round.
 const SPREADS: [f32; 4] = [4.0, 3.0, 2.0, 1.0];
@@ -114,7 +118,7 @@ impl<'a> Fitter<'a> {
     /// The best pose of one frame round `centre`, and its fitness; `spread` is in steps of the body.
     fn pose(&mut self, settings: SearchSettings, frame: usize, centre: &[f32], spread: f32) -> Result<(Vec<f32>, f32)> {
         let mut search = settings.build(&self.space)?;
-        let steps = self.space.spread(1.0 / 25.0)?;
+        let steps = self.space.spread(1.0 / FPS)?;
         let spread: Vec<f32> = steps.into_iter().map(|step| step * spread).collect();
         self.begin();
         let dofs = self.space.dof_count();
@@ -125,27 +129,50 @@ impl<'a> Fitter<'a> {
         Ok((found.pose, found.fitness))
     }
 
-    /// First poses searched on, and then from frame to frame where they follow each other.
+    /// First poses searched on, and then from frame to frame where they follow each other. Where evidence is weighed, which is of what is no
+    /// background so far, limbs are looked for before the person's colours are learnt, since an arm that is wrong by then is taught to be right,
+    /// and once more by the colours.
     fn found_on(&mut self, body: &Body, poses: Vec<Vec<f32>>, follow: bool) -> Result<Vec<Vec<f32>>> {
-        let poses = self.settled_and_taught(body, poses)?;
+        let mut poses = self.settle(poses)?;
+        if self.objective.weighs_evidence() {
+            for _ in 0..2 {
+                poses = self.look_for_limbs(body, &poses)?;
+                self.relook(body, &poses)?;
+                poses = self.settle(poses)?;
+            }
+        }
         if follow { self.follow(poses) } else { Ok(poses) }
     }
 
-    /// The poses of all frames from given ones.
+    /// The poses of all frames from given ones, where evidence is weighed then once more by the colours of the person there: silhouettes alone may
+    /// fit better the wrong way round.
     pub(super) fn found_round(&mut self, body: &Body, poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
         self.look_untaught(body)?;
-        self.settled_and_taught(body, poses)
-    }
-
-    /// Poses searched on, and where evidence is weighed, which is of what is no background so far, once more by the colours of the person there:
-    /// silhouettes alone may fit better the wrong way round.
-    fn settled_and_taught(&mut self, body: &Body, poses: Vec<Vec<f32>>) -> Result<Vec<Vec<f32>>> {
         let poses = self.settle(poses)?;
         if !self.objective.weighs_evidence() {
             return Ok(poses);
         }
         self.relook(body, &poses)?;
         self.settle(poses)
+    }
+
+    /// Poses with every limb of each looked for all over: swarms that begin with arms that hang end where the arm was, not where it is.
+    fn look_for_limbs(&mut self, body: &Body, poses: &[Vec<f32>]) -> Result<Vec<Vec<f32>>> {
+        let limbs = LimbSearch::new(body, self.cameras, &self.space, FPS)?;
+        self.begin();
+        let Self { space, search, scorer, seen, objective, searches, .. } = &*self;
+        scorer.each_frame(|frame, cpu| {
+            let searched = SearchedFrame {
+                evaluator: cpu,
+                objective,
+                settings: search,
+                space,
+                views: &SeenView::all(&seen.observations[frame]),
+                index: *searches as usize + frame,
+                time: None,
+            };
+            limbs.look_everywhere(searched, poses[frame].clone())
+        })
     }
 
     /// Poses, each also searched round its neighbours', there and back: what fits better stays.
@@ -219,7 +246,7 @@ impl<'a> Fitter<'a> {
         };
         let lower = joined(&|i| known[i].limits[0] as f32, self.space.lower());
         let upper = joined(&|i| known[i].limits[1] as f32, self.space.upper());
-        let steps = joined(&|i| known[i].deviation as f32, &self.space.spread(1.0 / 25.0)?);
+        let steps = joined(&|i| known[i].deviation as f32, &self.space.spread(1.0 / FPS)?);
         let space = SearchSpace::new(lower, upper, steps.clone())?;
         let apart = |row: &[f32]| -> (Proportions, Vec<Vec<f32>>) {
             let (factors, poses) = row.split_at(known.len());
@@ -259,7 +286,7 @@ impl<'a> Fitter<'a> {
     pub(super) fn reshape(&mut self, body: &Body, poses: &mut [Vec<f32>]) -> Result<Body> {
         let [lower, upper, deviations] = Shape::ranges();
         let space = SearchSpace::new(lower, upper, deviations.clone())?;
-        let steps = self.space.spread(1.0 / 25.0)?;
+        let steps = self.space.spread(1.0 / FPS)?;
         let mut shape = Shape::default();
         let mut stretched = shape.apply(body);
         for round in 0..ROUNDS {
