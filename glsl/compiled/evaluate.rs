@@ -31,7 +31,10 @@ pub const PACK_AT_ONCE: u32 = 2;
 pub const RASTER_GROUP: u32 = 32;
 /// `MOST_RASTER_GROUP` of `evaluate/constants.glsl`.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
-pub const MOST_RASTER_GROUP: u32 = 128;
+pub const MOST_RASTER_GROUP: u32 = 256;
+/// Parts whose corners, or edges, it keeps at once.
+#[allow(dead_code, unreachable_pub, reason = "written by the build")]
+pub const RASTER_PARTS: u32 = 32;
 /// Words of a row that it draws at once, and how many there may be: fewer compute the spans of wide parts more often, more make masks of
 /// nothing.
 #[allow(dead_code, unreachable_pub, reason = "written by the build")]
@@ -2357,12 +2360,12 @@ pub mod project_feedback_vert {
 /// The stage `evaluate/raster.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod raster_comp {
-    // Accesses are as declared: naga cannot read this stage (Constant [33] '' is invalid: Initializer must be a const-expression).
+    // Accesses are as declared: naga cannot read this stage (invalid array size %872).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4808, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5935, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -2380,6 +2383,8 @@ pub mod raster_comp {
             crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
             crate::gpu::SpecConstant { name: "local_size_x", id: 2, default: 32 },
             crate::gpu::SpecConstant { name: "WORDS", id: 3, default: 3 },
+            crate::gpu::SpecConstant { name: "KEEPS_EDGES", id: 6, default: 0 },
+            crate::gpu::SpecConstant { name: "EDGES_KEPT", id: 7, default: 1 },
         ],
     };
     /// Specialisation constants.
@@ -2393,13 +2398,17 @@ pub mod raster_comp {
         pub local_size_x: u32,
         /// `WORDS`, 3 by default.
         pub words: u32,
+        /// `KEEPS_EDGES`, false by default.
+        pub keeps_edges: bool,
+        /// `EDGES_KEPT`, 1 by default.
+        pub edges_kept: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { listed: false, ignores: false, local_size_x: 32, words: 3, } }
+        fn default() -> Self { Self { listed: false, ignores: false, local_size_x: 32, words: 3, keeps_edges: false, edges_kept: 1, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (2, constants.local_size_x), (3, constants.words), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (2, constants.local_size_x), (3, constants.words), (6, u32::from(constants.keeps_edges)), (7, constants.edges_kept), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -2447,12 +2456,12 @@ pub mod raster_comp {
 /// The stage `evaluate/raster_evidence.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod raster_evidence_comp {
-    // Accesses are as declared: naga cannot read this stage (Constant [35] '' is invalid: Initializer must be a const-expression).
+    // Accesses are as declared: naga cannot read this stage (invalid array size %920).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_evidence.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5318, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<6437, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_evidence.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -2473,6 +2482,8 @@ pub mod raster_evidence_comp {
             crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
             crate::gpu::SpecConstant { name: "local_size_x", id: 2, default: 32 },
             crate::gpu::SpecConstant { name: "WORDS", id: 3, default: 3 },
+            crate::gpu::SpecConstant { name: "KEEPS_EDGES", id: 6, default: 0 },
+            crate::gpu::SpecConstant { name: "EDGES_KEPT", id: 7, default: 1 },
         ],
     };
     /// Specialisation constants.
@@ -2486,13 +2497,17 @@ pub mod raster_evidence_comp {
         pub local_size_x: u32,
         /// `WORDS`, 3 by default.
         pub words: u32,
+        /// `KEEPS_EDGES`, false by default.
+        pub keeps_edges: bool,
+        /// `EDGES_KEPT`, 1 by default.
+        pub edges_kept: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { listed: false, ignores: false, local_size_x: 32, words: 3, } }
+        fn default() -> Self { Self { listed: false, ignores: false, local_size_x: 32, words: 3, keeps_edges: false, edges_kept: 1, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (2, constants.local_size_x), (3, constants.words), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (2, constants.local_size_x), (3, constants.words), (6, u32::from(constants.keeps_edges)), (7, constants.edges_kept), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -2843,12 +2858,12 @@ pub mod raster_mesh_segments_comp {
 /// The stage `evaluate/raster_segments.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod raster_segments_comp {
-    // Accesses are as declared: naga cannot read this stage (Constant [37] '' is invalid: Initializer must be a const-expression).
+    // Accesses are as declared: naga cannot read this stage (invalid array size %1018).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5712, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<6839, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_segments.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -2870,6 +2885,8 @@ pub mod raster_segments_comp {
             crate::gpu::SpecConstant { name: "local_size_x", id: 2, default: 32 },
             crate::gpu::SpecConstant { name: "WORDS", id: 3, default: 3 },
             crate::gpu::SpecConstant { name: "SEGMENT_EDGES", id: 4, default: 0 },
+            crate::gpu::SpecConstant { name: "KEEPS_EDGES", id: 6, default: 0 },
+            crate::gpu::SpecConstant { name: "EDGES_KEPT", id: 7, default: 1 },
         ],
     };
     /// Specialisation constants.
@@ -2885,13 +2902,17 @@ pub mod raster_segments_comp {
         pub words: u32,
         /// `SEGMENT_EDGES`, false by default.
         pub segment_edges: bool,
+        /// `KEEPS_EDGES`, false by default.
+        pub keeps_edges: bool,
+        /// `EDGES_KEPT`, 1 by default.
+        pub edges_kept: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { listed: false, ignores: false, local_size_x: 32, words: 3, segment_edges: false, } }
+        fn default() -> Self { Self { listed: false, ignores: false, local_size_x: 32, words: 3, segment_edges: false, keeps_edges: false, edges_kept: 1, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (2, constants.local_size_x), (3, constants.words), (4, u32::from(constants.segment_edges)), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (2, constants.local_size_x), (3, constants.words), (4, u32::from(constants.segment_edges)), (6, u32::from(constants.keeps_edges)), (7, constants.edges_kept), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -2948,12 +2969,12 @@ pub mod raster_segments_comp {
 /// The stage `evaluate/raster_shared.comp`.
 #[allow(dead_code, unreachable_pub, clippy::derivable_impls, reason = "written by the build, of use or not")]
 pub mod raster_shared_comp {
-    // Accesses are as declared: naga cannot read this stage (Constant [33] '' is invalid: Initializer must be a const-expression).
+    // Accesses are as declared: naga cannot read this stage (invalid array size %872).
     /// The compiled stage.
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_shared.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<4760, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5887, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_shared.comp.spv"))),
         workgroup_size: [32, 1, 1],
         push_size: 24,
@@ -2971,6 +2992,8 @@ pub mod raster_shared_comp {
             crate::gpu::SpecConstant { name: "IGNORES", id: 1, default: 0 },
             crate::gpu::SpecConstant { name: "local_size_x", id: 2, default: 32 },
             crate::gpu::SpecConstant { name: "WORDS", id: 3, default: 3 },
+            crate::gpu::SpecConstant { name: "KEEPS_EDGES", id: 6, default: 0 },
+            crate::gpu::SpecConstant { name: "EDGES_KEPT", id: 7, default: 1 },
         ],
     };
     /// Specialisation constants.
@@ -2984,13 +3007,17 @@ pub mod raster_shared_comp {
         pub local_size_x: u32,
         /// `WORDS`, 3 by default.
         pub words: u32,
+        /// `KEEPS_EDGES`, false by default.
+        pub keeps_edges: bool,
+        /// `EDGES_KEPT`, 1 by default.
+        pub edges_kept: u32,
     }
     impl Default for Constants {
-        fn default() -> Self { Self { listed: false, ignores: false, local_size_x: 32, words: 3, } }
+        fn default() -> Self { Self { listed: false, ignores: false, local_size_x: 32, words: 3, keeps_edges: false, edges_kept: 1, } }
     }
     /// What a pipeline is compiled from.
     pub fn stage(constants: Constants) -> crate::gpu::ShaderStage {
-        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (2, constants.local_size_x), (3, constants.words), ] }
+        crate::gpu::ShaderStage { shader: &SHADER, constants: vec![(0, u32::from(constants.listed)), (1, u32::from(constants.ignores)), (2, constants.local_size_x), (3, constants.words), (6, u32::from(constants.keeps_edges)), (7, constants.edges_kept), ] }
     }
     /// Push constants.
     pub type Push = super::layout::Batch;
@@ -3043,7 +3070,7 @@ pub mod raster_spans_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_spans.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5301, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5111, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_spans.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 24,
@@ -3123,7 +3150,7 @@ pub mod raster_spans_evidence_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_spans_evidence.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<5746, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<5556, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_spans_evidence.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 24,
@@ -3215,7 +3242,7 @@ pub mod raster_spans_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "evaluate/raster_spans_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<6228, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<6038, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/evaluate/raster_spans_segments.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 24,

@@ -23,7 +23,9 @@ const uint PACK_AT_ONCE = 2u;
 
 // Invocations of a workgroup that draws and compares an image, a row each, and how many there may be; powers of two.
 const uint RASTER_GROUP = 32u;
-const uint MOST_RASTER_GROUP = 128u;
+const uint MOST_RASTER_GROUP = 256u;
+// Parts whose corners, or edges, it keeps at once.
+const uint RASTER_PARTS = 32u;
 // Words of a row that it draws at once, and how many there may be: fewer compute the spans of wide parts more often, more make masks of
 // nothing.
 const uint RASTER_WORDS = 3u;

@@ -1,6 +1,7 @@
 // Drawing and comparison without any framebuffer (docs/RASTER.md, METHOD A6): the whole of both compute variants but for how a
 // workgroup sums. A workgroup takes an image, an invocation a row. A chunk of the row is two sets of bits kept in registers, what
-// fills cover and where borders show; the observation is bit planes, so everything counted is a bit count.
+// fills cover and where borders show; the observation is bit planes, so everything counted is a bit count. What an edge costs once is
+// found in every row where reading memory costs more than that, or by the workgroup, an invocation an edge, and kept.
 
 #define SUMMED writeonly
 
@@ -14,19 +15,23 @@ layout(local_size_x = RASTER_GROUP, local_size_x_id = 2) in;
 layout(constant_id = 0) const bool LISTED = false;
 // Words of a row that are drawn at once, at most MOST_RASTER_WORDS.
 layout(constant_id = 3) const uint WORDS = RASTER_WORDS;
+// Whether the workgroup keeps edges, and of how many parts: RASTER_PARTS, or 1 where it keeps none.
+layout(constant_id = 6) const bool KEEPS_EDGES = false;
+layout(constant_id = 7) const uint EDGES_KEPT = 1u;
 
 layout(std430, set = 0, binding = 1) readonly buffer Quads { Quad quads[]; };
 // Three words of a dispatch, then image numbers.
 layout(std430, set = 0, binding = 4) readonly buffer List { uint list[]; };
 
-// Parts that are kept at once.
-const uint TILE = 32u;
+const uint TILE = RASTER_PARTS;
 // Chunks of the widest picture, of a word each.
 const uint MOST_CHUNKS = (LARGEST_SIDE + 31u) / 32u;
 
-// Corners of the parts of the tile, 1/256 pixel.
+// Corners of the parts of the tile, 1/256 pixel; or their edges and lines.
 shared ivec4 part_x[TILE];
 shared ivec4 part_y[TILE];
+shared Edges part_edges[EDGES_KEPT];
+shared Lines part_lines[EDGES_KEPT];
 // Rows and columns that a part may touch, first and past the last in 16 bits each, and for each chunk one bit a part that
 // reaches into it.
 shared uvec4 part_rows[TILE / 4u];
@@ -37,9 +42,40 @@ shared uint part_numbers[TILE];
 #endif
 shared uint chunk_parts[MOST_CHUNKS];
 
+// The edges of the parts of a tile, an invocation one.
+void keep_edges(uint image, uint tile) {
+    uint from = image * batch.parts + tile * TILE;
+    uint count = 4u * min(batch.parts - tile * TILE, TILE);
+    for (uint own = gl_LocalInvocationID.x; own < count; own += gl_WorkGroupSize.x) {
+        uint slot = own / 4u;
+        uint corner = own % 4u;
+        uint next = (corner + 1u) % 4u;
+        ivec2 begin = ivec2(quads[from + slot].x[corner], quads[from + slot].y[corner]);
+        ivec2 end = ivec2(quads[from + slot].x[next], quads[from + slot].y[next]);
+        Edge edge = edge_between(begin, end);
+        part_edges[slot].top_x[corner] = edge.top.x;
+        part_edges[slot].top_y[corner] = edge.top.y;
+        part_edges[slot].dx[corner] = edge.delta.x;
+        part_edges[slot].dy[corner] = edge.delta.y;
+        part_edges[slot].inverse[corner] = edge.inverse;
+        begin = (begin + 128) >> 8;
+        end = (end + 128) >> 8;
+        edge = edge_between(begin, end);
+        part_lines[slot].edge.top_x[corner] = edge.top.x;
+        part_lines[slot].edge.top_y[corner] = edge.top.y;
+        part_lines[slot].edge.dx[corner] = edge.delta.x;
+        part_lines[slot].edge.dy[corner] = edge.delta.y;
+        part_lines[slot].edge.inverse[corner] = edge.inverse;
+        part_lines[slot].start[corner] = line_start(edge.delta);
+        part_lines[slot].left[corner] = min(begin.x, end.x);
+        part_lines[slot].right[corner] = max(begin.x, end.x) + 1;
+    }
+}
+
 void load_tile(uint image, uint tile, ivec2 size, uint chunks) {
     uint words = WORDS;
     barrier();
+    if (KEEPS_EDGES) keep_edges(image, tile);
     for (uint slot = gl_LocalInvocationID.x; slot < TILE; slot += gl_WorkGroupSize.x) {
         uint part = tile * TILE + slot;
         uint rows = 0u;
@@ -132,12 +168,18 @@ uvec4 rasterise(uint image) {
                 while (parts_left != 0u) {
                     uint part = uint(findLSB(parts_left));
                     parts_left &= parts_left - 1u;
-                    ivec4 x = part_x[part];
-                    ivec4 y_corners = part_y[part];
-                    ivec2 fill = fill_span(edges_between(x, y_corners), y);
+                    ivec2 fill;
                     ivec4 from;
                     ivec4 to;
-                    line_spans(lines_between((x + 128) >> 8, (y_corners + 128) >> 8), y, from, to);
+                    if (KEEPS_EDGES) {
+                        fill = fill_span(part_edges[part], y);
+                        line_spans(part_lines[part], y, from, to);
+                    } else {
+                        ivec4 x = part_x[part];
+                        ivec4 y_corners = part_y[part];
+                        fill = fill_span(edges_between(x, y_corners), y);
+                        line_spans(lines_between((x + 128) >> 8, (y_corners + 128) >> 8), y, from, to);
+                    }
                     for (uint word = 0u; word < words; word++) {
                         int start = origin + int(32u * word);
                         uint lines = span_bits(from.x - start, to.x - start) | span_bits(from.y - start, to.y - start) |

@@ -17,8 +17,11 @@ uint touched(ivec4 corners, int low, int high) {
     return pack_range(clamp(first, low, high), clamp(last + 1, low, high));
 }
 
+// Bits of the pixels from `low` on to before `high`, of a word that begins at 0.
 uint span_bits(int low, int high) {
-    return below(high) & ~below(low);
+    int first = max(low, 0);
+    int end = min(high, 32);
+    return first < end ? (0xffffffffu << uint(first)) & (0xffffffffu >> uint(32 - end)) : 0u;
 }
 
 // 1 where true.
@@ -42,6 +45,20 @@ Edges edges_between(ivec4 x, ivec4 y) {
     ivec4 top_x = mix(next_x, x, down);
     ivec4 dy = abs(next_y - y);
     return Edges(top_x, min(y, next_y), mix(x, next_x, down) - top_x, dy, 1.0 / vec4(max(dy, 1)));
+}
+
+// One of them.
+struct Edge {
+    ivec2 top;
+    ivec2 delta;
+    float inverse; // of delta.y
+};
+
+Edge edge_between(ivec2 from, ivec2 to) {
+    bool down = from.y <= to.y;
+    ivec2 top = down ? from : to;
+    ivec2 delta = (down ? to : from) - top;
+    return Edge(top, delta, 1.0 / float(max(delta.y, 1)));
 }
 
 // Fill: in row y the part covers the pixels from x on to before y of the result, none when they are not in order. An edge is
@@ -68,6 +85,12 @@ struct Lines {
     ivec4 left;
     ivec4 right; // past the last
 };
+
+// The start of a line's numerators, as `lines_between` has it.
+int line_start(ivec2 delta) {
+    bool steep = delta.y > abs(delta.x);
+    return steep ? delta.y : 2 * max(delta.y, 1) - delta.x - (delta.x > 0 ? 1 : 0);
+}
 
 Lines lines_between(ivec4 x, ivec4 y) {
     Edges edge = edges_between(x, y);

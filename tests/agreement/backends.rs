@@ -2,7 +2,7 @@
 
 use pantin::evaluate::Evaluator;
 use pantin::evaluate::cpu::{Cpu, InstructionSet};
-use pantin::evaluate::device::{Compute, Graphics, RasterKernel, Shared};
+use pantin::evaluate::device::{Compute, Graphics, RasterKernel, RowWay, Shared};
 use pantin::gpu::{Capabilities, DeviceSettings};
 
 use crate::cases::{CASES, Case, Kind, Stage, USUAL};
@@ -112,8 +112,8 @@ fn compute_agrees() {
         let kernel = match name {
             "as it is" => Some(RasterKernel::Spans { group: 64, workgroups: 1 }),
             "few groups" => Some(RasterKernel::Spans { group: 20, workgroups: 40 }),
-            "little memory" => Some(RasterKernel::Rows { group: 64, words: 4 }),
-            "no subgroups" => Some(RasterKernel::Rows { group: 16, words: 2 }),
+            "little memory" => Some(RasterKernel::Rows(RowWay { group: 64, words: 4, keeps_edges: true })),
+            "no subgroups" => Some(RasterKernel::Rows(RowWay { group: 16, words: 2, keeps_edges: false })),
             _ => None,
         };
         if let Some(kernel) = kernel {

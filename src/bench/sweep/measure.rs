@@ -8,7 +8,7 @@ use super::super::scene::{Scene, swarm};
 use super::point::Point;
 use super::report::{SweepReport, SweepRow};
 use crate::evaluate::cpu::Cpu;
-use crate::evaluate::device::open_device;
+use crate::evaluate::device::{RasterKernel, open_device};
 use crate::evaluate::{Components, Evaluator, Objective};
 
 /// Rounds of which the medians are told, after one that is not counted.
@@ -88,7 +88,8 @@ pub(super) fn sweep(points: &[Point], task: Task, begin: &mut dyn FnMut(&str)) -
         for Entry { point, evaluator, ms } in &mut entries {
             evaluator.fitness(&poses, &Objective::default(), &mut fitness)?;
             let passes = evaluator.device_passes();
-            let own = passes.iter().filter(|pass| pass.name == point.stage()).map(|pass| pass.duration.as_secs_f64());
+            let own =
+                passes.iter().filter(|pass| point.is_timed_by(&pass.name)).map(|pass| pass.duration.as_secs_f64());
             let (count, seconds) = own.fold((0, 0.0), |(count, sum), seconds| (count + 1, sum + seconds));
             if count == 0 {
                 bail!("no pass {} ran, of {} passes", point.stage(), passes.len());
@@ -105,7 +106,7 @@ pub(super) fn sweep(points: &[Point], task: Task, begin: &mut dyn FnMut(&str)) -
             stage: point.stage().to_string(),
             way: point.way(),
             workgroup: point.group(),
-            usual: point.is_usual(),
+            usual: point.is_usual(RasterKernel::usual(device.capabilities())),
             ms: median,
             ms_min: min,
             ms_max: max,
@@ -133,7 +134,7 @@ mod tests {
     #![allow(clippy::print_stdout, reason = "a test says what it leaves out")]
 
     use super::*;
-    use crate::evaluate::device::{Gathering, RasterKernel};
+    use crate::evaluate::device::{Gathering, RowWay};
 
     #[test]
     fn stages_are_timed_and_what_cannot_be_is_said() {
@@ -144,8 +145,8 @@ mod tests {
         let points = [
             Point::Project(32),
             Point::Raster(RasterKernel::ROWS),
-            Point::Raster(RasterKernel::Rows { group: 16, words: 4 }),
-            Point::Raster(RasterKernel::Rows { group: 24, words: 4 }),
+            Point::Raster(RasterKernel::Rows(RowWay { group: 16, words: 4, keeps_edges: false })),
+            Point::Raster(RasterKernel::Rows(RowWay { group: 24, words: 4, keeps_edges: false })),
             Point::Raster(RasterKernel::Spans { group: 32, workgroups: 2 }),
             Point::Compare(Gathering::Texels, 64),
             Point::Project(8),

@@ -8,7 +8,7 @@ use super::drawn_mesh::{DrawnMesh, MESH_TILE};
 use super::evidence::DeviceEvidence;
 use super::open::open_compute_device;
 use super::passes::{self, Images, raster_stage};
-use super::raster_kernel::RasterKernel;
+use super::raster_kernel::{RasterKernel, RowWay};
 use super::rasteriser::Rasteriser;
 use super::resources::Resources;
 use super::scene::{DeviceScene, Share};
@@ -63,7 +63,7 @@ impl Compute {
     /// As [`Self::on`], by workgroups of other sizes.
     pub(crate) fn with_groups(device: &Device, body: &Body, cameras: &[Camera], groups: StageGroups) -> Result<Self> {
         Self::with(DeviceScene::new(device, body, cameras)?.with_groups(groups)?, |scene| {
-            let kernel = spans::drawable(scene, RasterKernel::ROWS);
+            let kernel = spans::drawable(scene, RasterKernel::usual(device.capabilities()));
             let mut stages = passes::pose_and_project_stages(scene);
             stages.extend([flat_stage(device, kernel), objective_comp::stage()]);
             device.compile(&stages)?;
@@ -126,8 +126,10 @@ impl Compute {
 /// The stage that draws and compares whole silhouettes so.
 fn flat_stage(device: &Device, kernel: RasterKernel) -> ShaderStage {
     match kernel {
-        RasterKernel::Rows { group, words } => {
-            let constants = raster_comp::Constants { listed: false, ignores: false, local_size_x: group, words };
+        RasterKernel::Rows(way) => {
+            let (edges_kept, RowWay { group: local_size_x, words, keeps_edges }) = (way.edges_kept(), way);
+            let constants =
+                raster_comp::Constants { listed: false, ignores: false, local_size_x, words, keeps_edges, edges_kept };
             raster_stage(device, constants)
         }
         RasterKernel::Spans { group, .. } => {
@@ -142,8 +144,8 @@ impl Rasteriser for ComputeRasteriser {
     fn variant(&self) -> &'static str {
         match (self.kernel, self.has_subgroups) {
             (RasterKernel::Spans { .. }, _) => "spans",
-            (RasterKernel::Rows { .. }, true) => "subgroup",
-            (RasterKernel::Rows { .. }, false) => "shared",
+            (RasterKernel::Rows(_), true) => "subgroup",
+            (RasterKernel::Rows(_), false) => "shared",
         }
     }
 
@@ -173,12 +175,14 @@ impl Rasteriser for ComputeRasteriser {
         let ignores = scene.counted.is_some();
         let raster = match &self.mesh {
             None => match self.kernel {
-                RasterKernel::Rows { group, words } => raster_segments_comp::stage(raster_segments_comp::Constants {
+                RasterKernel::Rows(way) => raster_segments_comp::stage(raster_segments_comp::Constants {
                     listed: false,
                     ignores,
                     segment_edges: false,
-                    local_size_x: group,
-                    words,
+                    local_size_x: way.group,
+                    words: way.words,
+                    keeps_edges: way.keeps_edges,
+                    edges_kept: way.edges_kept(),
                 }),
                 RasterKernel::Spans { group, .. } => {
                     raster_spans_segments_comp::stage(raster_spans_segments_comp::Constants {
@@ -209,11 +213,13 @@ impl Rasteriser for ComputeRasteriser {
         let ignores = scene.counted.is_some();
         let raster = match &self.mesh {
             None => match self.kernel {
-                RasterKernel::Rows { group, words } => raster_evidence_comp::stage(raster_evidence_comp::Constants {
+                RasterKernel::Rows(way) => raster_evidence_comp::stage(raster_evidence_comp::Constants {
                     listed: false,
                     ignores,
-                    local_size_x: group,
-                    words,
+                    local_size_x: way.group,
+                    words: way.words,
+                    keeps_edges: way.keeps_edges,
+                    edges_kept: way.edges_kept(),
                 }),
                 RasterKernel::Spans { group, .. } => {
                     raster_spans_evidence_comp::stage(raster_spans_evidence_comp::Constants {
@@ -245,9 +251,7 @@ impl Rasteriser for ComputeRasteriser {
         }
         passes::pose_and_project(recorder, scene, workspace, share)?;
         match self.kernel {
-            RasterKernel::Rows { group, words } => {
-                passes::raster(recorder, (scene, workspace), summed, Images::All([group, words]), share)
-            }
+            RasterKernel::Rows(way) => passes::raster(recorder, (scene, workspace), summed, Images::All(way), share),
             RasterKernel::Spans { .. } => spans::raster(recorder, (scene, workspace), summed, self.kernel, share),
         }
     }

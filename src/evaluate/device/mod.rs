@@ -43,7 +43,7 @@ pub use graphics::{
 };
 pub(crate) use open::open_devices;
 pub use open::{device_settings, open_device, open_instance};
-pub use raster_kernel::RasterKernel;
+pub use raster_kernel::{RasterKernel, RowWay};
 pub use shared::Shared;
 pub(crate) use stage_groups::StageGroups;
 pub use tuning::kept_kernels;

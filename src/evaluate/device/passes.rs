@@ -2,23 +2,23 @@
 
 use anyhow::Result;
 
+use super::raster_kernel::RowWay;
 use super::scene::{DeviceScene, Share};
 use super::summed::Summed;
 use super::workspace::Workspace;
 use crate::evaluate::device_evaluator::{ScoredBy, Scoring};
 use crate::evaluate::objective::Objective;
 use crate::evaluate::shaders::{
-    PROJECT_GROUP, RASTER_GROUP, RASTER_WORDS, layout, objective_comp, objective_evidence_comp,
-    objective_segments_comp, pose_comp, pose_project_comp, project_comp, raster_comp, raster_evidence_comp,
-    raster_segments_comp, raster_shared_comp,
+    PROJECT_GROUP, layout, objective_comp, objective_evidence_comp, objective_segments_comp, pose_comp,
+    pose_project_comp, project_comp, raster_comp, raster_evidence_comp, raster_segments_comp, raster_shared_comp,
 };
 use crate::gpu::{Buffer, Device, Groups, Recorder, ShaderStage};
 
 /// Which images of a share are drawn.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Images<'a> {
-    /// All, by workgroups of so many invocations and so many words at once.
-    All([u32; 2]),
+    /// All, drawn so.
+    All(RowWay),
     /// Those of a list: how many there are, 1, 1, and their numbers, (candidate - first) * views + view.
     Listed(&'a Buffer),
 }
@@ -134,14 +134,15 @@ pub(super) fn raster(
     images: Images<'_>,
     share: Share,
 ) -> Result<()> {
-    let (listed, [local_size_x, words], list, groups) = match images {
+    let (listed, way, list, groups) = match images {
         // The list is not read.
-        Images::All(size) => {
-            (false, size, &scene.cameras.buffer, Groups::Count([share.candidates * scene.counts.views, 1, 1]))
+        Images::All(way) => {
+            (false, way, &scene.cameras.buffer, Groups::Count([share.candidates * scene.counts.views, 1, 1]))
         }
-        Images::Listed(list) => (true, [RASTER_GROUP, RASTER_WORDS], list, Groups::Indirect(list, 0)),
+        Images::Listed(list) => (true, RowWay::usual(scene.device.capabilities()), list, Groups::Indirect(list, 0)),
     };
-    let ignores = scene.counted.is_some();
+    let RowWay { group: local_size_x, words, keeps_edges } = way;
+    let (ignores, edges_kept) = (scene.counted.is_some(), way.edges_kept());
     let whole = raster_comp::Bindings {
         cameras: &scene.cameras.buffer,
         quads: &workspace.quads,
@@ -154,7 +155,7 @@ pub(super) fn raster(
     let raster_comp::Bindings { cameras, quads, all_bounds, planes, list, all_sums, counted } = whole;
     match summed {
         Summed::Nothing => {
-            let constants = raster_comp::Constants { listed, ignores, local_size_x, words };
+            let constants = raster_comp::Constants { listed, ignores, local_size_x, words, keeps_edges, edges_kept };
             let dispatch = whole.dispatch(constants, scene.batch(share), groups);
             recorder.compute("raster", &[dispatch.by(raster_stage(&scene.device, constants).shader)])
         }
@@ -172,7 +173,15 @@ pub(super) fn raster(
                 counted,
             };
             recorder.run(bindings.dispatch(
-                raster_segments_comp::Constants { listed, ignores, segment_edges, local_size_x, words },
+                raster_segments_comp::Constants {
+                    listed,
+                    ignores,
+                    segment_edges,
+                    local_size_x,
+                    words,
+                    keeps_edges,
+                    edges_kept,
+                },
                 scene.batch(share),
                 groups,
             ))
@@ -191,7 +200,7 @@ pub(super) fn raster(
                 counted,
             };
             recorder.run(bindings.dispatch(
-                raster_evidence_comp::Constants { listed, ignores, local_size_x, words },
+                raster_evidence_comp::Constants { listed, ignores, local_size_x, words, keeps_edges, edges_kept },
                 scene.batch(share),
                 groups,
             ))

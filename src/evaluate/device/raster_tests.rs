@@ -7,14 +7,14 @@
 )]
 
 use super::passes::{Images, raster, raster_stage};
-use super::raster_kernel::RasterKernel;
+use super::raster_kernel::{RasterKernel, RowWay};
 use super::scene::{DeviceScene, Share};
 use super::spans;
 use super::summed::Summed;
 use super::tests::{cameras, device, fetch, set_up_with};
 use super::workspace::Workspace;
 use crate::body::Body;
-use crate::evaluate::shaders::{RASTER_GROUP, RASTER_WORDS, layout, raster_comp};
+use crate::evaluate::shaders::{layout, raster_comp};
 use crate::evaluate::{PartQuad, compare, draw_quads};
 use crate::features::Observation;
 use crate::geometry::Camera;
@@ -192,8 +192,8 @@ fn check(name: &str, settings: &DeviceSettings, parts: usize, candidates: usize)
     let shader = raster_stage(&device, raster_comp::Constants::default()).shader;
     assert_eq!(shader.label(), if device.capabilities().subgroup_arithmetic { "raster" } else { "raster_shared" });
     let mut recorder = device.recorder(Timing::Off).unwrap();
-    let usual = [RASTER_GROUP, RASTER_WORDS];
-    raster(&mut recorder, (&scene, &workspace), Summed::Nothing, Images::All(usual), share).unwrap();
+    let usual = Images::All(RowWay::USUAL);
+    raster(&mut recorder, (&scene, &workspace), Summed::Nothing, usual, share).unwrap();
     recorder.finish().unwrap().run().unwrap();
     let expected = expected(&images, &seen);
     let sums = found(&fetch::<layout::Sums>(&device, &workspace.sums, images.len()));
@@ -204,16 +204,17 @@ fn check(name: &str, settings: &DeviceSettings, parts: usize, candidates: usize)
         assert_eq!(expected, found, "image {image} of {size:?}: {:?}", images[image]);
     }
 
-    let odd = [[8, 1], [16, 3], [128, 1], [128, 4]].map(|[group, words]| RasterKernel::Rows { group, words });
-    for kernel in RasterKernel::all(128).into_iter().chain(odd) {
+    let odd =
+        [(8, 1, false), (8, 3, true), (16, 3, false), (64, 4, true), (128, 1, true), (128, 4, false), (256, 3, true)]
+            .map(|(group, words, keeps_edges)| RasterKernel::Rows(RowWay { group, words, keeps_edges }));
+    for kernel in RasterKernel::all(device.capabilities()).into_iter().chain(odd) {
         kernel.check(device.capabilities().max_workgroup).unwrap();
         let mut recorder = device.recorder(Timing::Off).unwrap();
         recorder.fill("spoil", &workspace.sums, 0xffff_ffff).unwrap();
         let scene_and_room = (&scene, &workspace);
         match kernel {
-            RasterKernel::Rows { group, words } => {
-                let images = Images::All([group, words]);
-                raster(&mut recorder, scene_and_room, Summed::Nothing, images, share).unwrap();
+            RasterKernel::Rows(way) => {
+                raster(&mut recorder, scene_and_room, Summed::Nothing, Images::All(way), share).unwrap();
             }
             RasterKernel::Spans { .. } => {
                 spans::raster(&mut recorder, scene_and_room, Summed::Nothing, kernel, share).unwrap();

@@ -20,7 +20,7 @@ pub(super) fn raster(
 ) -> Result<()> {
     let (local_size_x, workgroups) = match kernel {
         RasterKernel::Spans { group, workgroups } => (group, workgroups.max(least_workgroups(scene, group))),
-        RasterKernel::Rows { .. } => (raster_spans_comp::Constants::default().local_size_x, 1),
+        RasterKernel::Rows(_) => (raster_spans_comp::Constants::default().local_size_x, 1),
     };
     // Workgroups add to them, and so do batches.
     if share.first == 0 {
@@ -95,7 +95,7 @@ fn least_workgroups(scene: &DeviceScene, group: u32) -> u32 {
 /// How a scene is drawn where `asked` is: in two phases, which workgroups share, where a picture is so large that row by row one
 /// workgroup could go through more rounds than that.
 pub(super) fn drawable(scene: &DeviceScene, asked: RasterKernel) -> RasterKernel {
-    let RasterKernel::Rows { .. } = asked else { return asked };
+    let RasterKernel::Rows(_) = asked else { return asked };
     let [columns, rows] = asked.tile();
     let chunks = |[width, height]: [u32; 2]| u64::from(height.div_ceil(rows) * width.div_ceil(columns));
     let default = RasterKernel::Spans { group: raster_spans_comp::Constants::default().local_size_x, workgroups: 1 };

@@ -40,12 +40,13 @@ struct Choice {
 }
 
 impl Choice {
-    /// The usual way, unless another one takes less than 0.95 of its time: so that two runs on one machine choose alike.
-    fn fastest(&self, most: u32) -> RasterKernel {
-        let own = self.measured.iter().find(|each| each.kernel == RasterKernel::ROWS).map_or(f64::INFINITY, |it| it.ms);
+    /// The usual way, unless another one that workgroups of `most` invocations allow takes less than 0.95 of its time: so that two runs on
+    /// one machine choose alike.
+    fn fastest(&self, usual: RasterKernel, most: u32) -> RasterKernel {
+        let own = self.measured.iter().find(|each| each.kernel == usual).map_or(f64::INFINITY, |it| it.ms);
         let allowed = self.measured.iter().filter(|each| each.kernel.check(most).is_ok());
         let best = allowed.min_by(|a, b| a.ms.total_cmp(&b.ms));
-        best.filter(|best| best.ms < 0.95 * own).map_or(RasterKernel::ROWS, |best| best.kernel)
+        best.filter(|best| best.ms < 0.95 * own).map_or(usual, |best| best.kernel)
     }
 }
 
@@ -85,21 +86,21 @@ impl Choices {
 /// When the device fails.
 pub(super) fn fastest_kernel(scene: &DeviceScene, poses: &[f32]) -> Result<RasterKernel> {
     let [kind, ending] = FILE;
-    let Some(path) = scene.device.kept_file(kind, ending) else { return Ok(RasterKernel::ROWS) };
-    let most = scene.device.capabilities().max_workgroup;
+    let (usual, most) = (RasterKernel::usual(scene.device.capabilities()), scene.device.capabilities().max_workgroup);
+    let Some(path) = scene.device.kept_file(kind, ending) else { return Ok(usual) };
     let (parts, views) = (scene.counts.parts, scene.counts.views);
     let size = scene.sizes.iter().copied().max_by_key(|[width, height]| width * height).unwrap_or_default();
     let mut choices = Choices::read(&path);
     let is_alike = |choice: &&Choice| (choice.parts, choice.views, choice.size) == (parts, views, size);
     if let Some(known) = choices.choice.iter().find(is_alike) {
-        return Ok(known.fastest(most));
+        return Ok(known.fastest(usual, most));
     }
-    let (candidates, measured) = measure(scene, poses, &RasterKernel::all(most))?;
+    let (candidates, measured) = measure(scene, poses, &RasterKernel::all(scene.device.capabilities()))?;
     if measured.is_empty() {
-        return Ok(RasterKernel::ROWS);
+        return Ok(usual);
     }
     let choice = Choice { parts, views, size, candidates, measured };
-    let fastest = choice.fastest(most);
+    let fastest = choice.fastest(usual, most);
     choices.choice.insert(0, choice);
     choices.choice.truncate(KEPT);
     choices.write(&path);
@@ -112,12 +113,13 @@ pub fn kept_kernels(facts: &DeviceFacts) -> Vec<String> {
     let choices = Choices::read(&kept_file(&folder, facts, FILE));
     let sentence = |choice: &Choice| {
         let [width, height] = choice.size;
+        let usual = RasterKernel::usual(&facts.capabilities);
         let times: Vec<String> = choice.measured.iter().map(|it| format!("{} {:.3} ms", it.kernel, it.ms)).collect();
         format!(
             "compute draws {} parts in {} pictures of up to {width}x{height} {}; {} poses: {}",
             choice.parts,
             choice.views,
-            choice.fastest(facts.capabilities.max_workgroup),
+            choice.fastest(usual, facts.capabilities.max_workgroup),
             choice.candidates,
             times.join(", ")
         )
@@ -125,9 +127,11 @@ pub fn kept_kernels(facts: &DeviceFacts) -> Vec<String> {
     choices.choice.iter().map(sentence).collect()
 }
 
-/// Rounds that are measured, after one that is not, and drawings in each.
+/// Rounds that are measured, after one that is not.
 const ROUNDS: usize = 3;
-const DRAWINGS: usize = 2;
+/// Drawings in each: so many that what a submission costs does not tell, which is as much as a drawing on a card, and no more.
+const DRAWINGS: [usize; 2] = [2, 40];
+const LONG_ENOUGH: Duration = Duration::from_millis(4);
 
 /// Times of drawing poses, and how many they were; none where they show nothing. A way whose sums are not those of row by row is
 /// left out.
@@ -149,19 +153,28 @@ fn measure(scene: &DeviceScene, poses: &[f32], kernels: &[RasterKernel]) -> Resu
 
     let draw = |recorder: &mut Recorder, kernel: RasterKernel| -> Result<()> {
         match kernel {
-            RasterKernel::Rows { group, words } => {
-                passes::raster(recorder, (scene, &workspace), Summed::Nothing, Images::All([group, words]), share)
+            RasterKernel::Rows(way) => {
+                passes::raster(recorder, (scene, &workspace), Summed::Nothing, Images::All(way), share)
             }
             RasterKernel::Spans { .. } => spans::raster(recorder, (scene, &workspace), Summed::Nothing, kernel, share),
         }
     };
     let mut known: Option<Vec<[u32; 4]>> = None;
     let mut running: Vec<(RasterKernel, Recording, Duration)> = Vec::new();
+    let mut drawings = DRAWINGS[0];
     for &kernel in kernels {
         let mut recorder = device.recorder(Timing::Off)?;
         draw(&mut recorder, kernel)?;
         recorder.copy("sums", (&workspace.sums, 0), (&seen, 0), seen.size())?;
-        recorder.finish()?.run()?;
+        let mut recording = recorder.finish()?;
+        recording.run()?;
+        if known.is_none() {
+            // The first run of all makes rooms and touches memory.
+            let begin = Instant::now();
+            recording.run()?;
+            let count = LONG_ENOUGH.as_secs_f64() / begin.elapsed().as_secs_f64();
+            drawings = (count as usize).clamp(DRAWINGS[0], DRAWINGS[1]);
+        }
         let mut sums = vec![layout::Sums::zeroed(); images];
         seen.read(0, &mut sums)?;
         let sums: Vec<[u32; 4]> = sums.iter().map(|it| [it.area_model, it.overlap, it.edges, it.proximity]).collect();
@@ -170,7 +183,7 @@ fn measure(scene: &DeviceScene, poses: &[f32], kernels: &[RasterKernel]) -> Resu
         }
         if known.get_or_insert_with(|| sums.clone()) == &sums {
             let mut recorder = device.recorder(Timing::Off)?;
-            (0..DRAWINGS).try_for_each(|_| draw(&mut recorder, kernel))?;
+            (0..drawings).try_for_each(|_| draw(&mut recorder, kernel))?;
             running.push((kernel, recorder.finish()?, Duration::MAX));
         }
     }
@@ -183,7 +196,7 @@ fn measure(scene: &DeviceScene, poses: &[f32], kernels: &[RasterKernel]) -> Resu
     }
     let measured = running
         .iter()
-        .map(|(kernel, _, shortest)| Measured { kernel: *kernel, ms: shortest.as_secs_f64() * 1e3 / DRAWINGS as f64 });
+        .map(|(kernel, _, shortest)| Measured { kernel: *kernel, ms: shortest.as_secs_f64() * 1e3 / drawings as f64 });
     Ok((share.candidates, measured.collect()))
 }
 
@@ -192,6 +205,7 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test stops at the first surprise, and prints")]
 
     use super::super::Compute;
+    use super::super::raster_kernel::RowWay;
     use super::super::tests::{cameras, device};
     use super::*;
     use crate::body::Body;
@@ -212,17 +226,20 @@ mod tests {
             candidates: 64,
             measured: times.iter().map(|&(kernel, ms)| measured(kernel, ms)).collect(),
         };
-        assert_eq!(of(&[(RasterKernel::ROWS, 1.0), (spans(64), 0.96)]).fastest(128), RasterKernel::ROWS);
+        let usual = RasterKernel::ROWS;
+        assert_eq!(of(&[(RasterKernel::ROWS, 1.0), (spans(64), 0.96)]).fastest(usual, 128), RasterKernel::ROWS);
+        let card = RasterKernel::Rows(RowWay::OF_CARDS);
+        assert_eq!(of(&[(RasterKernel::ROWS, 0.96), (card, 1.0)]).fastest(card, 128), card);
         let choice = of(&[(RasterKernel::ROWS, 1.0), (spans(64), 0.9), (spans(128), 0.8), (spans(256), 0.1)]);
-        assert_eq!(choice.fastest(128), spans(128));
-        assert_eq!(choice.fastest(64), spans(64));
-        assert_eq!(choice.fastest(32), RasterKernel::ROWS);
+        assert_eq!(choice.fastest(usual, 128), spans(128));
+        assert_eq!(choice.fastest(usual, 64), spans(64));
+        assert_eq!(choice.fastest(usual, 32), RasterKernel::ROWS);
         // What no program of ours writes.
-        assert_eq!(of(&[(spans(0), 0.1)]).fastest(128), RasterKernel::ROWS);
-        assert_eq!(of(&[]).fastest(128), RasterKernel::ROWS);
-        let rows = |words| RasterKernel::Rows { group: 64, words };
+        assert_eq!(of(&[(spans(0), 0.1)]).fastest(usual, 128), RasterKernel::ROWS);
+        assert_eq!(of(&[]).fastest(usual, 128), RasterKernel::ROWS);
+        let rows = |words| RasterKernel::Rows(RowWay { group: 64, words, keeps_edges: false });
         let more = [(RasterKernel::ROWS, 1.0), (rows(4), 0.7), (rows(2), 0.8), (rows(9), 0.1), (spans(64), 0.9)];
-        assert_eq!(of(&more).fastest(128), rows(4));
+        assert_eq!(of(&more).fastest(usual, 128), rows(4));
     }
 
     #[test]
@@ -237,14 +254,14 @@ mod tests {
 
         // Nothing is drawn, nothing is learnt.
         compute.tune(&vec![f32::NAN; pose.len()]).unwrap();
-        assert_eq!((compute.kernel(), path.exists()), (RasterKernel::ROWS, false));
+        assert_eq!((compute.kernel(), path.exists()), (RasterKernel::usual(device.capabilities()), false));
 
         compute.tune(&pose.repeat(8)).unwrap();
         let kept = Choices::read(&path);
         let [choice] = kept.choice.as_slice() else { panic!("{kept:?}") };
         assert_eq!((choice.parts, choice.candidates), (body.parts.len() as u32, 8));
         let kernels: Vec<RasterKernel> = choice.measured.iter().map(|each| each.kernel).collect();
-        assert_eq!(kernels, RasterKernel::all(device.capabilities().max_workgroup));
+        assert_eq!(kernels, RasterKernel::all(device.capabilities()));
         assert!(choice.measured.iter().all(|each| each.ms > 0.0));
 
         // Another device's numbers, written there: they are believed.
@@ -259,7 +276,7 @@ mod tests {
         assert_eq!(Choices::read(&path), changed);
 
         // Files of before there were ways to draw row by row say less, and are measured anew; so is what is no file of ours.
-        let old = fs::read_to_string(&path).unwrap().replace("group = 32\nwords = 3\n", "");
+        let old = fs::read_to_string(&path).unwrap().replace("group = 32\nwords = 3\nkeeps_edges = false\n", "");
         fs::write(&path, &old).unwrap();
         assert!(old.contains("kernel = \"rows\"\nms"), "{old}");
         assert_eq!(Choices::read(&path), Choices::default());
@@ -276,13 +293,13 @@ mod tests {
             return;
         };
         let spans = |group, workgroups| RasterKernel::Spans { group, workgroups };
-        let rows = |group, words| RasterKernel::Rows { group, words };
+        let rows = |group, words| RasterKernel::Rows(RowWay { group, words, keeps_edges: false });
         for (kernel, told) in [
             (spans(0, 1), "this device has workgroups of 1 to"),
             (spans(1 << 20, 1), "this device has workgroups of 1 to"),
             (spans(64, 0), "expected at least one"),
-            (rows(48, 3), "a workgroup has 48 rows, expected a power of two from 8 to 128"),
-            (rows(4, 3), "a workgroup has 4 rows, expected a power of two from 8 to 128"),
+            (rows(48, 3), "a workgroup has 48 rows, expected a power of two from 8 to 256"),
+            (rows(4, 3), "a workgroup has 4 rows, expected a power of two from 8 to 256"),
             (rows(32, 5), "5 words at once, expected 1 to 4"),
             (rows(32, 0), "0 words at once, expected 1 to 4"),
         ] {
