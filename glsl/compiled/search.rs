@@ -612,7 +612,7 @@ pub mod follow_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "search/follow.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<2445, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<2641, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/search/follow.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 28,
@@ -752,7 +752,7 @@ pub mod learn_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "search/learn.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<3832, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<4355, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/search/learn.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 68,
@@ -842,7 +842,7 @@ pub mod learn_evidence_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "search/learn_evidence.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<13793, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<14312, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/search/learn_evidence.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 68,
@@ -936,7 +936,7 @@ pub mod learn_objective_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "search/learn_objective.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<14660, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<15179, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/search/learn_objective.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 68,
@@ -1026,7 +1026,7 @@ pub mod learn_segments_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "search/learn_segments.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<16525, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<17040, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/search/learn_segments.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 68,
@@ -1576,7 +1576,7 @@ pub mod turn_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "search/turn.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<945, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<1288, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/search/turn.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 20,

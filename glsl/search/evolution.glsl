@@ -1,5 +1,8 @@
 // What an evolution keeps between its stages: distributions work in units of the frame's spread about its centre.
 
+// A stage reads so many numbers before it adds the first, so that a card waits for memory once for all of them.
+const uint READ_AT_ONCE = 8u;
+
 layout(std430, set = SEARCH_SET, binding = 2) buffer Evolution {
     float sigma;    // step size
     uint first;     // best sample of the generation

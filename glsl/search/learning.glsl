@@ -4,15 +4,25 @@
 layout(std430, set = SEARCH_SET, binding = 5) readonly buffer Normals { float normals[]; };
 layout(std430, set = SEARCH_SET, binding = 6) readonly buffer Steps { float steps[]; };
 
-// The normal numbers and steps of all samples by their weights, of one degree of freedom.
+// The normal numbers and steps of all samples by their weights, of one degree of freedom. Those of no weight are read in vain.
 vec2 weighed(uint d, uint samples) {
     precise float normal = 0.0;
     precise float step = 0.0;
-    for (uint row = 0u; row < samples; row++) {
-        float weight = weights[row];
-        if (weight == 0.0) continue;
-        normal = normal + weight * normals[row * push.dofs + d];
-        step = step + weight * steps[row * push.dofs + d];
+    for (uint from = 0u; from < samples; from += READ_AT_ONCE) {
+        float of_normals[READ_AT_ONCE];
+        float of_steps[READ_AT_ONCE];
+        for (uint nth = 0u; nth < READ_AT_ONCE; nth++) {
+            uint place = min(from + nth, samples - 1u) * push.dofs + d;
+            of_normals[nth] = normals[place];
+            of_steps[nth] = steps[place];
+        }
+        for (uint nth = 0u; nth < READ_AT_ONCE; nth++) {
+            float weight = from + nth < samples ? weights[from + nth] : 0.0;
+            precise float more = normal + weight * of_normals[nth];
+            precise float further = step + weight * of_steps[nth];
+            normal = weight == 0.0 ? normal : more;
+            step = weight == 0.0 ? step : further;
+        }
     }
     return vec2(normal, step);
 }
