@@ -7,7 +7,7 @@ use image::{GrayImage, Luma, Rgb, RgbImage};
 
 use super::appearance::RunAppearance;
 use super::fit_tests::cameras_around;
-use super::glance::{Glances, Seer};
+use super::glance::{Glances, Seer, are_elsewhere};
 use super::prepared::Prepared;
 use super::timings::Span;
 use crate::body::Body;
@@ -150,6 +150,13 @@ fn frames_are_the_processor_s(device: &Device, mut evaluator: Box<dyn Evaluator>
         for (name, value) in body.dof_names().iter().zip(&mut lifted) {
             *value += if name.ends_with("shoulder.rx") { 0.3 * (frame + 1) as f32 } else { 0.0 };
         }
+        // All limbs at once, and each by itself.
+        let together = [&known, &asked].map(|views| {
+            let limbs = 0..glances.limbs().len();
+            let limbs: Vec<_> = limbs.map(|limb| glances.at(limb, &lifted, views).unwrap()).collect();
+            let seer = Seer { evaluator: evaluator.as_mut(), objective: &objective };
+            are_elsewhere(seer, views, &limbs, 40, 0.2).unwrap()
+        });
         for limb in 0..glances.limbs().len() {
             let [expected, found] = [&known, &asked].map(|views| {
                 let glance = glances.at(limb, &lifted, views).unwrap();
@@ -157,11 +164,12 @@ fn frames_are_the_processor_s(device: &Device, mut evaluator: Box<dyn Evaluator>
                 let seer = Seer { evaluator: &mut *evaluator, objective: &objective };
                 let support = glance.support(seer, &glance.lattice(40)).unwrap();
                 let seer = Seer { evaluator: &mut *evaluator, objective: &objective };
-                let is_elsewhere = glance.is_elsewhere(seer, 40, 0.2).unwrap();
+                let is_elsewhere = are_elsewhere(seer, views, std::slice::from_ref(&glance), 40, 0.2).unwrap();
                 let best = glance.best(Seer { evaluator, objective: &objective }, 40, 5).unwrap();
                 (best, support.into_iter().map(f32::to_bits).collect::<Vec<_>>(), is_elsewhere)
             });
             assert_eq!(found, expected, "frame {frame}, limb {limb}");
+            assert_eq!(together.each_ref().map(|are| are[limb]), [expected.2[0]; 2], "frame {frame}, limb {limb}");
             sights.push(expected);
         }
         for (view, camera) in cameras.iter().enumerate() {

@@ -81,7 +81,7 @@ impl Glances {
         &self.limbs[limb].dofs
     }
 
-    /// Looks at a frame for a limb of a pose.
+    /// Looks at a frame for a limb of a pose, all views side by side.
     ///
     /// # Errors
     /// When the pose does not fit the body.
@@ -89,7 +89,7 @@ impl Glances {
         let limb = &self.limbs[limb];
         let values: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
         let bones = self.body.world_from_bones(&values)?;
-        let covered = (0..self.cameras.len()).map(|view| limb.rest.draw(pose, view).bytes).collect();
+        let covered = (0..self.cameras.len()).into_par_iter().map(|view| limb.rest.draw(pose, view).bytes).collect();
         Ok(Glance { glances: self, limb, pose: pose.to_vec(), bones, views, covered })
     }
 }
@@ -148,7 +148,11 @@ impl Glance<'_> {
             let support = |bones: &mut Vec<DAffine3>, row: &Vec<f32>| self.known_support(row, bones, f32::NEG_INFINITY);
             return Ok(rows.par_iter().with_min_len(64).map_init(Vec::new, support).collect());
         }
-        // A device knows, and is asked of all of them at once.
+        asked_support(Seer { evaluator, objective }, self.views, &self.all_places(rows))
+    }
+
+    /// The places of each row, none of one that the rest of the body covers.
+    fn all_places(&self, rows: &[Vec<f32>]) -> Vec<Vec<Option<Place>>> {
         let places = |bones: &mut Vec<DAffine3>, row: &Vec<f32>| {
             let mut places = Vec::new();
             self.places(row, bones, |place| {
@@ -157,14 +161,7 @@ impl Glance<'_> {
             });
             places
         };
-        let of_rows: Vec<Vec<Option<Place>>> = rows.par_iter().with_min_len(64).map_init(Vec::new, places).collect();
-        let asked: Vec<Place> = of_rows.iter().flatten().flatten().copied().collect();
-        let mut said = said_of(evaluator, objective, self.views, &asked)?.into_iter();
-        let support = |places: &Vec<Option<Place>>| {
-            let said = places.iter().map(|place| place.and_then(|_| said.next()).unwrap_or(0.0));
-            mean(said.fold(0.0, |sum, said| sum + said), places.len())
-        };
-        Ok(of_rows.iter().map(support).collect())
+        rows.par_iter().with_min_len(64).map_init(Vec::new, places).collect()
     }
 
     /// The same of one row by views that the host knows; anything less than `least` where it is that.
@@ -199,29 +196,58 @@ impl Glance<'_> {
         Ok(ranked.into_iter().take(most).map(|(_, row)| row).collect())
     }
 
-    /// Whether more is said of the limb, by more than `margin`, in one of `count` poses elsewhere than where it is.
-    ///
-    /// # Errors
-    /// When the evaluator fails.
-    pub(super) fn is_elsewhere(&self, seer: Seer<'_>, count: usize, margin: f32) -> Result<bool> {
-        if is_known(seer.objective, self.views) {
-            let here = self.known_support(&self.pose, &mut Vec::new(), f32::NEG_INFINITY);
-            if here + margin > 1.0 + ROUNDING {
-                // Nothing says more than 1.
-                return Ok(false);
-            }
-            let is_better = |bones: &mut Vec<DAffine3>, row: &Vec<f32>| {
-                self.known_support(row, bones, here + margin) - here > margin
-            };
-            let rows = self.lattice(count);
-            return Ok(rows.par_iter().with_min_len(64).map_init(Vec::new, is_better).any(|is_better| is_better));
+    /// [`are_elsewhere`] of one in views that the host knows.
+    fn is_known_elsewhere(&self, count: usize, margin: f32) -> bool {
+        let here = self.known_support(&self.pose, &mut Vec::new(), f32::NEG_INFINITY);
+        if here + margin > 1.0 + ROUNDING {
+            // Nothing says more than 1.
+            return false;
         }
-        let mut rows = self.lattice(count);
-        rows.push(self.pose.clone());
-        let mut support = self.support(seer, &rows)?;
-        let here = support.pop().unwrap_or(0.0);
-        Ok(support.into_iter().any(|there| there - here > margin))
+        let is_better =
+            |bones: &mut Vec<DAffine3>, row: &Vec<f32>| self.known_support(row, bones, here + margin) - here > margin;
+        let rows = self.lattice(count);
+        rows.par_iter().with_min_len(64).map_init(Vec::new, is_better).any(|is_better| is_better)
     }
+}
+
+/// Of each limb of a frame, whether more is said of it, by more than `margin`, in one of `count` poses elsewhere than where it is. A device
+/// that knows is asked once for all of them.
+///
+/// # Errors
+/// When the evaluator fails.
+pub(super) fn are_elsewhere(
+    seer: Seer<'_>,
+    views: &[SeenView<'_>],
+    limbs: &[Glance<'_>],
+    count: usize,
+    margin: f32,
+) -> Result<Vec<bool>> {
+    if is_known(seer.objective, views) {
+        return Ok(limbs.par_iter().map(|limb| limb.is_known_elsewhere(count, margin)).collect());
+    }
+    let places = |limb: &Glance<'_>| {
+        let mut rows = limb.lattice(count);
+        rows.push(limb.pose.clone());
+        limb.all_places(&rows)
+    };
+    let places: Vec<Vec<Option<Place>>> = limbs.par_iter().flat_map_iter(places).collect();
+    let support = asked_support(seer, views, &places)?;
+    let is_elsewhere = |support: &[f32]| {
+        let (here, there) = support.split_last().unwrap_or((&0.0, &[]));
+        there.iter().any(|there| there - here > margin)
+    };
+    Ok(support.chunks(count + 1).map(is_elsewhere).collect())
+}
+
+/// What is said of each row's places, which an evaluator's device knows: the mean, nothing where there is none.
+fn asked_support(seer: Seer<'_>, views: &[SeenView<'_>], of_rows: &[Vec<Option<Place>>]) -> Result<Vec<f32>> {
+    let asked: Vec<Place> = of_rows.iter().flatten().flatten().copied().collect();
+    let mut said = said_of(seer.evaluator, seer.objective, views, &asked)?.into_iter();
+    let support = |places: &Vec<Option<Place>>| {
+        let said = places.iter().map(|place| place.and_then(|_| said.next()).unwrap_or(0.0));
+        mean(said.fold(0.0, |sum, said| sum + said), places.len())
+    };
+    Ok(of_rows.iter().map(support).collect())
 }
 
 fn mean(sum: f32, count: usize) -> f32 {
@@ -284,7 +310,7 @@ mod tests {
                 let most = support.into_iter().fold(-1.0, f32::max);
                 for margin in (-20..=20).map(|tenths| tenths as f32 / 10.0).chain([most - here, most - here - 1e-6]) {
                     let seer = Seer { evaluator: &mut cpu, objective: &objective };
-                    let found = glance.is_elsewhere(seer, 300, margin).unwrap();
+                    let found = are_elsewhere(seer, &views, std::slice::from_ref(&glance), 300, margin).unwrap()[0];
                     assert_eq!(found, most - here > margin, "limb {limb}: {most} over {here} by {margin}");
                     answers[usize::from(found)] += 1;
                 }

@@ -2,6 +2,7 @@
 //! two sides exchanged, limbs looked for everywhere within their limits.
 
 use anyhow::Result;
+use rayon::prelude::*;
 
 use super::scorer::{Candidate, Effort, Scorer, most_under};
 use super::window::Seen;
@@ -9,7 +10,7 @@ use crate::body::Body;
 use crate::features::SeenView;
 use crate::geometry::Camera;
 use crate::search::SearchSpace;
-use crate::track::glance::{Glances, lattice};
+use crate::track::glance::{Glances, are_elsewhere, lattice};
 
 /// Poses of a limb tried all over its limits, and generations that go on from the best of them.
 const SCATTERED: usize = 96;
@@ -71,32 +72,29 @@ impl Limbs {
     /// The limbs of which the pictures say much more elsewhere than where a pose has them.
     ///
     /// # Errors
-    /// As [`Self::is_suspicious`].
+    /// As [`Self::are_suspicious`].
     pub(super) fn suspicious(&self, scorer: &mut Scorer<'_>, seen: &Seen, pose: &[f32]) -> Result<Vec<usize>> {
         let views = SeenView::all(&seen.observations);
-        let mut suspicious = Vec::new();
-        for limb in 0..self.count() {
-            if self.is_suspicious(scorer, &views, limb, pose, LOOKED_AT)? {
-                suspicious.push(limb);
-            }
-        }
-        Ok(suspicious)
+        let limbs: Vec<usize> = (0..self.count()).collect();
+        let are = self.are_suspicious(scorer, &views, &limbs, pose, LOOKED_AT)?;
+        Ok(limbs.into_iter().zip(are).filter_map(|(limb, is)| is.then_some(limb)).collect())
     }
 
-    /// Whether the pictures say much more of a limb in the best of `looks` poses than where a pose has it.
+    /// Of each of some limbs, whether the pictures say much more of it in the best of `looks` poses than where a pose has it.
     ///
     /// # Errors
     /// When the pose does not fit the body, or the evaluator fails.
-    pub(super) fn is_suspicious(
+    pub(super) fn are_suspicious(
         &self,
         scorer: &mut Scorer<'_>,
         views: &[SeenView<'_>],
-        limb: usize,
+        limbs: &[usize],
         pose: &[f32],
         looks: usize,
-    ) -> Result<bool> {
+    ) -> Result<Vec<bool>> {
         let looks = scorer.generations(looks);
-        self.glances.at(limb, pose, views)?.is_elsewhere(scorer.seer(), looks, SUSPICIOUS)
+        let glances: Result<Vec<_>> = limbs.par_iter().map(|&limb| self.glances.at(limb, pose, views)).collect();
+        are_elsewhere(scorer.seer(), views, &glances?, looks, SUSPICIOUS)
     }
 
     /// A limb of a frame's pose looked for everywhere within its limits.

@@ -1,6 +1,7 @@
 //! Limbs looked for where no second pass would find them: in the only one of a run, forwards or in real time (METHOD A14), and in the first poses of
 //! a fit (METHOD A3).
 
+use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
@@ -75,13 +76,19 @@ impl LimbSearch {
         let SearchedFrame { evaluator, objective, settings, space, views, index, time } = frame;
         let mut scorer = Scorer::new(evaluator, objective, space, &self.shape, settings);
         let share = scorer.generations(SCORED) as f64 / found.estimate.evaluations.max(1) as f64;
-        let limbs = self.limbs.count();
-        for limb in (0..limbs).map(|nth| (index + nth) % limbs) {
+        let count = self.limbs.count();
+        let limbs: Vec<usize> = (0..count).map(|nth| (index + nth) % count).collect();
+        // Of this limb and those behind it, as the body is held now.
+        let mut are_suspicious = VecDeque::new();
+        for (nth, &limb) in limbs.iter().enumerate() {
             if time.is_some_and(|time| Instant::now() + time.took.mul_f64(share) > time.until) {
                 break;
             }
             let pose = &found.estimate.pose;
-            if !self.limbs.is_suspicious(&mut scorer, views, limb, pose, LOOKED_AT)? {
+            if are_suspicious.is_empty() {
+                are_suspicious = self.limbs.are_suspicious(&mut scorer, views, &limbs[nth..], pose, LOOKED_AT)?.into();
+            }
+            if are_suspicious.pop_front() != Some(true) {
                 continue;
             }
             let before = scorer.candidate(pose.clone())?;
@@ -91,6 +98,7 @@ impl LimbSearch {
                 scorer.evaluator.fitness(&after.pose, objective, &mut fitness)?;
                 found.views = scorer.evaluator.view_counts(&after.pose, objective)?;
                 (found.estimate.pose, found.estimate.fitness) = (after.pose, fitness[0]);
+                are_suspicious.clear();
             }
         }
         found.estimate.evaluations += scorer.scored;
