@@ -7,7 +7,7 @@ use anyhow::{Result, bail};
 use super::batch::check_batch;
 use super::components::Components;
 use super::device_evaluator::DeviceEvaluator;
-use super::evidence::{EvidenceSum, no_evidence};
+use super::evidence::no_evidence;
 use super::mesh_projection::bound_to_its_body;
 use super::objective::{AreaSums, Objective};
 use super::raster::CandidateImage;
@@ -127,16 +127,13 @@ pub trait Evaluator: Send {
     fn view_counts(&mut self, pose: &[f32], objective: &Objective) -> Result<Vec<ViewCounts>> {
         let mut components = vec![Components::default(); self.view_count()];
         self.components(pose, &mut components)?;
-        let mut evidence = vec![None; components.len()];
-        if objective.weighs_evidence() {
-            let mut sums = vec![0; components.len()];
-            self.evidence_sums(pose, &mut sums)?;
-            let best = self.best_evidence().ok_or_else(no_evidence)?;
-            let pairs = sums.into_iter().zip(best);
-            evidence = pairs.map(|(sum, &best)| Some(EvidenceSum { sum, best })).collect();
+        if !objective.weighs_evidence() {
+            return Ok(ViewCounts::all(components, None));
         }
-        let pairs = components.into_iter().zip(evidence);
-        Ok(pairs.map(|(components, evidence)| ViewCounts { components, evidence }).collect())
+        let mut sums = vec![0; components.len()];
+        self.evidence_sums(pose, &mut sums)?;
+        let best = self.best_evidence().ok_or_else(no_evidence)?;
+        Ok(ViewCounts::all(components, Some((sums, best))))
     }
 
     /// One pose in one view as this evaluator itself draws it; none where it keeps no picture.

@@ -11,3 +11,16 @@ pub struct ViewCounts {
     /// Evidence under what is drawn; none where silhouettes are compared.
     pub evidence: Option<EvidenceSum>,
 }
+
+impl ViewCounts {
+    /// Those of all views, with the sums of evidence and the best there is where it is weighed.
+    pub(super) fn all(components: Vec<Components>, evidence: Option<(Vec<i32>, &[u32])>) -> Vec<Self> {
+        let mut all: Vec<Self> = components.into_iter().map(|components| Self { components, evidence: None }).collect();
+        if let Some((sums, best)) = evidence {
+            for ((counts, sum), &best) in all.iter_mut().zip(sums).zip(best) {
+                counts.evidence = Some(EvidenceSum { sum, best });
+            }
+        }
+        all
+    }
+}

@@ -25,6 +25,7 @@ use crate::evaluate::evidence::{evidence_of, no_evidence};
 use crate::evaluate::objective::{AreaSums, Objective};
 use crate::evaluate::raster::CandidateImage;
 use crate::evaluate::segments::{SegmentSums, segments_of};
+use crate::evaluate::view_counts::ViewCounts;
 use crate::features::{ColourTables, HeldFrame, Observation, PartClasses, SeenFrame, Segments};
 use crate::gpu::{Buffer, Device, DeviceFacts, DevicePass, OutOfMemory, PassTiming, Recorder, Recording, Timing};
 
@@ -328,6 +329,23 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
         }
         let counts = self.run(poses, Asked::Sums(Besides::Segments))?;
         self.resources.host.read_components(&self.resources.scene, &counts, components)
+    }
+
+    fn view_counts(&mut self, pose: &[f32], objective: &Objective) -> Result<Vec<ViewCounts>> {
+        // One run for both kinds of sums: a card takes longer to answer than to draw a pose.
+        let views = self.view_count();
+        check_batch(pose, self.dof_count(), views, views)?;
+        ensure!(!objective.weighs_evidence() || self.resources.evidence.is_some(), no_evidence());
+        let counts = self.run(pose, Asked::Sums(Besides::of(objective)))?;
+        let mut components = vec![Components::default(); views];
+        self.resources.host.read_components(&self.resources.scene, &counts, &mut components)?;
+        if !objective.weighs_evidence() {
+            return Ok(ViewCounts::all(components, None));
+        }
+        let mut sums = vec![0; views];
+        self.read_evidence(&counts, &mut sums)?;
+        let best = self.best_evidence().ok_or_else(no_evidence)?;
+        Ok(ViewCounts::all(components, Some((sums, best))))
     }
 
     fn segments(&self) -> Option<&Arc<Segments>> {
