@@ -4,18 +4,22 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, anyhow};
 
-use crate::bench::{Round, interleaved, seen_of, swarm};
+use crate::bench::{Round, interleaved, seen_of};
 use crate::body::Body;
 use crate::evaluate::device::{device_settings, open_instance};
 use crate::evaluate::{Evaluator, Objective};
+use crate::features::Observation;
 use crate::geometry::Camera;
-use crate::gpu::{DeviceKind, devices};
+use crate::gpu::{DeviceKind, Timing, devices};
+use crate::search::{DeviceSearch, SearchSettings, SearchSpace};
 
-/// Poses scored in a round of the measurement: a usual swarm.
-const POSES: usize = 256;
+/// Iterations of the search that is measured: a third of a usual frame's.
+const ITERATIONS: usize = 5;
+/// Seconds from one frame to the next there.
+const INTERVAL: f64 = 0.04;
 /// Rounds at most, and the time after which an evaluator has had its share.
 const ROUNDS: usize = 30;
-const SHARE: Duration = Duration::from_millis(20);
+const SHARE: Duration = Duration::from_millis(60);
 /// A device must be so much faster to be taken, so that two runs on one machine choose alike.
 const ADVANTAGE: f64 = 1.1;
 
@@ -42,7 +46,36 @@ pub(super) fn is_device_worth_measuring() -> Result<(), String> {
     Ok(())
 }
 
-/// The fastest of several evaluators on a swarm round a pose, and a sentence with all times. The first is taken unless another is
+/// A frame's search round a pose, in which this is seen.
+struct Task<'a> {
+    seen: &'a [Observation],
+    settings: SearchSettings,
+    space: &'a SearchSpace,
+    around: &'a [f32],
+    spread: &'a [f32],
+}
+
+impl<'a> Task<'a> {
+    /// The search as a run does it on this evaluator, where its form for devices is compiled and recorded. What a frame brings along is there
+    /// already: a run on a device makes it there.
+    fn round(self, evaluator: &'a mut dyn Evaluator) -> Result<Round<'a>> {
+        let Self { seen, settings, space, around, spread } = self;
+        let objective = Objective::default();
+        evaluator.observe(seen)?;
+        if let Some(there) = evaluator.on_device().filter(|there| settings.kind.fits(there.device())) {
+            let mut search = DeviceSearch::new(there, &objective, &settings, space, Timing::Off)?;
+            search.search_frame(0, around, spread)?;
+            return Ok(Box::new(move || search.search_frame(0, around, spread).map(drop)));
+        }
+        let mut search = settings.build(space)?;
+        Ok(Box::new(move || {
+            let fitness = &mut |poses: &[f32], fitness: &mut [f32]| evaluator.fitness(poses, &objective, fitness);
+            search.search_frame(0, around, spread, fitness).map(drop)
+        }))
+    }
+}
+
+/// The evaluator that searches a frame fastest, round a pose, and a sentence with all times. The first is taken unless another is
 /// clearly faster; one that fails is not taken.
 ///
 /// # Errors
@@ -53,18 +86,15 @@ pub(super) fn fastest(
     cameras: &[Camera],
     around: &[f32],
 ) -> Result<(Box<dyn Evaluator>, String)> {
-    let poses = swarm(body, around, POSES);
     let seen = seen_of(body, cameras, around);
-    let objective = Objective::default();
+    let settings = SearchSettings { iterations: ITERATIONS, ..SearchSettings::default() };
+    let space = SearchSpace::of(body)?;
+    let spread = space.spread(INTERVAL)?;
     let mut rounds: Vec<Round<'_>> = Vec::new();
     for evaluator in &mut evaluators {
-        let mut fitness = vec![0.0; POSES];
-        let (poses, seen, objective) = (&poses, &seen, &objective);
-        // A frame brings its observations along, so they are part of the time.
-        rounds.push(Box::new(move || {
-            evaluator.observe(seen)?;
-            evaluator.fitness(poses, objective, &mut fitness)
-        }));
+        let task = Task { seen: &seen, settings, space: &space, around, spread: &spread };
+        let round = task.round(evaluator.as_mut());
+        rounds.push(round.unwrap_or_else(|error| Box::new(move || Err(anyhow!("{error:#}")))));
     }
     let times = interleaved(&mut rounds, ROUNDS, SHARE);
     drop(rounds);
@@ -81,7 +111,8 @@ pub(super) fn fastest(
     let first = times.next().ok_or_else(|| anyhow!("there is no evaluator to choose"))?;
     let first = first.with_context(|| format!("the evaluator {}", names[0][0]))?.median;
     let chosen = clearly_faster(first, times.map(|times| times.map_or(f64::INFINITY, |times| times.median)));
-    let reason = format!("measured on {POSES} poses in {} views: {}", cameras.len(), told.join(", "));
+    let poses = settings.particles * settings.iterations;
+    let reason = format!("measured on a search of {poses} poses in {} views: {}", cameras.len(), told.join(", "));
     Ok((evaluators.swap_remove(chosen), reason))
 }
 
@@ -122,9 +153,10 @@ mod tests {
         fn components(&mut self, _: &[f32], _: &mut [Components]) -> Result<()> {
             Ok(())
         }
-        fn fitness(&mut self, _: &[f32], _: &Objective, _: &mut [f32]) -> Result<()> {
+        fn fitness(&mut self, _: &[f32], _: &Objective, fitness: &mut [f32]) -> Result<()> {
             let Some(us) = self.1 else { bail!("it is lost") };
             std::thread::sleep(Duration::from_micros(us));
+            fitness.fill(0.5);
             Ok(())
         }
     }
@@ -141,7 +173,7 @@ mod tests {
     fn the_fastest_is_taken_and_all_times_are_told() {
         let (name, reason) = chosen(&[("cpu", Some(9000)), ("compute", Some(1000)), ("graphics", None)]).unwrap();
         assert_eq!(name, "compute");
-        let start = "measured on 256 poses in 4 views: cpu (test) ";
+        let start = "measured on a search of 1500 poses in 4 views: cpu (test) ";
         // On a busy machine a sleep takes longer than it was asked to.
         assert!(reason.starts_with(start) && reason.contains(", compute (test) "), "{reason}");
         assert!(reason.ends_with("graphics failed (it is lost)"), "{reason}");
