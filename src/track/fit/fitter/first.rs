@@ -21,7 +21,8 @@ const ENCORES: usize = 3;
 /// its clothes has 0.64 of it and more in nearly all frames, and is found by the feet.
 const SHORT: f64 = 0.6;
 /// Way from the first to the last first pose, mm, from which on a person walks, and what it is worth in fitness to face along it: whoever walks
-/// does so forwards but for one in fifty or fewer, and by the pictures alone the right way is worth 0.02 to 0.15 more than the other (METHOD A3).
+/// does so forwards but for one in fifty or fewer. By the pictures alone the right way was worth 0.02 to 0.15 more than the other before the poses
+/// of either were settled and searched round their neighbours' (METHOD A3); it is compared after that.
 const WALKED: f32 = 400.0;
 const FORWARDS: f32 = 0.02;
 
