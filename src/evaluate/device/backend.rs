@@ -228,6 +228,21 @@ impl<R: Rasteriser> DeviceBackend<R> {
         if again { self.run(poses, asked) } else { Ok(counts) }
     }
 
+    /// A run for what an objective compares, and the components of all views of its poses.
+    fn compare(&mut self, poses: &[f32], objective: &Objective) -> Result<(HostCounts, Vec<Components>)> {
+        let counts = self.run(poses, Asked::Sums(Besides::of(objective)))?;
+        let mut components = vec![Components::default(); poses.len() / self.dof_count() * self.view_count()];
+        self.resources.host.read_components(&self.resources.scene, &counts, &mut components)?;
+        Ok((counts, components))
+    }
+
+    /// The evidence of a finished run, of so many images, and the best of each view.
+    fn weigh(&self, counts: &HostCounts, images: usize) -> Result<(Vec<i32>, &[u32])> {
+        let mut sums = vec![0; images];
+        self.read_evidence(counts, &mut sums)?;
+        Ok((sums, self.best_evidence().ok_or_else(no_evidence)?))
+    }
+
     /// The evidence of a finished run.
     fn read_evidence(&self, counts: &HostCounts, sums: &mut [i32]) -> Result<()> {
         self.resources.evidence.as_ref().ok_or_else(no_evidence)?.read(counts, sums)
@@ -336,16 +351,9 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
         let views = self.view_count();
         check_batch(pose, self.dof_count(), views, views)?;
         ensure!(!objective.weighs_evidence() || self.resources.evidence.is_some(), no_evidence());
-        let counts = self.run(pose, Asked::Sums(Besides::of(objective)))?;
-        let mut components = vec![Components::default(); views];
-        self.resources.host.read_components(&self.resources.scene, &counts, &mut components)?;
-        if !objective.weighs_evidence() {
-            return Ok(ViewCounts::all(components, None));
-        }
-        let mut sums = vec![0; views];
-        self.read_evidence(&counts, &mut sums)?;
-        let best = self.best_evidence().ok_or_else(no_evidence)?;
-        Ok(ViewCounts::all(components, Some((sums, best))))
+        let (counts, components) = self.compare(pose, objective)?;
+        let evidence = objective.weighs_evidence().then(|| self.weigh(&counts, views)).transpose()?;
+        Ok(ViewCounts::all(components, evidence))
     }
 
     fn segments(&self) -> Option<&Arc<Segments>> {
@@ -395,14 +403,10 @@ impl<R: Rasteriser> Evaluator for DeviceBackend<R> {
             self.run(poses, Asked::Fitness(*objective))?;
             return self.resources.host.fitness_out.read(0, fitness);
         }
-        let counts = self.run(poses, Asked::Sums(Besides::of(objective)))?;
+        let (counts, components) = self.compare(poses, objective)?;
         let views = self.view_count();
-        let mut components = vec![Components::default(); fitness.len() * views];
-        self.resources.host.read_components(&self.resources.scene, &counts, &mut components)?;
         if objective.weighs_evidence() {
-            let mut sums = vec![0; components.len()];
-            self.read_evidence(&counts, &mut sums)?;
-            let best = self.best_evidence().ok_or_else(no_evidence)?;
+            let (sums, best) = self.weigh(&counts, components.len())?;
             objective.score(views, &components, AreaSums::Evidence(best, &sums), fitness);
             return Ok(());
         }

@@ -8,7 +8,7 @@ use super::drawn_mesh::{DrawnMesh, MESH_TILE};
 use super::evidence::DeviceEvidence;
 use super::open::open_compute_device;
 use super::passes::{self, Images, raster_stage};
-use super::raster_kernel::{RasterKernel, RowWay};
+use super::raster_kernel::RasterKernel;
 use super::rasteriser::Rasteriser;
 use super::resources::Resources;
 use super::scene::{DeviceScene, Share};
@@ -127,9 +127,14 @@ impl Compute {
 fn flat_stage(device: &Device, kernel: RasterKernel) -> ShaderStage {
     match kernel {
         RasterKernel::Rows(way) => {
-            let (edges_kept, RowWay { group: local_size_x, words, keeps_edges }) = (way.edges_kept(), way);
-            let constants =
-                raster_comp::Constants { listed: false, ignores: false, local_size_x, words, keeps_edges, edges_kept };
+            let constants = raster_comp::Constants {
+                listed: false,
+                ignores: false,
+                local_size_x: way.group,
+                words: way.words,
+                keeps_edges: way.keeps_edges,
+                edges_kept: way.edges_kept(),
+            };
             raster_stage(device, constants)
         }
         RasterKernel::Spans { group, .. } => {
