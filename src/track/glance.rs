@@ -143,12 +143,11 @@ impl Glance<'_> {
     /// What is said of the limb as each row has it: the mean over places along its axes and views, from -1 to 1, and nothing where the rest of
     /// the body is anyway.
     pub(super) fn support(&self, seer: Seer<'_>, rows: &[Vec<f32>]) -> Result<Vec<f32>> {
-        let Seer { evaluator, objective } = seer;
-        if is_known(objective, self.views) {
+        if is_known(seer.objective, self.views) {
             let support = |bones: &mut Vec<DAffine3>, row: &Vec<f32>| self.known_support(row, bones, f32::NEG_INFINITY);
             return Ok(rows.par_iter().with_min_len(64).map_init(Vec::new, support).collect());
         }
-        asked_support(Seer { evaluator, objective }, self.views, &self.all_places(rows))
+        asked_support(seer, self.views, &self.all_places(rows))
     }
 
     /// The places of each row, none of one that the rest of the body covers.
