@@ -24,7 +24,7 @@ type Lower = fn(&mut Capabilities);
 const FORMS: [(&str, Lower); 4] = [
     ("one pass in one workgroup", |it| it.wide = false),
     ("one pass, as on a card", |it| it.wide = true),
-    ("a pass each for want of buffers", |it| it.stage_buffers = 11),
+    ("a pass each for want of buffers", |it| (it.wide, it.stage_buffers) = (false, 11)),
     ("a pass each for want of shared memory", |it| (it.wide, it.shared_memory) = (true, 2000)),
 ];
 
@@ -117,19 +117,18 @@ fn an_iteration_has_as_few_passes_and_barriers() {
     let as_before: Lower = |it| (it.wide, it.stage_buffers) = (true, 11);
     let swarm = "best,move";
     let evolution = "rank,follow,turn,sample";
-    for (lower, kind, behind) in [
-        (card, SearchKind::Pso, "advance_objective".to_string()),
-        (as_before, SearchKind::Pso, format!("objective,{swarm}")),
-        (one, SearchKind::Pso, "advance_objective".to_string()),
-        (each, SearchKind::Pso, format!("objective,{swarm}")),
-        (card, SearchKind::MaEs, "learn_objective,sample".to_string()),
-        (as_before, SearchKind::MaEs, format!("objective,{evolution}")),
-        (one, SearchKind::MaEs, "learn_objective,sample".to_string()),
-        (each, SearchKind::MaEs, format!("objective,{evolution}")),
+    for (lower, drawing, kind, behind) in [
+        (card, "pose_project,raster", SearchKind::Pso, "advance_objective".to_string()),
+        (as_before, "pose_project,raster", SearchKind::Pso, format!("objective,{swarm}")),
+        (one, "pose,project,raster", SearchKind::Pso, "advance_objective".to_string()),
+        (each, "pose,project,raster", SearchKind::Pso, format!("objective,{swarm}")),
+        (card, "pose_project,raster", SearchKind::MaEs, "learn_objective,sample".to_string()),
+        (as_before, "pose_project,raster", SearchKind::MaEs, format!("objective,{evolution}")),
+        (one, "pose,project,raster", SearchKind::MaEs, "learn_objective,sample".to_string()),
+        (each, "pose,project,raster", SearchKind::MaEs, format!("objective,{evolution}")),
     ] {
         let Some((device, _)) = device_under(Validation::Off, name, taken_for(lower)) else { return };
         let (passes, barriers) = of_an_iteration(&device, kind);
-        let drawing = if device.capabilities().wide { "pose_project,raster" } else { "pose,project,raster" };
         println!("{kind:?}: {} passes and {barriers} barriers: {}", passes.len(), passes.join(", "));
         assert_eq!(passes.join(","), format!("{drawing},{behind}"), "{kind:?}");
         assert_eq!(barriers, passes.len(), "{kind:?}: each waits for the one before, and for none else");
