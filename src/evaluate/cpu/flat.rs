@@ -15,6 +15,7 @@ use super::group::{FlatGroup, Scratch, Sums};
 use super::instruction_set::Code;
 use super::kernel::Canvas;
 use super::planes::Planes;
+use super::workers::Workers;
 
 /// The flat model of a body, drawn and compared.
 #[derive(Debug)]
@@ -60,11 +61,9 @@ impl FlatModel {
         Ok(())
     }
 
-    /// Takes observations, one a view, whose segments and classes are set.
-    pub(super) fn observe(&mut self, observations: &[Observation]) {
-        for (planes, observation) in self.planes.iter_mut().zip(observations) {
-            planes.fill(observation);
-        }
+    /// Takes observations, one a view, whose segments and classes are set; false when a worker panicked.
+    pub(super) fn observe(&mut self, observations: &[Observation], workers: &mut Workers) -> bool {
+        workers.each(self.planes.iter_mut().zip(observations), |_, (planes, observation)| planes.fill(observation))
     }
 
     /// Compares by these segments from now on; none for whole silhouettes.

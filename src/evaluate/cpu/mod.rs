@@ -184,29 +184,28 @@ impl Cpu {
         let (model, code, sums) = (&self.model, self.code, &self.sums);
         let count = poses.len() / dof_count;
         let size = group_size(count, sums.len());
-        let groups = Mutex::new(poses.chunks(size * dof_count).zip(results.chunks_mut(size * per_pose)));
-        let completed = self.workers.run(count.div_ceil(size), &|worker| {
+        let groups = poses.chunks(size * dof_count).zip(results.chunks_mut(size * per_pose));
+        let completed = self.workers.each(groups, |worker, (poses, results)| {
             let mut sums = sums[worker].lock().unwrap_or_else(PoisonError::into_inner);
-            loop {
-                let Some((poses, results)) = groups.lock().unwrap_or_else(PoisonError::into_inner).next() else {
-                    break;
-                };
-                match model {
-                    Model::Flat(flat) => flat.evaluate(code, worker, poses, besides, &mut sums),
-                    Model::Mesh(mesh) => mesh.evaluate(code, worker, poses, besides, &mut sums),
-                }
-                let images = poses.len() / dof_count * views;
-                let group = Group {
-                    components: &sums.components[..images],
-                    segments: &sums.segments[..images * segments],
-                    evidence: &sums.evidence[..images],
-                };
-                finish(&group, results);
+            match model {
+                Model::Flat(flat) => flat.evaluate(code, worker, poses, besides, &mut sums),
+                Model::Mesh(mesh) => mesh.evaluate(code, worker, poses, besides, &mut sums),
             }
+            let images = poses.len() / dof_count * views;
+            let group = Group {
+                components: &sums.components[..images],
+                segments: &sums.segments[..images * segments],
+                evidence: &sums.evidence[..images],
+            };
+            finish(&group, results);
         });
-        ensure!(completed, "a worker thread of the cpu evaluator failed; its message stands above");
-        Ok(())
+        check_completed(completed)
     }
+}
+
+fn check_completed(is_completed: bool) -> Result<()> {
+    ensure!(is_completed, "a worker thread of the cpu evaluator failed; its message stands above");
+    Ok(())
 }
 
 /// Poses that whoever helps with fewer is not called for: waking takes as long as scoring them.
@@ -263,11 +262,10 @@ impl Evaluator for Cpu {
         self.set_segments(segments);
         self.set_classes(classes);
         self.best_evidence = best_sums(observations);
-        match &mut self.model {
-            Model::Flat(flat) => flat.observe(observations),
-            Model::Mesh(mesh) => mesh.observe(observations),
-        }
-        Ok(())
+        check_completed(match &mut self.model {
+            Model::Flat(flat) => flat.observe(observations, &mut self.workers),
+            Model::Mesh(mesh) => mesh.observe(observations, &mut self.workers),
+        })
     }
 
     fn components(&mut self, poses: &[f32], components: &mut [Components]) -> Result<()> {

@@ -117,6 +117,24 @@ impl Workers {
     }
 }
 
+impl Workers {
+    /// Calls `work` with each item, and with the number of the worker whose turn it is; returns when all are done. False when one panicked.
+    pub(super) fn each<T>(
+        &mut self,
+        items: impl ExactSizeIterator<Item = T> + Send,
+        work: impl Fn(usize, T) + Sync,
+    ) -> bool {
+        let count = items.len();
+        let items = Mutex::new(items);
+        self.run(count, &|worker| {
+            loop {
+                let Some(item) = items.lock().unwrap_or_else(PoisonError::into_inner).next() else { return };
+                work(worker, item);
+            }
+        })
+    }
+}
+
 impl Shared {
     fn lock(&self) -> MutexGuard<'_, State> {
         // The state is two plain values, whole at every moment; a panic elsewhere does not spoil it.

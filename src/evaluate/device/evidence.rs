@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use anyhow::Result;
+use rayon::prelude::*;
 
 use super::held_evidence::HeldEvidence;
 use super::host_buffers::HostCounts;
@@ -129,8 +130,9 @@ impl DeviceEvidence {
     pub(super) fn observe(&mut self, scene: &DeviceScene, observations: &[Observation]) -> Result<()> {
         self.best = best_sums(observations);
         self.is_held = false;
-        for (view, first) in observations.iter().zip(scene.first_plane_words()) {
-            let Some(evidence) = &view.evidence else { continue };
+        let firsts: Vec<u32> = scene.first_plane_words().collect();
+        observations.par_iter().zip(firsts).try_for_each(|(view, first)| {
+            let Some(evidence) = &view.evidence else { return Ok(()) };
             // Stages that add up codes do not count what is ignored.
             let mut words = Cow::Borrowed(evidence.words());
             for at in view.ignored.iter().flat_map(|ignored| ignored.pixels()) {
@@ -141,8 +143,8 @@ impl DeviceEvidence {
             for pixels in rows.flat_map(|row| row.chunks(WORD_PIXELS)) {
                 planes.extend_from_slice(&word_planes(pixels)[..Evidence::BITS * self.classes]);
             }
-            self.planes.staging.write(Evidence::BITS * self.classes * first as usize, &planes)?;
-        }
+            self.planes.staging.write(Evidence::BITS * self.classes * first as usize, &planes)
+        })?;
         let classes = observations.iter().find_map(|view| view.evidence.as_ref()).map(Evidence::classes);
         classes.map_or(Ok(()), |classes| self.write_classes(classes, self.best().unwrap_or_default()))
     }

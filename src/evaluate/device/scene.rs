@@ -1,6 +1,7 @@
 //! Body, cameras and observations on the device.
 
 use anyhow::{Result, ensure};
+use rayon::prelude::*;
 
 use super::stage_groups::StageGroups;
 use crate::body::Body;
@@ -209,20 +210,18 @@ impl DeviceScene {
     /// Takes the observations of a frame, one a view.
     pub(crate) fn observe(&mut self, observations: &[Observation]) -> Result<()> {
         check_observations(observations, self.sizes.iter().copied())?;
-        for (observation, camera) in observations.iter().zip(&mut self.camera_rows) {
+        let (planes, pixels, counted) = (&self.planes, &self.pixels, self.counted.as_ref());
+        let camera_rows = &mut self.camera_rows;
+        observations.par_iter().zip(camera_rows.par_iter_mut()).try_for_each(|(observation, camera)| {
             camera.area_obs = observation.area();
-            let width = observation.width as usize;
-            let (mut planes, mut pixels) = (Vec::new(), Vec::new());
-            for row in observation.bytes.chunks_exact(width) {
-                planes.extend(row.chunks(WORD_PIXELS).flat_map(bit_planes));
-                pixels.extend(packed(row));
-            }
-            self.planes.staging.write(8 * camera.first_plane_word as usize, &planes)?;
-            self.pixels.staging.write(camera.first_pixel_word as usize, &pixels)?;
-            if let Some(counted) = &self.counted {
-                counted.take(camera, |column, row| observation.counts(column, row) != 0)?;
-            }
-        }
+            let rows = || observation.bytes.chunks_exact(observation.width as usize);
+            let words: Vec<[u32; 8]> = rows().flat_map(|row| row.chunks(WORD_PIXELS)).map(bit_planes).collect();
+            planes.staging.write(camera.first_plane_word as usize, &words)?;
+            let words: Vec<u32> = rows().flat_map(packed).collect();
+            pixels.staging.write(camera.first_pixel_word as usize, &words)?;
+            let Some(counted) = counted else { return Ok(()) };
+            counted.take(camera, |column, row| observation.counts(column, row) != 0)
+        })?;
         self.cameras.staging.write(0, &self.camera_rows)
     }
 

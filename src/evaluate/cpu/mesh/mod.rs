@@ -24,6 +24,7 @@ use crate::geometry::Camera;
 use super::group::Sums;
 use super::instruction_set::Code;
 use super::simd::{Simd, Task};
+use super::workers::Workers;
 use counting::View;
 use raster::Canvas;
 use surface::{Seen, Surface};
@@ -74,11 +75,9 @@ impl MeshModel {
         &self.projector.projector
     }
 
-    /// Takes observations, one a view, whose segments and classes are set.
-    pub(super) fn observe(&mut self, observations: &[Observation]) {
-        for (view, observation) in self.views.iter_mut().zip(observations) {
-            view.fill(observation);
-        }
+    /// Takes observations, one a view, whose segments and classes are set; false when a worker panicked.
+    pub(super) fn observe(&mut self, observations: &[Observation], workers: &mut Workers) -> bool {
+        workers.each(self.views.iter_mut().zip(observations), |_, (view, observation)| view.fill(observation))
     }
 
     /// Compares by these segments from now on; none for whole silhouettes.
