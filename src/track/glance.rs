@@ -30,13 +30,13 @@ pub(super) struct Glances {
     limbs: Vec<Limb>,
 }
 
-/// A limb: its degrees of freedom, root to end; its bones, parents first, each with the place of its values in a pose; its parts; and the
-/// body without them.
+/// A limb: its degrees of freedom, root to end; its bones, parents first, each with the place of its values in a pose; its parts, each with how
+/// many of these bones are to be posed for it; and the body without them.
 #[derive(Clone, Debug)]
 struct Limb {
     dofs: Vec<usize>,
     bones: Vec<(usize, usize)>,
-    parts: Vec<usize>,
+    parts: Vec<(usize, usize)>,
     rest: Reference,
 }
 
@@ -54,12 +54,15 @@ impl Glances {
                 let follows = body.bones[bone].parent.is_some_and(|parent| is_moved[parent]);
                 is_moved[bone] = follows || dofs.iter().any(|&dof| of_dofs[dof] == bone);
             }
-            let moved = body.update_order.iter().filter(|&&bone| is_moved[bone]);
+            let bones: Vec<(usize, usize)> =
+                body.update_order.iter().filter(|&&bone| is_moved[bone]).map(|&bone| (bone, first(bone))).collect();
             let (parts, others): (Vec<usize>, Vec<usize>) =
                 (0..body.parts.len()).partition(|&part| is_moved[body.parts[part].bone]);
             let mut rest = body.clone();
             rest.parts = others.into_iter().map(|part| body.parts[part].clone()).collect();
-            let bones = moved.map(|&bone| (bone, first(bone))).collect();
+            let posed_for =
+                |part: usize| bones.iter().take_while(|(bone, _)| *bone != body.parts[part].bone).count() + 1;
+            let parts = parts.into_iter().map(|part| (part, posed_for(part))).collect();
             Limb { dofs, bones, parts, rest: Reference::new(&rest, &coarse) }
         };
         let count = space.groups().iter().max().copied().unwrap_or(0);
@@ -114,20 +117,26 @@ pub(super) struct Seer<'a> {
 
 impl Glance<'_> {
     /// Shows `look` all places along the axes of the limb as `row` has it, in all views, until it has seen enough; none of one that the rest of
-    /// the body covers. `bones` is memory that is used again.
+    /// the body covers. Bones are posed as far as the next part needs them, since most looks end with the limb's first. `bones` is memory that
+    /// is used again, for this limb alone.
     fn places(&self, row: &[f32], bones: &mut Vec<DAffine3>, mut look: impl FnMut(Option<Place>) -> ControlFlow<()>) {
         let Glances { body, cameras, .. } = self.glances;
-        bones.clone_from(&self.bones);
-        for &(bone, first) in &self.limb.bones {
-            let posed = &body.bones[bone];
-            let mut values = [0.0; 6];
-            for (value, given) in values.iter_mut().zip(row.iter().skip(first).take(posed.dofs.len())) {
-                *value = f64::from(*given);
-            }
-            let moved = posed.parent_from_bone(&values);
-            bones[bone] = posed.parent.map_or(moved, |parent| bones[parent] * moved);
+        if bones.is_empty() {
+            bones.clone_from(&self.bones);
         }
-        for part in self.limb.parts.iter().map(|&part| &body.parts[part]) {
+        let mut bones_posed = 0;
+        for &(part, posed_for) in &self.limb.parts {
+            for &(bone, first) in &self.limb.bones[bones_posed..bones_posed.max(posed_for)] {
+                let posed = &body.bones[bone];
+                let mut values = [0.0; 6];
+                for (value, given) in values.iter_mut().zip(row.iter().skip(first).take(posed.dofs.len())) {
+                    *value = f64::from(*given);
+                }
+                let moved = posed.parent_from_bone(&values);
+                bones[bone] = posed.parent.map_or(moved, |parent| bones[parent] * moved);
+            }
+            bones_posed = bones_posed.max(posed_for);
+            let part = &body.parts[part];
             let axis = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
             for place in along(cameras, self.views, axis, part.label, PLACES) {
                 let width = cameras[place.view].size[0] as usize;
