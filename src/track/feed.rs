@@ -29,7 +29,7 @@ pub(super) enum Keeps<'a> {
 }
 
 /// Where prepared frames come from.
-pub(super) trait Frames {
+pub(super) trait Frames: Send {
     /// The next frame; `None` after the last.
     ///
     /// # Errors

@@ -6,6 +6,7 @@ use std::collections::VecDeque;
 use anyhow::Result;
 
 use super::mending::widths;
+use super::on_the_pool;
 use super::refining::{self, Settled};
 use super::scorer::Scorer;
 use super::shape::Shape;
@@ -74,11 +75,12 @@ impl Delayed {
             let settings = *plan.search_settings();
             let Plan { objective, backend, space, .. } = plan;
             let evaluator = backend.evaluator.as_mut();
-            let mut scorer = Scorer::new(evaluator, objective, space, &self.shape, &settings);
             let spread = widths(&steps, &rows);
             let observations = &prepared.observations;
-            let again =
-                refining::refine_one(&mut scorer, observations, &spread, &poses, self.before.len(), self.reach)?;
+            let again = on_the_pool(|| {
+                let mut scorer = Scorer::new(&mut *evaluator, objective, space, &self.shape, &settings);
+                refining::refine_one(&mut scorer, observations, &spread, &poses, self.before.len(), self.reach)
+            })?;
             let result = super::result(evaluator, objective, probe, observations, &again, result)?;
             settled = Some((again, result));
         }

@@ -162,7 +162,6 @@ impl Limbs {
         let (lower, upper) = (scorer.space.lower(), scorer.space.upper());
         let spread: Vec<f32> = lower.iter().zip(upper).map(|(low, high)| WIDTH * (high - low)).collect();
         let effort = Effort { spread: &spread, generations: scorer.generations(GENERATIONS), turn };
-        let found = scorer.search(frame, &scattered[best].pose, whole, effort, None)?;
-        scorer.candidate(found.pose)
+        scorer.search(frame, &scattered[best].pose, whole, effort, None)
     }
 }

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 
 use super::hypotheses::Limbs;
+use super::on_the_pool;
 use super::scorer::{Candidate, Effort, Scorer};
 use super::shape::Shape;
 use crate::body::Body;
@@ -73,6 +74,10 @@ impl LimbSearch {
     /// # Errors
     /// When the evaluator fails.
     pub(crate) fn improve(&self, frame: SearchedFrame<'_>, found: &mut Searched) -> Result<()> {
+        on_the_pool(|| self.improve_here(frame, found))
+    }
+
+    fn improve_here(&self, frame: SearchedFrame<'_>, found: &mut Searched) -> Result<()> {
         let SearchedFrame { evaluator, objective, settings, space, views, index, time } = frame;
         let mut scorer = Scorer::new(evaluator, objective, space, &self.shape, settings);
         let share = scorer.generations(SCORED) as f64 / found.estimate.evaluations.max(1) as f64;
@@ -134,7 +139,6 @@ impl LimbSearch {
         let turn = TURN + 10 * limb as u64;
         let elsewhere = self.limbs.ends_inward(scorer, views, index, limb, pose, turn)?;
         let effort = Effort { spread: &self.steps, generations: scorer.generations(SETTLED), turn: turn + 1 };
-        let settled = scorer.search_all(index, &elsewhere.pose, effort, None)?.pose;
-        scorer.candidate(settled)
+        scorer.search_all(index, &elsewhere.pose, effort, None)
     }
 }

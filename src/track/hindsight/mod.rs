@@ -65,35 +65,43 @@ impl Hindsight<'_> {
         let shape = Shape::new(body);
         let scorer = Scorer::new(backend.evaluator.as_mut(), objective, space, &shape, &settings);
         let mut mending = Mending::new(scorer, body, self.cameras, self.fps)?;
-        let mut windows = Windows::new(feed, appearance, self.pictures_every);
-        // Poses of the window before that are not settled yet, and the last that are.
-        let mut carried: Vec<Vec<f32>> = Vec::new();
-        let mut before: Vec<Settled> = Vec::new();
-        let mut done = 0;
-        loop {
-            windows.fill()?;
-            let seen: Vec<&Seen> = windows.seen().iter().collect();
-            let Some(first) = seen.first() else { return Ok(()) };
-            let mut track = std::mem::take(&mut carried);
-            let given = forward.iter().skip(done + track.len()).map(|result| result.pose.clone());
-            track.extend(given.take(seen.len().saturating_sub(track.len())));
-            let settled =
-                mending.mend(&seen, &track, &before).with_context(|| format!("the frames from {} on", first.index))?;
-            let count = windows.settled();
-            for ((seen, frame), first) in seen.iter().zip(&settled).zip(&forward[done..]).take(count) {
-                let evaluator = &mut *mending.scorer.evaluator;
-                let result = result(evaluator, objective, self.probe, &seen.observations, frame, first)?;
-                if !take(result, seen.pictures.as_deref())? {
-                    return Ok(());
+        std::thread::scope(|scope| {
+            let mut windows = Windows::begin(scope, feed, appearance, self.cameras, self.pictures_every)?;
+            // Poses of the window before that are not settled yet, and the last that are.
+            let mut carried: Vec<Vec<f32>> = Vec::new();
+            let mut before: Vec<Settled> = Vec::new();
+            let mut done = 0;
+            loop {
+                windows.fill()?;
+                let seen: Vec<&Seen> = windows.seen().iter().collect();
+                let Some(first) = seen.first() else { return Ok(()) };
+                let mut track = std::mem::take(&mut carried);
+                let given = forward.iter().skip(done + track.len()).map(|result| result.pose.clone());
+                track.extend(given.take(seen.len().saturating_sub(track.len())));
+                let settled = on_the_pool(|| mending.mend(&seen, &track, &before));
+                let settled = settled.with_context(|| format!("the frames from {} on", first.index))?;
+                let count = windows.settled();
+                for ((seen, frame), first) in seen.iter().zip(&settled).zip(&forward[done..]).take(count) {
+                    let evaluator = &mut *mending.scorer.evaluator;
+                    let result = result(evaluator, objective, self.probe, &seen.observations, frame, first)?;
+                    if !take(result, seen.pictures.as_deref())? {
+                        return Ok(());
+                    }
                 }
+                carried = settled[count..].iter().map(|frame| frame.pose.clone()).collect();
+                before.extend(settled.into_iter().take(count));
+                before.drain(..before.len().saturating_sub(mending.reach));
+                windows.forget(count);
+                done += count;
             }
-            carried = settled[count..].iter().map(|frame| frame.pose.clone()).collect();
-            before.extend(settled.into_iter().take(count));
-            before.drain(..before.len().saturating_sub(mending.reach));
-            windows.forget(count);
-            done += count;
-        }
+        })
     }
+}
+
+/// Does work that shares out small pieces, a generation's costs, on a thread of the pool: from any other each piece would wait for one to
+/// wake up, or to be done with the features of a frame.
+fn on_the_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    rayon::scope(|_| work())
 }
 
 /// The result of a frame that was searched again, from that of its first search.

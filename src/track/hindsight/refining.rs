@@ -4,7 +4,7 @@
 use anyhow::Result;
 use glam::DVec3;
 
-use super::scorer::{Effort, Pull, Scorer, most_under};
+use super::scorer::{Candidate, Effort, Pull, Scorer, most_under};
 use super::window::Seen;
 use crate::features::Observation;
 
@@ -131,9 +131,8 @@ fn beside(
     let generations = scorer.generations(REFINED);
     let effort = Effort { spread: narrow, generations, turn: 200 + round as u64 };
     let frame = poses[at].frame;
-    let found = scorer.search_all(frame, &starts[start], effort, Some(&pull))?;
-    let points = scorer.shape.points(&found.pose);
-    Ok(Settled { frame, pose: found.pose, points })
+    let Candidate { pose, points, .. } = scorer.search_all(frame, &starts[start], effort, Some(&pull))?;
+    Ok(Settled { frame, pose, points })
 }
 
 /// What the frames around a frame expect of it.

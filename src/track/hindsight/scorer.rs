@@ -9,11 +9,13 @@ use super::path::greatest;
 use super::shape::{Posed, Shape};
 use crate::evaluate::{Evaluator, Objective};
 use crate::features::Observation;
-use crate::search::{Estimate, SearchKind, SearchSettings, SearchSpace};
+use crate::search::{SearchKind, SearchSettings, SearchSpace};
 use crate::track::glance::Seer;
 
 /// Samples of a generation, where a run has as many particles.
 const GENERATION: usize = 50;
+/// Poses whose costs are computed in one piece.
+const COSTS_AT_ONCE: usize = 16;
 /// Worth of the fitness: of its natural logarithm.
 pub(super) const MATCH: f64 = 300.0;
 /// Fitness below which nothing gets worse.
@@ -62,6 +64,15 @@ pub(super) struct Candidate {
 pub(super) fn most_under(candidates: &[Candidate], pull: Option<&Pull>) -> usize {
     let worth = |candidate: &Candidate| candidate.worth - pull.map_or(0.0, |pull| pull.cost(&candidate.points));
     greatest(candidates.iter().map(worth))
+}
+
+/// Poses scored at once, and memory for what is found of them.
+#[derive(Default)]
+struct Batch {
+    /// A pose a row.
+    rows: Vec<f32>,
+    fitness: Vec<f32>,
+    costs: Vec<f64>,
 }
 
 /// Scores poses of the frame observed last.
@@ -134,17 +145,24 @@ impl<'a> Scorer<'a> {
         self.evaluator.observe(observations)
     }
 
-    /// Replaces each fitness by the worth of its pose.
-    fn weigh(&self, rows: &[f32], pull: Option<&Pull>, worth: &mut [f32]) {
-        let dofs = self.space.dof_count();
-        rows.par_chunks_exact(dofs).zip(worth.par_iter_mut()).with_min_len(16).for_each_init(
-            Posed::default,
-            |posed, (row, worth)| {
-                self.shape.pose(row, posed);
-                let cost = INTRUSION * self.shape.intrusion(posed) + pull.map_or(0.0, |pull| pull.cost(&posed.points));
-                *worth = (matched(*worth) - cost) as f32;
-            },
-        );
+    /// The worth of a batch of poses. What they cost is computed while they are scored.
+    fn weigh(&mut self, batch: &mut Batch, pull: Option<&Pull>, worth: &mut [f32]) -> Result<()> {
+        let Self { evaluator, objective, space, shape, .. } = self;
+        let Batch { rows, fitness, costs } = batch;
+        fitness.resize(worth.len(), 0.0);
+        costs.resize(worth.len(), 0.0);
+        let all_costs = || {
+            let each = rows.par_chunks_exact(space.dof_count()).zip(costs.par_iter_mut()).with_min_len(COSTS_AT_ONCE);
+            each.for_each_init(Posed::default, |posed, (row, cost)| {
+                shape.pose(row, posed);
+                *cost = INTRUSION * shape.intrusion(posed) + pull.map_or(0.0, |pull| pull.cost(&posed.points));
+            });
+        };
+        rayon::join(|| evaluator.fitness(rows, objective, fitness), all_costs).0?;
+        for ((worth, fitness), cost) in worth.iter_mut().zip(fitness).zip(costs) {
+            *worth = (matched(*fitness) - *cost) as f32;
+        }
+        Ok(())
     }
 
     /// Poses of the frame as candidates.
@@ -154,13 +172,15 @@ impl<'a> Scorer<'a> {
             self.evaluator.fitness(&poses.concat(), self.objective, &mut fitness)?;
         }
         self.scored += poses.len();
+        Ok(poses.iter().zip(fitness).map(|(pose, fitness)| self.scored_candidate(pose.clone(), fitness)).collect())
+    }
+
+    /// A pose of which the fitness is known.
+    fn scored_candidate(&self, pose: Vec<f32>, fitness: f32) -> Candidate {
         let mut posed = Posed::default();
-        let candidates = poses.iter().zip(fitness).map(|(pose, fitness)| {
-            self.shape.pose(pose, &mut posed);
-            let worth = matched(fitness) - INTRUSION * self.shape.intrusion(&posed);
-            Candidate { pose: pose.clone(), points: posed.points.clone(), worth, is_looked_into: false }
-        });
-        Ok(candidates.collect())
+        self.shape.pose(&pose, &mut posed);
+        let worth = matched(fitness) - INTRUSION * self.shape.intrusion(&posed);
+        Candidate { pose, points: posed.points, worth, is_looked_into: false }
     }
 
     /// A pose of the frame as a candidate.
@@ -175,7 +195,7 @@ impl<'a> Scorer<'a> {
         centre: &[f32],
         effort: Effort<'_>,
         pull: Option<&Pull>,
-    ) -> Result<Estimate> {
+    ) -> Result<Candidate> {
         let moved: Vec<usize> = (0..centre.len()).filter(|&d| effort.spread[d] > 0.0).collect();
         self.search(frame, centre, &moved, effort, pull)
     }
@@ -188,8 +208,7 @@ impl<'a> Scorer<'a> {
         moved: &[usize],
         effort: Effort<'_>,
         pull: Option<&Pull>,
-    ) -> Result<Estimate> {
-        let dofs = centre.len();
+    ) -> Result<Candidate> {
         let part = |values: &[f32]| -> Vec<f32> { moved.iter().map(|&d| values[d]).collect() };
         let space = SearchSpace::new(part(self.space.lower()), part(self.space.upper()), vec![1.0; moved.len()])?;
         let (particles, iterations) = (self.generation, effort.generations);
@@ -202,26 +221,27 @@ impl<'a> Scorer<'a> {
         };
         settings.matrix.generation = particles;
         let mut search = settings.reseeded(effort.turn + 1).build(&space)?;
-        let mut whole = Vec::new();
+        let mut batch = Batch::default();
+        // Of all poses the first that is worth most, and its fitness.
+        let mut best = (f32::NEG_INFINITY, 0.0);
         let frame = u32::try_from(frame).unwrap_or(u32::MAX);
-        let mut estimate = search.search_frame(frame, &part(centre), &part(effort.spread), &mut |rows, worth| {
-            whole.clear();
+        let estimate = search.search_frame(frame, &part(centre), &part(effort.spread), &mut |rows, worth| {
+            batch.rows.clear();
             for row in rows.chunks_exact(moved.len()) {
-                let begin = whole.len();
-                whole.extend_from_slice(centre);
-                moved.iter().zip(row).for_each(|(&d, value)| whole[begin + d] = *value);
+                let begin = batch.rows.len();
+                batch.rows.extend_from_slice(centre);
+                moved.iter().zip(row).for_each(|(&d, value)| batch.rows[begin + d] = *value);
             }
-            self.evaluator.fitness(&whole, self.objective, worth)?;
-            self.weigh(&whole, pull, worth);
+            self.weigh(&mut batch, pull, worth)?;
+            let all = worth.iter().copied().zip(batch.fitness.iter().copied());
+            best = all.fold(best, |best, one| if one.0 > best.0 { one } else { best });
             Ok(())
         })?;
         self.scored += estimate.evaluations;
         let mut pose = centre.to_vec();
-        let mut spread = vec![0.0; dofs];
-        for (at, &d) in moved.iter().enumerate() {
-            (pose[d], spread[d]) = (estimate.pose[at], estimate.spread[at]);
-        }
-        (estimate.pose, estimate.spread) = (pose, spread);
-        Ok(estimate)
+        moved.iter().zip(&estimate.pose).for_each(|(&d, value)| pose[d] = *value);
+        // The mean, which is scored last, or the best before it.
+        let fitness = if batch.rows == pose { batch.fitness[0] } else { best.1 };
+        Ok(self.scored_candidate(pose, fitness))
     }
 }

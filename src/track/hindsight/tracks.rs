@@ -120,8 +120,7 @@ impl Track<'_> {
         let start = most_under(&scorer.candidates(&starts)?, pull.as_ref());
         let generations = scorer.generations(TRACKED);
         let effort = Effort { spread: self.spread, generations, turn: self.turn(number) };
-        let found = scorer.search_all(seen.index, &starts[start], effort, pull.as_ref())?.pose;
-        scorer.candidate(found)
+        scorer.search_all(seen.index, &starts[start], effort, pull.as_ref())
     }
 
     /// What tells the random numbers of this track's searches apart.
@@ -239,8 +238,7 @@ impl Track<'_> {
     /// A pose with all of it searched round with the body's steps.
     fn settled(&self, scorer: &mut Scorer<'_>, index: usize, pose: &[f32], number: u64) -> Result<Candidate> {
         let effort = Effort { spread: self.steps, generations: scorer.generations(ANEW), turn: self.turn(number) };
-        let found = scorer.search_all(index, pose, effort, None)?.pose;
-        scorer.candidate(found)
+        scorer.search_all(index, pose, effort, None)
     }
 }
 
