@@ -51,18 +51,6 @@ pub(crate) struct BackgroundColours {
     slopes: Vec<u8>,
     /// Whether there is no colour in it.
     is_grey: bool,
-    /// What the last picture's noise and shadows make of every slope.
-    of_light: OfLight,
-}
-
-/// [`Widths`] of every pixel, by the noise and share of shadows that they are of.
-#[derive(Clone, Debug, Default)]
-struct OfLight {
-    light: Option<Light>,
-    y: Vec<f32>,
-    c: Vec<f32>,
-    lit: Vec<f32>,
-    shadow: Vec<f32>,
 }
 
 /// What a picture says before its pixels are judged one by one.
@@ -98,7 +86,6 @@ impl BackgroundColours {
             log: bright().map(f32::ln).collect(),
             slopes,
             is_grey: colours.iter().all(Luminance::is_grey),
-            of_light: OfLight::default(),
         }
     }
 
@@ -172,58 +159,53 @@ impl BackgroundColours {
         noise
     }
 
-    /// The log densities of the pixels of `region` of a picture as background; `planes` is room for one row's channels.
-    pub(super) fn judge(&mut self, picture: &RgbImage, light: PictureLight, region: Region, densities: &mut [i16]) {
-        if self.of_light.light != Some(light.light) {
-            self.of_light.set(light.light, &self.slopes);
-        }
+    /// The log densities of the pixels of `region` of a picture as background.
+    pub(super) fn judge(
+        &self,
+        picture: &RgbImage,
+        PictureLight { dim, light }: PictureLight,
+        region: Region,
+        densities: &mut [i16],
+    ) {
+        let widths = widths(light.noise, light.shadowed, light.is_grey);
         let columns = region.x0 as usize..region.x1 as usize;
         let rows = picture.as_raw().chunks_exact(self.width * 3).enumerate();
-        let mut planes = [const { Vec::new() }; 3];
+        let mut channels = [const { Vec::new() }; 3];
+        let mut of_slopes = [const { Vec::new() }; 4];
         for (y, rgb) in rows.take(region.y1 as usize).skip(region.y0 as usize) {
-            split_row(&rgb[3 * columns.start..3 * columns.end], &mut planes);
+            split_row(&rgb[3 * columns.start..3 * columns.end], &mut channels);
             let at = y * self.width + columns.start..y * self.width + columns.end;
-            let of_light = &self.of_light;
-            let known = [
-                &self.y,
-                &self.b,
-                &self.r,
-                &self.inverse,
-                &self.log,
-                &of_light.y,
-                &of_light.c,
-                &of_light.lit,
-                &of_light.shadow,
-            ]
-            .map(|plane| &plane[at.clone()]);
-            judge_row(&planes, light.dim, known, &mut densities[at]);
+            split_widths(&widths, &self.slopes[at.clone()], &mut of_slopes);
+            let known = [&self.y, &self.b, &self.r, &self.inverse, &self.log].map(|plane| &plane[at.clone()]);
+            judge_row(&channels, dim, known, &of_slopes, &mut densities[at]);
         }
     }
 }
 
-impl OfLight {
-    fn set(&mut self, light: Light, slopes: &[u8]) {
-        let widths = widths(light.noise, light.shadowed, light.is_grey);
-        let of = |value: &dyn Fn(&Widths) -> f32, plane: &mut Vec<f32>| {
-            let values = widths.each_ref().map(value);
-            plane.clear();
-            plane.extend(slopes.iter().map(|&slope| values[usize::from(slope) % SLOPES]));
-        };
-        of(&|widths| widths.y, &mut self.y);
-        of(&|widths| widths.c, &mut self.c);
-        of(&|widths| widths.lit, &mut self.lit);
-        of(&|widths| widths.shadow, &mut self.shadow);
-        self.light = Some(light);
+/// The [`Widths`] of a row of slopes, a plane a number. A row's stay near the processor, where those of a picture would not.
+fn split_widths(widths: &[Widths; SLOPES], slopes: &[u8], planes: &mut [Vec<f32>; 4]) {
+    let numbers = widths.each_ref().map(|widths| [widths.y, widths.c, widths.lit, widths.shadow]);
+    for (number, plane) in planes.iter_mut().enumerate() {
+        let of_slope = numbers.each_ref().map(|numbers| numbers[number]);
+        plane.clear();
+        plane.extend(slopes.iter().map(|&slope| of_slope[usize::from(slope) % SLOPES]));
     }
 }
 
 /// The log densities of some pixels of a row. Compiled for the wider vectors too: no operation is fused, so that every version gives
 /// the same numbers.
 #[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
-fn judge_row(planes: &[Vec<f32>; 3], dim: [f32; 3], known: [&[f32]; 9], densities: &mut [i16]) {
+fn judge_row(
+    channels: &[Vec<f32>; 3],
+    dim: [f32; 3],
+    known: [&[f32]; 5],
+    of_slopes: &[Vec<f32>; 4],
+    densities: &mut [i16],
+) {
     let count = densities.len();
-    let [red, green, blue] = [&planes[0][..count], &planes[1][..count], &planes[2][..count]];
-    let [y, b, r, inverse, log, wy, wc, lit, shadow] = known.map(|plane| &plane[..count]);
+    let [red, green, blue] = channels.each_ref().map(|plane| &plane[..count]);
+    let [y, b, r, inverse, log] = known.map(|plane| &plane[..count]);
+    let [wy, wc, lit, shadow] = of_slopes.each_ref().map(|plane| &plane[..count]);
     let outlier = OUTLIERS.ln();
     for at in 0..count {
         let seen = Luminance::of([red[at] * dim[0], green[at] * dim[1], blue[at] * dim[2]]);
@@ -267,7 +249,7 @@ mod tests {
     }
 
     fn judged(picture: &RgbImage) -> Vec<i16> {
-        let mut colours = BackgroundColours::new(&plate());
+        let colours = BackgroundColours::new(&plate());
         let light = colours.light(picture, [1.0; 3], colours.is_grey(picture), None);
         let mut densities = vec![0; 64 * 48];
         colours.judge(picture, light, Region::whole(64, 48), &mut densities);
@@ -295,7 +277,7 @@ mod tests {
         picture.put_pixel(20, 20, grey(60));
         picture.put_pixel(40, 20, grey(112));
         let judged = |picture: &RgbImage| {
-            let mut colours = BackgroundColours::new(&plate);
+            let colours = BackgroundColours::new(&plate);
             let light = colours.light(picture, [1.0; 3], colours.is_grey(picture), None);
             let mut densities = vec![0; 64 * 48];
             colours.judge(picture, light, Region::whole(64, 48), &mut densities);

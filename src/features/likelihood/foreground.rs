@@ -111,12 +111,12 @@ impl LikelySilhouette {
             self.foreground.copy_from_gray(mask);
             self.silhouette.copy_from(&self.foreground);
         } else {
-            let mut by_now;
-            let (image, colours) = match (&mut self.known, learnt) {
-                (Known::Plate { image, colours }, _) => (&*image, colours.as_mut()),
+            let by_now;
+            let (image, colours) = match (&self.known, learnt) {
+                (Known::Plate { image, colours }, _) => (image, colours.as_ref()),
                 (Known::Learnt, Some(image)) => {
                     by_now = BackgroundColours::new(image);
-                    (image, &mut by_now)
+                    (image, &by_now)
                 }
                 (Known::Learnt, None) => {
                     likelihood.background.fill(Likelihood::SURE);
