@@ -5,7 +5,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, ensure};
 
 use super::held_feed::HeldWorker;
 pub(super) use super::prepared::Prepared;
@@ -83,13 +83,20 @@ impl Frames for Feed {
             Ok(prepared) => prepared.map(Some),
             Err(_) => {
                 self.frames = None;
-                match self.thread.take().map(JoinHandle::join) {
-                    Some(Err(_)) => bail!("the thread for the features failed; its message stands above"),
-                    _ => Ok(None),
-                }
+                ended_well(self.thread.take().map(JoinHandle::join), "the features")?;
+                Ok(None)
             }
         }
     }
+}
+
+/// What is said of a thread for something that sends no more.
+///
+/// # Errors
+/// When it panicked.
+pub(super) fn ended_well(ended: Option<thread::Result<()>>, what: &str) -> Result<()> {
+    ensure!(!matches!(ended, Some(Err(_))), "the thread for {what} failed; its message stands above");
+    Ok(())
 }
 
 impl Drop for Feed {

@@ -1,7 +1,7 @@
 //! Looking for limbs: what the pictures say of them along their axes, without drawing them. Cheap enough for thousands of poses of a limb,
 //! where a few dozen leave nothing near in the six degrees of freedom of an arm (METHOD A14).
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 use anyhow::Result;
 use glam::DAffine3;
@@ -25,16 +25,16 @@ const COARSE: u32 = 4;
 #[derive(Clone, Debug)]
 pub(super) struct Glances {
     body: Body,
-    space: SearchSpace,
     cameras: Vec<Camera>,
     limbs: Vec<Limb>,
 }
 
-/// A limb: its degrees of freedom, root to end; its bones, parents first, each with the place of its values in a pose; its parts, each with how
-/// many of these bones are to be posed for it; and the body without them.
+/// A limb: its degrees of freedom, root to end, and a lattice over their limits; its bones, parents first, each with the place of its values in
+/// a pose; its parts, each with how many of these bones are to be posed for it; and the body without them.
 #[derive(Clone, Debug)]
 struct Limb {
     dofs: Vec<usize>,
+    lattice: Lattice,
     bones: Vec<(usize, usize)>,
     parts: Vec<(usize, usize)>,
     rest: Reference,
@@ -63,15 +63,10 @@ impl Glances {
             let posed_for =
                 |part: usize| bones.iter().take_while(|(bone, _)| *bone != body.parts[part].bone).count() + 1;
             let parts = parts.into_iter().map(|part| (part, posed_for(part))).collect();
-            Limb { dofs, bones, parts, rest: Reference::new(&rest, &coarse) }
+            Limb { lattice: Lattice::new(space, &dofs), dofs, bones, parts, rest: Reference::new(&rest, &coarse) }
         };
         let count = space.groups().iter().max().copied().unwrap_or(0);
-        Self {
-            limbs: (1..=count).map(limb).collect(),
-            body: body.clone(),
-            space: space.clone(),
-            cameras: cameras.to_vec(),
-        }
+        Self { limbs: (1..=count).map(limb).collect(), body: body.clone(), cameras: cameras.to_vec() }
     }
 
     /// The degrees of freedom of each limb, root to end.
@@ -139,9 +134,9 @@ impl Glance<'_> {
             let part = &body.parts[part];
             let axis = [part.a, part.b].map(|end| bones[part.bone].transform_point3(end));
             for place in along(cameras, self.views, axis, part.label, PLACES) {
-                let width = cameras[place.view].size[0] as usize;
-                let [x, y] = [place.pixel % width, place.pixel / width].map(|at| at / COARSE as usize);
-                let is_covered = self.covered[place.view][y * width.div_ceil(COARSE as usize) + x] != 0;
+                let width = cameras[place.view].size[0].div_ceil(COARSE) as usize;
+                let [x, y] = place.at.map(|at| at / COARSE as usize);
+                let is_covered = self.covered[place.view][y * width + x] != 0;
                 if look((!is_covered).then_some(place)).is_break() {
                     return;
                 }
@@ -189,7 +184,7 @@ impl Glance<'_> {
 
     /// `count` poses of the limb on a lattice over its limits.
     pub(super) fn lattice(&self, count: usize) -> Vec<Vec<f32>> {
-        lattice(&self.glances.space, &self.limb.dofs, &self.pose, 0, count)
+        self.limb.lattice.rows(&self.pose, 0..count)
     }
 
     /// The `most` poses of the limb of which most is said, in falling order, of `count` on a lattice over its limits; of equals the first.
@@ -211,10 +206,12 @@ impl Glance<'_> {
             // Nothing says more than 1.
             return false;
         }
-        let is_better =
-            |bones: &mut Vec<DAffine3>, row: &Vec<f32>| self.known_support(row, bones, here + margin) - here > margin;
-        let rows = self.lattice(count);
-        rows.par_iter().with_min_len(64).map_init(Vec::new, is_better).any(|is_better| is_better)
+        let is_better = |(bones, row): &mut (Vec<DAffine3>, Vec<f32>), point: usize| {
+            self.limb.lattice.put(point, row);
+            self.known_support(row, bones, here + margin) - here > margin
+        };
+        let memory = || (Vec::new(), self.pose.clone());
+        (0..count).into_par_iter().with_min_len(64).map_init(memory, is_better).any(|is_better| is_better)
     }
 }
 
@@ -262,21 +259,49 @@ fn mean(sum: f32, count: usize) -> f32 {
     if count > 0 { sum / count as f32 } else { 0.0 }
 }
 
-/// `pose` with what is moved at the points of a lattice over its limits, from point `first` on: it fills them more evenly than random
-/// numbers (Roberts 2018).
-pub(super) fn lattice(space: &SearchSpace, moved: &[usize], pose: &[f32], first: usize, count: usize) -> Vec<Vec<f32>> {
-    let (lower, upper) = (space.lower(), space.upper());
-    let root = plastic(moved.len());
-    let steps: Vec<f64> = (1..).take(moved.len()).map(|power: i32| root.powi(-power)).collect();
-    let row = |at: usize| {
-        let mut row = pose.to_vec();
-        for (&d, step) in moved.iter().zip(&steps) {
-            let share = (0.5 + (first + at + 1) as f64 * step).fract();
-            row[d] = lower[d] + share as f32 * (upper[d] - lower[d]);
+/// A lattice over the limits of some degrees of freedom, of as many points as are asked for: it fills them more evenly than random numbers
+/// (Roberts 2018).
+#[derive(Clone, Debug)]
+pub(super) struct Lattice {
+    moved: Vec<Moved>,
+}
+
+/// A degree of freedom, its lower limit and how far the upper one is from there, and the share of that by which points are apart.
+#[derive(Clone, Copy, Debug)]
+struct Moved {
+    dof: usize,
+    lower: f32,
+    width: f32,
+    step: f64,
+}
+
+impl Lattice {
+    pub(super) fn new(space: &SearchSpace, moved: &[usize]) -> Self {
+        let root = plastic(moved.len());
+        let moved = moved.iter().zip(1..).map(|(&dof, power)| {
+            let [lower, upper] = [space.lower()[dof], space.upper()[dof]];
+            Moved { dof, lower, width: upper - lower, step: root.powi(-power) }
+        });
+        Self { moved: moved.collect() }
+    }
+
+    /// Puts what moves in `row` to a point.
+    fn put(&self, point: usize, row: &mut [f32]) {
+        for Moved { dof, lower, width, step } in &self.moved {
+            let share = (0.5 + (point + 1) as f64 * step).fract();
+            row[*dof] = lower + share as f32 * width;
         }
-        row
-    };
-    (0..count).map(row).collect()
+    }
+
+    /// `pose` with what moves at each of these points.
+    pub(super) fn rows(&self, pose: &[f32], points: Range<usize>) -> Vec<Vec<f32>> {
+        let row = |point: usize| {
+            let mut row = pose.to_vec();
+            self.put(point, &mut row);
+            row
+        };
+        points.map(row).collect()
+    }
 }
 
 /// The root of x^(n + 1) = x + 1 above 1.

@@ -7,9 +7,10 @@ use anyhow::{Context, Result, bail};
 
 use super::features_made::FeaturesMade;
 use super::feed::Keeps;
+use super::hindsight::in_place_of;
 use super::searcher::Searcher;
 use super::smoothed::smoothing;
-use super::{BuiltBackend, Drawing, TrackSettings};
+use super::{BuiltBackend, Drawing, Passes, TrackSettings};
 use crate::body::{Body, Mesh, PoseTable};
 use crate::evaluate::Objective;
 use crate::features::FeatureSettings;
@@ -76,6 +77,11 @@ impl Plan {
         let made = FeaturesMade::choose(settings, &features, backend.evaluator.as_ref())?;
         if let Some(note) = &made.note {
             backend.reason = format!("{}; {note}", backend.reason);
+        }
+        if let (Passes::Both, Some(set)) = (settings.passes(), in_place_of(backend.evaluator.as_ref())) {
+            let with = set.name();
+            backend.reason =
+                format!("{}; the second pass is the processor's, with {with} instructions", backend.reason);
         }
         let timing = if settings.trace { Timing::Statistics } else { Timing::Off };
         let search = Searcher::new(backend.evaluator.as_mut(), &objective, &settings.search, &space, timing)?;

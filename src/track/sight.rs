@@ -11,19 +11,23 @@ use crate::geometry::Camera;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) view: usize,
+    /// Column and row.
+    pub(super) at: [usize; 2],
     /// In the picture's rows.
     pub(super) pixel: usize,
     /// The part's.
     pub(super) label: u8,
 }
 
-/// The pixel that a point is seen in; none outside the picture and where nothing counts.
-pub(super) fn pixel(camera: &Camera, view: SeenView<'_>, point: DVec3) -> Option<usize> {
-    let at = camera.project(point)?.round();
+/// The pixel that a point is seen in, by column and row, and its place in the picture's rows; none outside the picture and where nothing counts.
+pub(super) fn pixel(camera: &Camera, view: SeenView<'_>, point: DVec3) -> Option<([usize; 2], usize)> {
+    let at = camera.project(point)?;
     let [width, height] = view.size();
-    let inside = at.x >= 0.0 && at.y >= 0.0 && at.x < f64::from(width) && at.y < f64::from(height);
-    let at = inside.then(|| at.y as usize * width as usize + at.x as usize)?;
-    (!view.ignores(at)).then_some(at)
+    // A pixel reaches half of one around its centre; what is half way belongs to the next.
+    let is_inside = at.min_element() > -0.5 && at.x < f64::from(width) - 0.5 && at.y < f64::from(height) - 0.5;
+    let [column, row] = is_inside.then_some([at.x, at.y].map(|at| (at + 0.5) as usize))?;
+    let pixel = row * width as usize + column;
+    (!view.ignores(pixel)).then_some(([column, row], pixel))
 }
 
 /// Where the views show a part, of which `axis` is the axis in space: so many places along it, each in all views that show it.
@@ -38,7 +42,7 @@ pub(super) fn along<'a>(
         let at = axis[0].lerp(axis[1], (nth as f64 + 0.5) / places as f64);
         let of_views = cameras.iter().zip(views).enumerate();
         of_views.filter_map(move |(view, (camera, seen))| {
-            pixel(camera, *seen, at).map(|pixel| Place { view, pixel, label })
+            pixel(camera, *seen, at).map(|(at, pixel)| Place { view, at, pixel, label })
         })
     })
 }
@@ -70,7 +74,7 @@ pub(super) fn said_of(
 }
 
 /// The same of a place in views that the host knows.
-pub(super) fn said(views: &[SeenView<'_>], Place { view, pixel, label }: &Place) -> f32 {
+pub(super) fn said(views: &[SeenView<'_>], Place { view, pixel, label, .. }: &Place) -> f32 {
     let view = views[*view];
     match view.evidence() {
         Some(seen) => of_code(evidence::code(seen.words()[*pixel], usize::from(seen.classes().of_label(*label)))),

@@ -115,9 +115,7 @@ impl Workers {
         }
         !shared.failed.load(Ordering::Relaxed)
     }
-}
 
-impl Workers {
     /// Calls `work` with each item, and with the number of the worker whose turn it is; returns when all are done. False when one panicked.
     pub(super) fn each<T>(
         &mut self,

@@ -167,7 +167,7 @@ impl JointProbe {
     fn seen(&self, views: &[SeenView<'_>], joint: DVec3) -> f32 {
         let (mut inside, mut seen) = (0, 0);
         for (camera, view) in self.cameras.iter().zip(views) {
-            if let Some(at) = pixel(camera, *view, joint) {
+            if let Some((_, at)) = pixel(camera, *view, joint) {
                 inside += 1;
                 seen += u32::from(view.is_person(at));
             }

@@ -6,7 +6,7 @@ use std::ops::Range;
 use anyhow::Result;
 use glam::DVec3;
 
-use super::mending::{BOLDER, Mending, choose, jerk};
+use super::mending::{BOLDER, Mending, Section, choose, jerk, order};
 use super::refining::{self, Settled};
 use super::scorer::Candidate;
 use super::tracks::Track;
@@ -27,33 +27,43 @@ impl Mending<'_> {
         &mut self,
         seen: &[&Seen],
         given: &[Vec<f32>],
-        spread: &[f32],
+        sections: &[Section],
         before: &[Settled],
         candidates: &mut [Vec<Candidate>],
     ) -> Result<()> {
+        let Self { team, limbs, steps, section, .. } = self;
         let [calm, bold] = [1.0, BOLDER].map(|bolder| choose(candidates, before, bolder));
         let of_path = |path: &[usize]| -> Vec<Candidate> {
             candidates.iter().zip(path).map(|(candidates, &chosen)| candidates[chosen].clone()).collect()
         };
         let [calm, bold] = [of_path(&calm), of_path(&bold)];
         let are_apart: Vec<bool> = calm.iter().zip(&bold).map(|(a, b)| apart(&a.points, &b.points)).collect();
-        for stretch in stretches(&are_apart, 0) {
-            let [start, end] = [stretch.start, stretch.end];
-            let known = |t: Option<usize>| t.and_then(|t| calm.get(t)).cloned();
-            let Some(best) = stretch.clone().max_by(|a, b| bold[*a].worth.total_cmp(&bold[*b].worth)) else { continue };
+        let stretches = stretches(&are_apart, 0);
+        let known = |t: Option<usize>| t.and_then(|t| calm.get(t)).cloned();
+        let found = team.share(stretches.iter().cloned(), |scorer, stretch| {
+            let mut candidates = candidates[stretch.clone()].to_vec();
+            let [start, end, count] = [stretch.start, stretch.end, stretch.len()];
+            let Some(best) = stretch.clone().max_by(|a, b| bold[*a].worth.total_cmp(&bold[*b].worth)) else {
+                return Ok(candidates);
+            };
             let sure = || [None, Some(bold[best].clone())];
             let ways = [
-                ([2, 1].map(|back| known(start.checked_sub(back))), stretch.clone().collect::<Vec<_>>(), false),
-                ([1, 0].map(|on| known(Some(end + on))), stretch.rev().collect(), true),
-                (sure(), (best + 1..end).collect(), false),
-                (sure(), (start..best).rev().collect(), true),
+                ([2, 1].map(|back| known(start.checked_sub(back))), order(count, false), false),
+                ([1, 0].map(|on| known(Some(end + on))), order(count, true), true),
+                (sure(), (best + 1 - start..count).collect(), false),
+                (sure(), order(best - start, true), true),
             ];
+            let spread = &sections[best / *section].spread;
             for (last, order, is_back) in ways {
-                let track = Track { limbs: &self.limbs, given, spread, steps: &self.steps, is_back };
+                let track = Track { limbs, given: &given[stretch.clone()], spread, steps, is_back };
                 if last[1].is_some() {
-                    track.retrace(&mut self.scorer, seen, &order, last, candidates)?;
+                    track.retrace(scorer, &seen[stretch.clone()], &order, last, &mut candidates)?;
                 }
             }
+            Ok(candidates)
+        })?;
+        for (stretch, found) in stretches.into_iter().zip(found) {
+            candidates[stretch].clone_from_slice(&found);
         }
         Ok(())
     }
@@ -65,45 +75,48 @@ impl Mending<'_> {
     pub(super) fn weigh_bolder(
         &mut self,
         seen: &[&Seen],
-        spread: &[f32],
+        sections: &[Section],
         bolder: &[Settled],
         poses: &mut [Settled],
     ) -> Result<()> {
+        let Self { team, reach, .. } = self;
         let first = poses.len() - seen.len();
         let pairs = poses[first..].iter().zip(&bolder[first..]);
         let are_apart: Vec<bool> = pairs.map(|(a, b)| apart(&a.points, &b.points)).collect();
-        let stretches = stretches(&are_apart, self.reach);
+        let stretches = stretches(&are_apart, *reach);
         let searched: Vec<usize> = stretches.iter().cloned().flatten().collect();
         let mut tried = poses.to_vec();
         for &t in &searched {
             tried[first + t] = bolder[first + t].clone();
         }
-        refining::refine(&mut self.scorer, seen, &searched, spread, &mut tried, [self.reach, ROUNDS])?;
-        for stretch in stretches {
-            let within = first + stretch.start..first + stretch.end;
+        refining::refine(team, seen, &searched, sections, &mut tried, [*reach, ROUNDS])?;
+        let are_better = team.share(stretches.iter().cloned(), |scorer, stretch| {
+            // What lies around the stretch is the same in both.
+            let around = (first + stretch.start).saturating_sub(2)..(first + stretch.end + 2).min(poses.len());
             let mut worth = [0.0; 2];
             for t in stretch {
-                self.scorer.observe(&seen[t].observations)?;
+                scorer.observe(&seen[t].observations)?;
                 for (sum, path) in worth.iter_mut().zip([&*poses, &tried]) {
-                    *sum += self.scorer.candidate(path[first + t].pose.clone())?.worth;
+                    *sum += scorer.candidate(path[first + t].pose.clone())?.worth;
                 }
             }
             for (sum, path) in worth.iter_mut().zip([&*poses, &tried]) {
-                // What lies around the stretch is the same in both.
-                let triples = path[within.start.saturating_sub(2)..(within.end + 2).min(path.len())].windows(3);
+                let triples = path[around.clone()].windows(3);
                 let jerks = triples.map(|frames| jerk(&frames[0].points, &frames[1].points, &frames[2].points, BOLDER));
                 *sum -= jerks.sum::<f64>();
             }
-            if worth[1] > worth[0] {
-                poses[within.clone()].clone_from_slice(&tried[within]);
-            }
+            Ok(worth[1] > worth[0])
+        })?;
+        for (stretch, _) in stretches.into_iter().zip(are_better).filter(|(_, is_better)| *is_better) {
+            let within = first + stretch.start..first + stretch.end;
+            poses[within.clone()].clone_from_slice(&tried[within]);
         }
         Ok(())
     }
 }
 
 /// Whether two poses have a joint far apart.
-fn apart(one: &[DVec3], other: &[DVec3]) -> bool {
+pub(super) fn apart(one: &[DVec3], other: &[DVec3]) -> bool {
     one.iter().zip(other).any(|(a, b)| a.distance(*b) > APART)
 }
 

@@ -6,11 +6,11 @@ use rayon::prelude::*;
 
 use super::scorer::{Candidate, Effort, Scorer, most_under};
 use super::window::Seen;
-use crate::body::Body;
+use crate::body::{Body, Dof, DofAxis};
 use crate::features::SeenView;
 use crate::geometry::Camera;
 use crate::search::SearchSpace;
-use crate::track::glance::{Glances, are_elsewhere, lattice};
+use crate::track::glance::{Glances, Lattice, are_elsewhere};
 
 /// Poses of a limb tried all over its limits, and generations that go on from the best of them.
 const SCATTERED: usize = 96;
@@ -22,6 +22,8 @@ const LOOKED_AT: usize = 2048;
 const SIGHTED: usize = 48;
 /// By how much more must be said of a limb elsewhere than of where it is thought, for it to be looked for.
 const SUSPICIOUS: f32 = 0.2;
+/// Share of its limit from which on a trunk is turned so far that it is tried straight.
+const TURNED: f32 = 0.5;
 
 /// The limbs of a body.
 #[derive(Clone, Debug)]
@@ -29,6 +31,14 @@ pub(super) struct Limbs {
     glances: Glances,
     /// Pairs of limbs with the same joints on either side.
     pub(super) twins: Vec<[usize; 2]>,
+    turns: Vec<Turn>,
+}
+
+/// A degree of freedom by which the trunk turns about its own axis, where it is round, and the limbs that turn with it.
+#[derive(Clone, Debug)]
+struct Turn {
+    dof: usize,
+    limbs: Vec<usize>,
 }
 
 impl Limbs {
@@ -45,7 +55,18 @@ impl Limbs {
                 twins.push([one, other]);
             }
         }
-        Self { glances, twins }
+        let of_dofs: Vec<(usize, &Dof)> = body.dofs().collect();
+        let hangs_on = |limb: &[usize], trunk: usize| {
+            let first = limb.first().map(|&d| of_dofs[d].0);
+            std::iter::successors(first, |&bone| body.bones[bone].parent).any(|bone| bone == trunk)
+        };
+        let turn = |(d, (bone, dof)): (usize, &(usize, &Dof))| {
+            let is_turn = space.groups()[d] == 0 && dof.axis == DofAxis::Rz && body.bones[*bone].parent.is_some();
+            let limbs = || (0..glances.limbs().len()).filter(|&limb| hangs_on(glances.limb(limb), *bone)).collect();
+            is_turn.then(|| Turn { dof: d, limbs: limbs() })
+        };
+        let turns = of_dofs.iter().enumerate().filter_map(turn).collect();
+        Self { glances, twins, turns }
     }
 
     pub(super) fn count(&self) -> usize {
@@ -67,6 +88,19 @@ impl Limbs {
         }
         space.clamp(&mut exchanged);
         exchanged
+    }
+
+    /// `pose` with the trunk straight, and the limbs that hang on it, where it is turned far.
+    pub(super) fn straightened(&self, pose: &[f32], space: &SearchSpace) -> Option<(Vec<f32>, &[usize])> {
+        let far = |turn: &&Turn| {
+            let [value, lower, upper] = [pose, space.lower(), space.upper()].map(|values| values[turn.dof]);
+            value > TURNED * upper.max(0.0) || value < TURNED * lower.min(0.0)
+        };
+        let turn = self.turns.iter().find(far)?;
+        let mut straight = pose.to_vec();
+        straight[turn.dof] = 0.0;
+        space.clamp(&mut straight);
+        Some((straight, &turn.limbs))
     }
 
     /// The limbs of which the pictures say much more elsewhere than where a pose has them.
@@ -155,7 +189,7 @@ impl Limbs {
         let moved = &whole[whole.len() - ends..];
         let count = scorer.generations(SCATTERED);
         // Shifted from frame to frame.
-        let mut rows = lattice(scorer.space, moved, pose, frame * count, count);
+        let mut rows = Lattice::new(scorer.space, moved).rows(pose, frame * count..(frame + 1) * count);
         rows.extend_from_slice(others);
         let scattered = scorer.candidates(&rows)?;
         let best = most_under(&scattered, None);

@@ -1,16 +1,25 @@
 //! The frames of a window together: tracks through them, the path that is worth most, every frame searched again beside its neighbours.
 
+use std::ops::Range;
+
 use anyhow::Result;
 use glam::DVec3;
 
 use super::hypotheses::Limbs;
 use super::path::best_path;
 use super::refining::{self, Settled};
-use super::scorer::{Candidate, Scorer, robust};
-use super::tracks::Track;
+use super::scorer::{Candidate, robust};
+use super::team::Team;
+use super::tracks::{Ended, Track};
 use super::window::Seen;
 use crate::body::Body;
 use crate::geometry::Camera;
+use crate::search::SearchSpace;
+
+/// Frames of a section: tracks go through sections side by side, and on into the next ones where they lead to something else there.
+pub(super) const SECTION: usize = 32;
+/// Frames on either side of a section that tell how widely to search it.
+const AROUND: usize = 24;
 
 /// Width of the searches, as a share of the track's changes, and of the body's steps at least and at most.
 const WIDTH: f32 = 0.5;
@@ -25,18 +34,29 @@ const FIRST: f64 = 100.0;
 
 /// The second pass over windows of a run.
 pub(super) struct Mending<'a> {
-    pub(super) scorer: Scorer<'a>,
+    pub(super) team: Team<'a>,
     pub(super) limbs: Limbs,
     /// The body's, from a frame to the next.
     pub(super) steps: Vec<f32>,
     /// How many frames on either side tell of a frame.
     pub(super) reach: usize,
+    /// How many frames a section has.
+    pub(super) section: usize,
+}
+
+/// Some frames of a window in a row.
+#[derive(Clone, Debug)]
+pub(super) struct Section {
+    pub(super) frames: Range<usize>,
+    /// How widely to search them.
+    pub(super) spread: Vec<f32>,
 }
 
 impl<'a> Mending<'a> {
-    pub(super) fn new(scorer: Scorer<'a>, body: &Body, cameras: &[Camera], fps: f64) -> Result<Self> {
-        let steps = scorer.space.spread(1.0 / fps)?;
-        Ok(Self { limbs: Limbs::new(body, cameras, scorer.space), scorer, steps, reach: refining::reach(fps) })
+    pub(super) fn new(team: Team<'a>, space: &SearchSpace, body: &Body, cameras: &[Camera], fps: f64) -> Result<Self> {
+        let steps = space.spread(1.0 / fps)?;
+        let limbs = Limbs::new(body, cameras, space);
+        Ok(Self { limbs, team, steps, reach: refining::reach(fps), section: SECTION })
     }
 
     /// The poses of a window's frames, of which `given` were found, after those of `before`.
@@ -44,23 +64,9 @@ impl<'a> Mending<'a> {
     /// # Errors
     /// When the evaluator fails.
     pub(super) fn mend(&mut self, seen: &[&Seen], given: &[Vec<f32>], before: &[Settled]) -> Result<Vec<Settled>> {
-        let spread = widths(&self.steps, given);
-        // What was given stays a candidate.
-        let mut candidates: Vec<Vec<Candidate>> = Vec::with_capacity(seen.len());
-        for (seen, pose) in seen.iter().zip(given) {
-            self.scorer.observe(&seen.observations)?;
-            candidates.push(self.scorer.candidates(std::slice::from_ref(pose))?);
-        }
-        for order in [(0..seen.len()).rev().collect::<Vec<_>>(), (0..seen.len()).collect()] {
-            let is_back = order.first() != Some(&0);
-            Track { limbs: &self.limbs, given, spread: &spread, steps: &self.steps, is_back }.follow(
-                &mut self.scorer,
-                seen,
-                &order,
-                &mut candidates,
-            )?;
-        }
-        self.retrace(seen, given, &spread, before, &mut candidates)?;
+        let sections = self.sections(given);
+        let mut candidates = self.tracked(seen, given, &sections)?;
+        self.retrace(seen, given, &sections, before, &mut candidates)?;
         let path = |bolder: f64| -> Vec<Settled> {
             let chosen = choose(&candidates, before, bolder);
             let of = |((seen, candidates), chosen): ((&&Seen, &Vec<Candidate>), usize)| {
@@ -72,11 +78,64 @@ impl<'a> Mending<'a> {
         let mut poses = path(1.0);
         let bolder = path(BOLDER);
         let all: Vec<usize> = (0..seen.len()).collect();
-        refining::refine(&mut self.scorer, seen, &all, &spread, &mut poses, [self.reach, refining::ROUNDS])?;
-        self.weigh_bolder(seen, &spread, &bolder, &mut poses)?;
+        refining::refine(&mut self.team, seen, &all, &sections, &mut poses, [self.reach, refining::ROUNDS])?;
+        self.weigh_bolder(seen, &sections, &bolder, &mut poses)?;
         poses.drain(..before.len());
         Ok(poses)
     }
+
+    /// The sections of a window.
+    pub(super) fn sections(&self, given: &[Vec<f32>]) -> Vec<Section> {
+        let section = |start: usize| {
+            let end = (start + self.section).min(given.len());
+            let around = start.saturating_sub(AROUND)..(end + AROUND).min(given.len());
+            Section { frames: start..end, spread: widths(&self.steps, &given[around]) }
+        };
+        (0..given.len()).step_by(self.section).map(section).collect()
+    }
+
+    /// What tracks find through each section, both ways, and where they go on into the next.
+    fn tracked(&mut self, seen: &[&Seen], given: &[Vec<f32>], sections: &[Section]) -> Result<Vec<Vec<Candidate>>> {
+        let Self { team, limbs, steps, .. } = self;
+        // What was given stays a candidate.
+        let first = team.share(seen.iter().zip(given), |scorer, (seen, pose)| {
+            scorer.observe(&seen.observations)?;
+            scorer.candidates(std::slice::from_ref(pose))
+        })?;
+        let most = first.iter().flatten().map(|candidate| candidate.worth).fold(f64::NEG_INFINITY, f64::max);
+        let found = team.share(sections.iter(), |scorer, section| {
+            let seen = &seen[section.frames.clone()];
+            let mut candidates = first[section.frames.clone()].to_vec();
+            let mut most = most;
+            let mut ends = Vec::new();
+            for is_back in [true, false] {
+                let track = Track::through(limbs, steps, given, section, is_back);
+                ends.push(track.follow(scorer, seen, &order(seen.len(), is_back), &mut most, &mut candidates)?);
+            }
+            Ok((candidates, ends))
+        })?;
+        let sections = sections.iter().enumerate();
+        let met = team.share(sections, |scorer, (at, section)| {
+            let seen = &seen[section.frames.clone()];
+            let mut candidates = found[at].0.clone();
+            let came: [Option<&Ended>; 2] =
+                [found.get(at + 1).map(|(_, ends)| &ends[0]), at.checked_sub(1).map(|before| &found[before].1[1])];
+            for (came, is_back) in came.into_iter().zip([true, false]) {
+                if let Some(last) = came {
+                    let track = Track::through(limbs, steps, given, section, is_back);
+                    let order = order(seen.len(), is_back);
+                    track.go_on(scorer, seen, &order, last.clone(), &mut candidates)?;
+                }
+            }
+            Ok(candidates)
+        })?;
+        Ok(met.into_iter().flatten().collect())
+    }
+}
+
+/// The places of so many frames in the order of a track.
+pub(super) fn order(count: usize, is_back: bool) -> Vec<usize> {
+    if is_back { (0..count).rev().collect() } else { (0..count).collect() }
 }
 
 /// What it costs joints to be at `a`, `b` and `c` one after the other, where they may jerk `bolder` times as far as usual.

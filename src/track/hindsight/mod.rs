@@ -11,6 +11,7 @@ mod path;
 mod refining;
 mod scorer;
 mod shape;
+mod team;
 mod tracks;
 mod window;
 
@@ -19,10 +20,12 @@ use image::RgbImage;
 
 pub(super) use self::delayed::Delayed;
 pub(super) use self::limb_search::{LimbSearch, SearchedFrame, TimeLeft};
-use self::mending::Mending;
+use self::mending::{Mending, SECTION};
 use self::refining::Settled;
 use self::scorer::Scorer;
 use self::shape::Shape;
+pub(super) use self::team::in_place_of;
+use self::team::{Team, side_by_side};
 use self::window::{Seen, Windows};
 use super::appearance::RunAppearance;
 use super::confidence::JointProbe;
@@ -61,12 +64,22 @@ impl Hindsight<'_> {
         take: &mut Taker<'_>,
     ) -> Result<()> {
         let settings = *self.plan.search_settings();
-        let Plan { body, objective, backend, space, .. } = self.plan;
+        let Plan { body, mesh, objective, backend, space, .. } = self.plan;
         let shape = Shape::new(body);
-        let scorer = Scorer::new(backend.evaluator.as_mut(), objective, space, &shape, &settings);
-        let mut mending = Mending::new(scorer, body, self.cameras, self.fps)?;
         std::thread::scope(|scope| {
             let mut windows = Windows::begin(scope, feed, appearance, self.cameras, self.pictures_every)?;
+            windows.fill()?;
+            let run = backend.evaluator.as_mut();
+            let pieces = windows.seen().len().div_ceil(SECTION);
+            let shares = [pieces, rayon::current_num_threads()];
+            let (mut others, threads) = side_by_side(run, body, mesh.as_ref(), self.cameras, shares)?;
+            let scorer = |evaluator| Scorer::new(evaluator, objective, space, &shape, &settings);
+            let team = if others.is_empty() {
+                Team::alone(scorer(run))
+            } else {
+                Team::of(others.iter_mut().map(|cpu| scorer(cpu)), threads)?
+            };
+            let mut mending = Mending::new(team, space, body, self.cameras, self.fps)?;
             // Poses of the window before that are not settled yet, and the last that are.
             let mut carried: Vec<Vec<f32>> = Vec::new();
             let mut before: Vec<Settled> = Vec::new();
@@ -78,12 +91,14 @@ impl Hindsight<'_> {
                 let mut track = std::mem::take(&mut carried);
                 let given = forward.iter().skip(done + track.len()).map(|result| result.pose.clone());
                 track.extend(given.take(seen.len().saturating_sub(track.len())));
-                let settled = on_the_pool(|| mending.mend(&seen, &track, &before));
+                let settled = mending.mend(&seen, &track, &before);
                 let settled = settled.with_context(|| format!("the frames from {} on", first.index))?;
                 let count = windows.settled();
-                for ((seen, frame), first) in seen.iter().zip(&settled).zip(&forward[done..]).take(count) {
-                    let evaluator = &mut *mending.scorer.evaluator;
-                    let result = result(evaluator, objective, self.probe, &seen.observations, frame, first)?;
+                let frames = seen.iter().zip(&settled).zip(&forward[done..]).take(count);
+                let results = mending.team.share(frames, |scorer, ((seen, frame), first)| {
+                    result(scorer.evaluator, objective, self.probe, &seen.observations, frame, first)
+                })?;
+                for (seen, result) in seen.iter().zip(results) {
                     if !take(result, seen.pictures.as_deref())? {
                         return Ok(());
                     }

@@ -4,7 +4,9 @@
 use anyhow::Result;
 use glam::DVec3;
 
+use super::mending::Section;
 use super::scorer::{Candidate, Effort, Pull, Scorer, most_under};
+use super::team::Team;
 use super::window::Seen;
 use crate::features::Observation;
 
@@ -69,29 +71,43 @@ fn weights(places: &[f64]) -> Vec<f64> {
     places.iter().map(|x| solved.iter().enumerate().map(|(k, c)| c * x.powi(k as i32)).sum()).collect()
 }
 
-/// Searches the frames `searched` of those seen again, `rounds` times; the others of `poses`, and those before the frames seen, stay.
+/// Searches the frames `searched` of those seen again, `rounds` times; the others of `poses`, and those before the frames seen, stay. Sections
+/// are searched side by side: of frames in others, one knows what the round before found.
 ///
 /// # Errors
 /// When the evaluator fails.
 pub(super) fn refine(
-    scorer: &mut Scorer<'_>,
+    team: &mut Team<'_>,
     seen: &[&Seen],
     searched: &[usize],
-    spread: &[f32],
+    sections: &[Section],
     poses: &mut [Settled],
     [reach, rounds]: [usize; 2],
 ) -> Result<()> {
     let first = poses.len() - seen.len();
-    let narrow: Vec<f32> = spread.iter().map(|spread| NARROW * spread).collect();
     for round in 0..rounds {
-        let mut order = searched.to_vec();
-        if round % 2 == 1 {
-            order.reverse();
-        }
-        for t in order {
-            scorer.observe(&seen[t].observations)?;
-            let at = first + t;
-            poses[at] = beside(scorer, &narrow, poses, at, reach, round)?;
+        let within = |section: &Section| {
+            let mut order: Vec<usize> = searched.iter().copied().filter(|t| section.frames.contains(t)).collect();
+            if round % 2 == 1 {
+                order.reverse();
+            }
+            order
+        };
+        let jobs = sections.iter().map(|section| (section, within(section))).filter(|(_, order)| !order.is_empty());
+        let found = team.share(jobs, |scorer, (section, order)| {
+            let narrow: Vec<f32> = section.spread.iter().map(|spread| NARROW * spread).collect();
+            let from = (first + section.frames.start).saturating_sub(reach);
+            let to = (first + section.frames.end + reach).min(poses.len());
+            let mut poses = poses[from..to].to_vec();
+            for t in &order {
+                scorer.observe(&seen[*t].observations)?;
+                let at = first + t - from;
+                poses[at] = beside(scorer, &narrow, &poses, at, reach, round)?;
+            }
+            Ok(order.into_iter().map(|t| (first + t, poses[first + t - from].clone())).collect::<Vec<_>>())
+        })?;
+        for (at, settled) in found.into_iter().flatten() {
+            poses[at] = settled;
         }
     }
     Ok(())

@@ -56,6 +56,8 @@ pub(super) struct Candidate {
     pub(super) points: Vec<DVec3>,
     /// What the frame alone says for it.
     pub(super) worth: f64,
+    /// Whether the pictures were asked, and say of no limb that it is elsewhere.
+    pub(super) is_looked_at: bool,
     /// Whether it is what came of looking for its limbs.
     pub(super) is_looked_into: bool,
 }
@@ -172,15 +174,16 @@ impl<'a> Scorer<'a> {
             self.evaluator.fitness(&poses.concat(), self.objective, &mut fitness)?;
         }
         self.scored += poses.len();
-        Ok(poses.iter().zip(fitness).map(|(pose, fitness)| self.scored_candidate(pose.clone(), fitness)).collect())
+        let mut posed = Posed::default();
+        let pairs = poses.iter().zip(fitness);
+        Ok(pairs.map(|(pose, fitness)| self.scored_candidate(pose.clone(), fitness, &mut posed)).collect())
     }
 
     /// A pose of which the fitness is known.
-    fn scored_candidate(&self, pose: Vec<f32>, fitness: f32) -> Candidate {
-        let mut posed = Posed::default();
-        self.shape.pose(&pose, &mut posed);
-        let worth = matched(fitness) - INTRUSION * self.shape.intrusion(&posed);
-        Candidate { pose, points: posed.points, worth, is_looked_into: false }
+    fn scored_candidate(&self, pose: Vec<f32>, fitness: f32, posed: &mut Posed) -> Candidate {
+        self.shape.pose(&pose, posed);
+        let worth = matched(fitness) - INTRUSION * self.shape.intrusion(posed);
+        Candidate { pose, points: posed.points.clone(), worth, is_looked_at: false, is_looked_into: false }
     }
 
     /// A pose of the frame as a candidate.
@@ -242,6 +245,6 @@ impl<'a> Scorer<'a> {
         moved.iter().zip(&estimate.pose).for_each(|(&d, value)| pose[d] = *value);
         // The mean, which is scored last, or the best before it.
         let fitness = if batch.rows == pose { batch.fitness[0] } else { best.1 };
-        Ok(self.scored_candidate(pose, fitness))
+        Ok(self.scored_candidate(pose, fitness, &mut Posed::default()))
     }
 }

@@ -125,7 +125,7 @@ fn nearest([[p0, p1], [q0, q1]]: [[DVec3; 2]; 2]) -> [f64; 2] {
 mod tests {
     use super::*;
     use crate::search::SearchSpace;
-    use crate::track::glance::lattice;
+    use crate::track::glance::Lattice;
 
     /// Parts whose balls do not meet do not stand in each other, so that leaving them out changes nothing.
     #[test]
@@ -136,7 +136,7 @@ mod tests {
         let rest: Vec<f32> = body.standing_pose().into_iter().map(|value| value as f32).collect();
         let mut posed = Posed::default();
         let (mut far, mut deep) = (0, 0);
-        for row in lattice(&space, &all, &rest, 0, 500) {
+        for row in Lattice::new(&space, &all).rows(&rest, 0..500) {
             shape.pose(&row, &mut posed);
             let of = |&(one, other, gives): &(usize, usize, f64)| (shape.depth(&posed, one, other) - gives).max(0.0);
             assert_eq!(shape.intrusion(&posed), shape.pairs.iter().map(of).sum::<f64>());

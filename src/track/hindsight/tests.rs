@@ -4,10 +4,11 @@ use rayon::ThreadPoolBuilder;
 
 use super::hypotheses::Limbs;
 use super::limb_search::{LimbSearch, SearchedFrame, TimeLeft};
-use super::mending::Mending;
+use super::mending::{Mending, SECTION, Section, order};
 use super::refining::Settled;
-use super::scorer::Scorer;
+use super::scorer::{Candidate, Scorer};
 use super::shape::{Posed, Shape};
+use super::team::Team;
 use super::tracks::Track;
 use super::window::Seen;
 use crate::body::Body;
@@ -75,10 +76,27 @@ impl Moving {
         work(Scorer::new(&mut cpu, &objective, &self.space, &shape, &SearchSettings::default()))
     }
 
+    /// What `work` makes of a second pass with so many who work side by side, on sections of so many frames.
+    fn with_mending<T>(&self, [count, section]: [usize; 2], work: impl FnOnce(Mending<'_>) -> T) -> T {
+        let mut cpus: Vec<Cpu> = (0..count).map(|_| Cpu::new(&self.body, &cameras_around()).unwrap()).collect();
+        let objective = Objective { w1: 1.0, w2: 0.0, ..Objective::of(ObjectiveKind::Ws) };
+        let shape = Shape::new(&self.body);
+        let settings = SearchSettings::default();
+        let scorers = cpus.iter_mut().map(|cpu| Scorer::new(cpu, &objective, &self.space, &shape, &settings));
+        let mut scorers: Vec<Scorer<'_>> = scorers.collect();
+        let team = if count == 1 { Team::alone(scorers.remove(0)) } else { Team::of(scorers, 1).unwrap() };
+        let mut mending = Mending::new(team, &self.space, &self.body, &cameras_around(), 25.0).unwrap();
+        mending.section = section;
+        work(mending)
+    }
+
     /// The second pass over a track.
     fn mended(&self, given: &[Vec<f32>]) -> Vec<Vec<f32>> {
-        self.with_scorer(|scorer| {
-            let mut mending = Mending::new(scorer, &self.body, &cameras_around(), 25.0).unwrap();
+        self.mended_by([1, SECTION], given)
+    }
+
+    fn mended_by(&self, team: [usize; 2], given: &[Vec<f32>]) -> Vec<Vec<f32>> {
+        self.with_mending(team, |mut mending| {
             let seen: Vec<&Seen> = self.seen.iter().collect();
             let settled = mending.mend(&seen, given, &[]).unwrap();
             settled.into_iter().map(|Settled { pose, .. }| pose).collect()
@@ -153,6 +171,81 @@ fn a_lost_limb_is_mended_and_a_kick_is_not_flattened() {
 
     let one = ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     assert!(one.install(|| kick.mended(&given)) == mended, "the number of threads counts");
+    let [alone, three] = [1, 3].map(|count| kick.mended_by([count, 4], &given));
+    assert!(alone == three, "the number of those who work side by side counts");
+}
+
+/// An arm that a track loses in the middle of a section, for long, is found by what comes from the sections around.
+#[test]
+fn tracks_go_on_into_the_next_section() {
+    const SECTION: usize = 2;
+    let reach = Moving::new(|t| vec![("left_shoulder.rx", 1.0 + 0.08 * t), ("left_elbow.ry", -0.4)]);
+    let seen: Vec<&Seen> = reach.seen.iter().collect();
+    let shoulder = dof(&reach.body, "left_shoulder.rx");
+    let mut given = reach.truth.clone();
+    given[4..6].iter_mut().for_each(|pose| pose[shoulder] = 0.0);
+    let steps = reach.space.spread(1.0 / 25.0).unwrap();
+    let limbs = Limbs::new(&reach.body, &cameras_around(), &reach.space);
+    reach.with_scorer(|mut scorer| {
+        let (seen, given) = (&seen[4..][..SECTION], &given[4..][..SECTION]);
+        let track = Track { limbs: &limbs, given, spread: &steps, steps: &steps, is_back: true };
+        let of = |scorer: &mut Scorer<'_>, t: usize, poses: &[&Vec<f32>]| {
+            scorer.observe(&reach.seen[t].observations).unwrap();
+            scorer.candidates(&poses.iter().map(|pose| (*pose).clone()).collect::<Vec<_>>()).unwrap()
+        };
+        let last = [7, 6].map(|t| Some(of(&mut scorer, t, &[&reach.truth[t]]).remove(0)));
+        // Where nobody knows the arm it is followed to the end, and where it is known no further.
+        for (known, followed) in [([false, false], 2), ([true, true], 1), ([true, false], 2)] {
+            let of_frame = |nth: usize| {
+                let right = &reach.truth[4 + nth];
+                if known[nth] { vec![&given[nth], right] } else { vec![&given[nth]] }
+            };
+            let mut candidates: Vec<_> = (0..SECTION).map(|nth| of(&mut scorer, 4 + nth, &of_frame(nth))).collect();
+            let before: usize = candidates.iter().map(Vec::len).sum();
+            track.go_on(&mut scorer, seen, &order(SECTION, true), last.clone(), &mut candidates).unwrap();
+            assert_eq!(candidates.iter().map(Vec::len).sum::<usize>(), before + followed, "{known:?}");
+            let errors = candidates.iter().enumerate().map(|(nth, of_frame)| {
+                let right = Shape::new(&reach.body).points(&reach.truth[4 + nth]);
+                let off = of_frame
+                    .iter()
+                    .map(|found| found.points.iter().zip(&right).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max));
+                off.fold(f64::INFINITY, f64::min)
+            });
+            let errors: Vec<f64> = errors.collect();
+            println!("{known:?}: {errors:.1?} mm");
+            assert!(errors[1] < 60.0 && errors[0] < 60.0, "{known:?}: {errors:?}");
+        }
+    });
+}
+
+/// A trunk that is turned far is tried straight, with the limbs that hang on it and no others; one that is turned by less is not.
+#[test]
+fn a_trunk_that_is_turned_far_is_tried_straight() {
+    let standing = Moving::new(|_| vec![("left_shoulder.rx", 0.8), ("right_shoulder.rx", -0.4)]);
+    let Moving { body, space, truth, .. } = &standing;
+    let limbs = Limbs::new(body, &cameras_around(), space);
+    let [turn, elbow, knee] = ["thorax.rz", "left_elbow.ry", "left_knee.ry"].map(|name| dof(body, name));
+    let turned = |share: f32| {
+        let mut pose = truth[0].clone();
+        pose[turn] = share * if share > 0.0 { space.upper()[turn] } else { -space.lower()[turn] };
+        pose
+    };
+    for share in [0.0, 0.4, -0.4] {
+        assert!(limbs.straightened(&turned(share), space).is_none(), "{share}");
+    }
+    for share in [0.6, -1.0] {
+        let pose = turned(share);
+        let (straight, hanging) = limbs.straightened(&pose, space).unwrap();
+        assert_eq!(straight, turned(0.0));
+        let other = vec![9.0; pose.len()];
+        let moved = |d: usize| hanging.iter().any(|&limb| limbs.with(limb, &pose, &other)[d] == 9.0);
+        assert!(moved(elbow) && !moved(knee), "{hanging:?}");
+    }
+    // Where the trunk is straight in the pictures, a track that begins with it turned ends straight in every frame.
+    let given: Vec<Vec<f32>> = vec![turned(0.9); FRAMES];
+    let (before, after) = (standing.errors(&given), standing.errors(&standing.mended(&given)));
+    println!("worst {:.1} to {:.1} mm", worst(&before), worst(&after));
+    assert!(worst(&before) > 200.0 && worst(&after) < 60.0, "{} to {}", worst(&before), worst(&after));
 }
 
 /// Both arms go up while the trunk bends and stay there, and the track knows nothing of it: nowhere before or after are they right, and one
@@ -197,11 +290,10 @@ fn an_arm_that_shakes_wins_over_one_that_lies_still() {
     }
     let weighed = |poses: &[Vec<f32>], bolder: &[Vec<f32>]| -> Vec<Vec<f32>> {
         let mut poses = settled(poses);
-        reach.with_scorer(|scorer| {
-            let mut mending = Mending::new(scorer, &reach.body, &cameras_around(), 25.0).unwrap();
-            let spread = mending.steps.clone();
+        reach.with_mending([1, SECTION], |mut mending| {
+            let sections = [Section { frames: 0..FRAMES, spread: mending.steps.clone() }];
             let seen: Vec<&Seen> = reach.seen.iter().collect();
-            mending.weigh_bolder(&seen, &spread, &settled(bolder), &mut poses).unwrap();
+            mending.weigh_bolder(&seen, &sections, &settled(bolder), &mut poses).unwrap();
         });
         poses.into_iter().map(|settled| settled.pose).collect()
     };
@@ -237,9 +329,12 @@ fn limbs_are_looked_for_once() {
                 scorer.observe(&seen.observations).unwrap();
                 candidates.push(scorer.candidates(std::slice::from_ref(pose)).unwrap());
             }
-            let forwards: Vec<usize> = (0..FRAMES).collect();
-            let back: Vec<usize> = forwards.iter().rev().copied().collect();
-            track(true).follow(&mut scorer, &seen, &back, &mut candidates).unwrap();
+            let given = candidates.iter().flatten().map(|candidate| candidate.worth);
+            let mut most = given.fold(f64::NEG_INFINITY, f64::max);
+            let mut follow = |scorer: &mut Scorer<'_>, candidates: &mut [Vec<Candidate>], is_back| {
+                track(is_back).follow(scorer, &seen, &order(FRAMES, is_back), &mut most, candidates).unwrap();
+            };
+            follow(&mut scorer, &mut candidates, true);
             let looked_into: Vec<bool> =
                 candidates.iter().map(|of_frame| of_frame.iter().any(|candidate| candidate.is_looked_into)).collect();
             assert_eq!(looked_into, (0..FRAMES).map(|t| t == POOR).collect::<Vec<_>>());
@@ -247,7 +342,7 @@ fn limbs_are_looked_for_once() {
                 candidates.iter_mut().flatten().for_each(|candidate| candidate.is_looked_into = false);
             }
             let before = scorer.scored;
-            track(false).follow(&mut scorer, &seen, &forwards, &mut candidates).unwrap();
+            follow(&mut scorer, &mut candidates, false);
             scorer.scored - before
         })
     });
@@ -303,6 +398,38 @@ fn a_limb_that_shows_elsewhere_is_suspicious() {
             assert!(!right.contains(&arm) && wrong.contains(&arm), "frame {}: {right:?}, {wrong:?}", seen.index);
         }
     });
+}
+
+/// A pose that was looked at on the way back, and of which nothing suspicious was said, is not looked at forwards; another one is.
+#[test]
+fn a_pose_is_looked_at_once() {
+    let reach = Moving::new(|t| vec![("left_shoulder.rx", 1.0 + 0.08 * t), ("left_elbow.ry", -0.4)]);
+    let shoulder = dof(&reach.body, "left_shoulder.rx");
+    let mut hidden = reach.truth.clone();
+    hidden.iter_mut().for_each(|pose| pose[shoulder] = 0.0);
+    let limbs = Limbs::new(&reach.body, &cameras_around(), &reach.space);
+    // In this frame another limb has its turn.
+    let at = (0..FRAMES).find(|index| {
+        let turned = limbs.with(index % limbs.count(), &hidden[0], &reach.truth[0]);
+        turned[shoulder] == hidden[0][shoulder]
+    });
+    let at = at.unwrap()..at.unwrap() + 1;
+    let narrow: Vec<f32> = reach.space.spread(1.0 / 25.0).unwrap().iter().map(|step| 0.05 * step).collect();
+    let seen: Vec<&Seen> = reach.seen[at.clone()].iter().collect();
+    let given = &hidden[at.clone()];
+    let track = Track { limbs: &limbs, given, spread: &narrow, steps: &narrow, is_back: false };
+    let found = [false, true].map(|is_looked_at| {
+        reach.with_scorer(|mut scorer| {
+            scorer.observe(&seen[0].observations).unwrap();
+            let mut candidates = vec![scorer.candidates(given).unwrap()];
+            candidates[0][0].is_looked_at = is_looked_at;
+            let mut most = candidates[0][0].worth;
+            let [_, last] = track.follow(&mut scorer, &seen, &[0], &mut most, &mut candidates).unwrap();
+            last.unwrap().pose[shoulder]
+        })
+    });
+    let right = reach.truth[at.start][shoulder];
+    assert!((found[0] - right).abs() < 0.2 && found[1] < 0.2, "{found:?} for {right}");
 }
 
 /// Where the only pass left an arm at the trunk, it is found in the same frame, with as many poses counted as were scored; a frame whose time is

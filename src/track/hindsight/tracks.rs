@@ -3,7 +3,9 @@
 
 use anyhow::Result;
 
+use super::bolder::apart;
 use super::hypotheses::Limbs;
+use super::mending::Section;
 use super::scorer::{Candidate, Effort, Pull, Scorer, most_under};
 use super::window::Seen;
 use crate::features::SeenView;
@@ -17,6 +19,10 @@ const CONVINCING: f64 = 8.0;
 const POOR: f64 = 12.0;
 /// What tells the random numbers of a track that is traced again from the others'.
 const RETRACED: u64 = 1000;
+/// The same of searches with a straight trunk.
+const STRAIGHTENED: u64 = 500;
+/// The same of one that goes on into the next section.
+const WENT_ON: u64 = 2000;
 /// Times that the limbs of a frame are looked for, and how many of those found are tried with all else moving along.
 const RESCUES: u64 = 3;
 const PROMISING: usize = 2;
@@ -29,6 +35,9 @@ const CALM: f64 = 0.5;
 /// Distance of a joint from which poses are different, mm.
 const DIFFERENT: f64 = 30.0;
 
+/// The last two poses of a track, the last one last.
+pub(super) type Ended = [Option<Candidate>; 2];
+
 /// How to track.
 pub(super) struct Track<'a> {
     pub(super) limbs: &'a Limbs,
@@ -40,8 +49,20 @@ pub(super) struct Track<'a> {
     pub(super) is_back: bool,
 }
 
-impl Track<'_> {
-    /// Tracks the frames in this order. What is found is added to the candidates of each, which are starts too.
+impl<'a> Track<'a> {
+    /// Through a section of a window, of which `given` were found.
+    pub(super) fn through(
+        limbs: &'a Limbs,
+        steps: &'a [f32],
+        given: &'a [Vec<f32>],
+        Section { frames, spread }: &'a Section,
+        is_back: bool,
+    ) -> Self {
+        Self { limbs, given: &given[frames.clone()], spread, steps, is_back }
+    }
+
+    /// Tracks the frames in this order. What is found is added to the candidates of each, which are starts too; `most` is what the best frame is
+    /// worth that is known. Where it ended.
     ///
     /// # Errors
     /// When the evaluator fails.
@@ -50,16 +71,24 @@ impl Track<'_> {
         scorer: &mut Scorer<'_>,
         seen: &[&Seen],
         order: &[usize],
+        most: &mut f64,
         candidates: &mut [Vec<Candidate>],
-    ) -> Result<()> {
-        let mut last: [Option<Candidate>; 2] = [None, None];
-        let mut most = candidates.iter().flatten().map(|candidate| candidate.worth).fold(f64::NEG_INFINITY, f64::max);
+    ) -> Result<Ended> {
+        let mut last: Ended = [None, None];
         for &t in order {
             let mut chosen = self.searched(scorer, seen[t], t, &last, &candidates[t], (0, 1.0))?;
             // Where the track the other way ended in this pose, having looked for its limbs, another look finds no more.
-            let is_known = candidates[t].iter().any(|known| known.is_looked_into && !is_different(known, &chosen));
-            let mut others = if is_known { Vec::new() } else { self.mended(scorer, seen[t], &mut chosen, most)? };
-            most = most.max(chosen.worth);
+            let is = |what: fn(&Candidate) -> bool| {
+                candidates[t].iter().any(|known| what(known) && !is_different(known, &chosen))
+            };
+            let [is_looked_at, is_looked_into] = [is(|known| known.is_looked_at), is(|known| known.is_looked_into)];
+            chosen.is_looked_at = is_looked_at;
+            let mut others =
+                if is_looked_into { Vec::new() } else { self.mended(scorer, seen[t], &mut chosen, *most)? };
+            if !is_looked_at && !is_looked_into {
+                others.extend(self.straightened(scorer, seen[t], &mut chosen)?);
+            }
+            *most = most.max(chosen.worth);
             if !self.is_back {
                 let twins = self.limbs.twins.iter();
                 let poses: Vec<_> =
@@ -78,6 +107,30 @@ impl Track<'_> {
             }
             last = [last[1].take(), Some(chosen)];
         }
+        Ok(last)
+    }
+
+    /// Goes on into these frames from the `last` two of others, up to where it comes to something that is known already. What is found is added to
+    /// the candidates.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
+    pub(super) fn go_on(
+        &self,
+        scorer: &mut Scorer<'_>,
+        seen: &[&Seen],
+        order: &[usize],
+        mut last: Ended,
+        candidates: &mut [Vec<Candidate>],
+    ) -> Result<()> {
+        for &t in order {
+            let found = self.searched(scorer, seen[t], t, &last, &candidates[t], (WENT_ON, 1.0))?;
+            let is_known = candidates[t].iter().any(|known| !apart(&known.points, &found.points));
+            add(found, &mut last, &mut candidates[t]);
+            if is_known {
+                break;
+            }
+        }
         Ok(())
     }
 
@@ -91,13 +144,12 @@ impl Track<'_> {
         scorer: &mut Scorer<'_>,
         seen: &[&Seen],
         order: &[usize],
-        mut last: [Option<Candidate>; 2],
+        mut last: Ended,
         candidates: &mut [Vec<Candidate>],
     ) -> Result<()> {
         for &t in order {
             let found = self.searched(scorer, seen[t], t, &last, &candidates[t], (RETRACED, CALM))?;
-            candidates[t].push(found.clone());
-            last = [last[1].take(), Some(found)];
+            add(found, &mut last, &mut candidates[t]);
         }
         Ok(())
     }
@@ -109,7 +161,7 @@ impl Track<'_> {
         scorer: &mut Scorer<'_>,
         seen: &Seen,
         t: usize,
-        last: &[Option<Candidate>; 2],
+        last: &Ended,
         known: &[Candidate],
         (number, share): (u64, f64),
     ) -> Result<Candidate> {
@@ -129,13 +181,7 @@ impl Track<'_> {
     }
 
     /// Where the frames before lead: starts, among them ones with single limbs of the track there is, and where joints are expected.
-    fn lead(
-        &self,
-        scorer: &Scorer<'_>,
-        t: usize,
-        [earlier, last]: &[Option<Candidate>; 2],
-        starts: &mut Vec<Vec<f32>>,
-    ) -> Option<Pull> {
+    fn lead(&self, scorer: &Scorer<'_>, t: usize, [earlier, last]: &Ended, starts: &mut Vec<Vec<f32>>) -> Option<Pull> {
         let last = last.as_ref()?;
         let mut ahead = last.pose.clone();
         let mut speeds = vec![0.0; last.points.len()];
@@ -165,12 +211,15 @@ impl Track<'_> {
     ) -> Result<Vec<Candidate>> {
         let suspicious = if chosen.worth < most - POOR {
             (0..self.limbs.count()).collect()
+        } else if chosen.is_looked_at {
+            Vec::new()
         } else {
             self.limbs.suspicious(scorer, seen, &chosen.pose)?
         };
         if !suspicious.is_empty() {
             return self.rescued(scorer, seen, chosen, &suspicious);
         }
+        chosen.is_looked_at = true;
         let index = seen.index;
         let mut others = Vec::new();
         let Some(limb) = index.checked_rem(self.limbs.count()) else { return Ok(others) };
@@ -184,6 +233,22 @@ impl Track<'_> {
             self.settle(scorer, index, chosen, &mut others)?;
         }
         Ok(others)
+    }
+
+    /// Looks for the limbs of a trunk that is turned far once more, with the trunk straight: where an arm was lost, the other one is reached with
+    /// a trunk turned the wrong way, which looks much the same by itself. What was found and not `chosen`.
+    fn straightened(&self, scorer: &mut Scorer<'_>, seen: &Seen, chosen: &mut Candidate) -> Result<Option<Candidate>> {
+        let Some((mut pose, limbs)) = self.limbs.straightened(&chosen.pose, scorer.space) else { return Ok(None) };
+        let views = SeenView::all(&seen.observations);
+        for &limb in limbs {
+            let turn = self.turn(STRAIGHTENED + 1 + limb as u64);
+            pose = self.limbs.ends_inward(scorer, &views, seen.index, limb, &pose, turn)?.pose;
+        }
+        let mut other = self.settled(scorer, seen.index, &pose, STRAIGHTENED)?;
+        if other.worth > chosen.worth + CONVINCING {
+            std::mem::swap(chosen, &mut other);
+        }
+        Ok(Some(other))
     }
 
     /// Looks for `limbs`, again and again as long as one is found. The most promising of them are tried with all else moving along, whatever
@@ -240,6 +305,12 @@ impl Track<'_> {
         let effort = Effort { spread: self.steps, generations: scorer.generations(ANEW), turn: self.turn(number) };
         scorer.search_all(index, pose, effort, None)
     }
+}
+
+/// Adds what a track found to the candidates of its frame.
+fn add(found: Candidate, last: &mut Ended, candidates: &mut Vec<Candidate>) {
+    candidates.push(found.clone());
+    *last = [last[1].take(), Some(found)];
 }
 
 fn is_different(one: &Candidate, other: &Candidate) -> bool {

@@ -4,22 +4,23 @@ use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread::{Builder, Scope, ScopedJoinHandle};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use image::RgbImage;
 
 use crate::features::Observation;
 use crate::geometry::Camera;
 use crate::track::appearance::RunAppearance;
-use crate::track::feed::{Frames, Prepared};
+use crate::track::feed::{Frames, Prepared, ended_well};
 
-/// Bytes that the observations of a window may take, and frames that it has at least and at most.
+/// Bytes that the observations of a window may take, and as many those of frames that are made while it is worked on; frames that it has at least
+/// and at most.
 const BYTES: usize = 512 << 20;
-const FRAMES: [usize; 2] = [8, 64];
-/// Bytes that frames may take which are made while a window is worked on, and what a pixel of them takes with evidence.
-const BYTES_AHEAD: usize = BYTES / 4;
+const FRAMES: [usize; 2] = [8, 256];
+/// What a pixel of them takes, with evidence.
 const BYTES_PER_PIXEL: usize = 5;
-/// Share of a window, as its inverse, that the next window sees again.
-const OVERLAP: usize = 4;
+/// Frames of a window that the next one sees again, and at most which share of it, as its inverse.
+const OVERLAP: usize = 16;
+const SHARE: usize = 4;
 
 /// What was seen in a frame.
 pub(super) struct Seen {
@@ -53,7 +54,7 @@ impl<'scope> Windows<'scope> {
         pictures_every: usize,
     ) -> Result<Self> {
         let pixels: usize = cameras.iter().map(|camera| camera.size[0] as usize * camera.size[1] as usize).sum();
-        let ahead = BYTES_AHEAD / (BYTES_PER_PIXEL * pixels).max(1);
+        let ahead = BYTES / (BYTES_PER_PIXEL * pixels).max(1);
         let (sender, made) = sync_channel(ahead.clamp(1, FRAMES[1]));
         let send_all = move || {
             // Without a receiver nobody wants more.
@@ -77,9 +78,7 @@ impl<'scope> Windows<'scope> {
         while !self.is_over && self.seen.len() < self.size {
             let Ok(seen) = self.made.recv() else {
                 self.is_over = true;
-                if let Some(Err(_)) = self.thread.take().map(ScopedJoinHandle::join) {
-                    bail!("the thread for the frames of the second pass failed; its message stands above");
-                }
+                ended_well(self.thread.take().map(ScopedJoinHandle::join), "the frames of the second pass")?;
                 break;
             };
             let seen = seen?;
@@ -97,7 +96,8 @@ impl<'scope> Windows<'scope> {
 
     /// How many of its frames are settled with it: the others are seen again in the next.
     pub(super) fn settled(&self) -> usize {
-        if self.is_over { self.seen.len() } else { self.seen.len() - self.seen.len() / OVERLAP }
+        let count = self.seen.len();
+        if self.is_over { count } else { count - OVERLAP.min(count / SHARE) }
     }
 
     /// Forgets the first frames.
@@ -186,9 +186,9 @@ mod tests {
         let made = |until| Made { given: 0, until, end: || Ok(None) };
         assert_eq!(windows(made(0)).unwrap(), Vec::<[Vec<usize>; 2]>::new());
         assert_eq!(windows(made(3)).unwrap(), [[vec![0, 1, 2], vec![0]]]);
-        // Small frames fill windows of 64, of which 48 are settled.
-        let found = windows(made(100)).unwrap();
-        let expected = [(0..64, 0), (48..100, 50)];
+        // Small frames fill windows of 256, of which 240 are settled.
+        let found = windows(made(300)).unwrap();
+        let expected = [(0..256, 0), (240..300, 240)];
         assert_eq!(found.len(), 2);
         for ([indices, shown], (range, first)) in found.into_iter().zip(expected) {
             assert_eq!(indices, range.clone().collect::<Vec<_>>());

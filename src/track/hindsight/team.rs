@@ -1,0 +1,174 @@
+//! Work on frames of a window side by side. A generation is too small to be shared by more than a few threads, so each piece of work has an
+//! evaluator and threads of its own; what comes of it does not depend on how many there are.
+
+use std::panic::resume_unwind;
+use std::sync::{Mutex, PoisonError};
+use std::thread::{Builder, scope};
+
+use anyhow::{Context, Result};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use super::on_the_pool;
+use super::scorer::Scorer;
+use crate::body::{Body, Mesh};
+use crate::evaluate::Evaluator;
+use crate::evaluate::cpu::{Cpu, InstructionSet};
+use crate::geometry::Camera;
+use crate::track::Backend;
+
+/// Those who work side by side.
+pub(super) struct Team<'a> {
+    members: Vec<Member<'a>>,
+}
+
+struct Member<'a> {
+    scorer: Scorer<'a>,
+    /// Its threads; none where it has all there are.
+    threads: Option<ThreadPool>,
+}
+
+impl<'a> Team<'a> {
+    /// One with all threads.
+    pub(super) fn alone(scorer: Scorer<'a>) -> Self {
+        Self { members: vec![Member { scorer, threads: None }] }
+    }
+
+    /// As many as there are scorers, with `threads` each.
+    ///
+    /// # Errors
+    /// When a thread cannot be started.
+    pub(super) fn of(scorers: impl IntoIterator<Item = Scorer<'a>>, threads: usize) -> Result<Self> {
+        let member = |(at, scorer)| {
+            let named = ThreadPoolBuilder::new().thread_name(move |nth| format!("second pass {at}.{nth}"));
+            let threads = named.num_threads(threads).build().context("cannot start the threads of the second pass")?;
+            Ok(Member { scorer, threads: Some(threads) })
+        };
+        Ok(Self { members: scorers.into_iter().enumerate().map(member).collect::<Result<_>>()? })
+    }
+
+    /// Has every job done by one of them, and hands on what comes of each in the order of the jobs.
+    ///
+    /// # Errors
+    /// When one fails: that of the first job that does.
+    pub(super) fn share<J: Send, T: Send>(
+        &mut self,
+        jobs: impl Iterator<Item = J> + Send,
+        work: impl Fn(&mut Scorer<'_>, J) -> Result<T> + Sync,
+    ) -> Result<Vec<T>> {
+        if let [Member { scorer, threads: None }] = &mut self.members[..] {
+            return on_the_pool(|| jobs.map(|job| work(scorer, job)).collect());
+        }
+        let jobs = Mutex::new(jobs.enumerate());
+        let next = || jobs.lock().unwrap_or_else(PoisonError::into_inner).next();
+        let take_turns = |scorer: &mut Scorer<'_>| {
+            let mut done = Vec::new();
+            while let Some((at, job)) = next() {
+                done.push((at, work(scorer, job)));
+            }
+            done
+        };
+        let take_turns = &take_turns;
+        let mut done = scope(|scope| {
+            let mut started = Vec::new();
+            for Member { scorer, threads } in &mut self.members {
+                let turns = move || match threads {
+                    Some(threads) => threads.install(|| take_turns(scorer)),
+                    None => take_turns(scorer),
+                };
+                started.push(
+                    Builder::new().spawn_scoped(scope, turns).context("cannot start a thread of the second pass")?,
+                );
+            }
+            let ended = started.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
+            anyhow::Ok(ended.flatten().collect::<Vec<_>>())
+        })?;
+        done.sort_unstable_by_key(|(at, _)| *at);
+        done.into_iter().map(|(_, result)| result).collect()
+    }
+}
+
+/// The instructions by which the processor does the second pass in a device's place, to the same integers: a generation is too small for a
+/// device. None where it draws other pixels, or has no vector instructions and is slower.
+pub(in crate::track) fn in_place_of(run: &dyn Evaluator) -> Option<InstructionSet> {
+    let set = InstructionSet::best();
+    (run.name() == Backend::Compute.name() && set != InstructionSet::Portable).then_some(set)
+}
+
+/// Evaluators on the processor that work side by side on so many `pieces` of a run's second pass, and the threads of each: as many as there
+/// is work for, with `all` threads together. None where the `run`'s own works alone.
+///
+/// # Errors
+/// When they cannot be made.
+pub(super) fn side_by_side(
+    run: &dyn Evaluator,
+    body: &Body,
+    mesh: Option<&Mesh>,
+    cameras: &[Camera],
+    [pieces, all]: [usize; 2],
+) -> Result<(Vec<Cpu>, usize)> {
+    let count = all.min(pieces).max(1);
+    let threads = all / count;
+    let can_share = count > 1 && run.name() == Backend::Cpu.name();
+    if !can_share && in_place_of(run).is_none() {
+        return Ok((Vec::new(), all));
+    }
+    let set = InstructionSet::best();
+    let one = |_| match mesh {
+        None => Cpu::with(body, cameras, set, threads),
+        Some(mesh) => Cpu::of_mesh_with(body, mesh.clone(), cameras, set, threads),
+    };
+    Ok(((0..count).map(one).collect::<Result<_>>()?, threads))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use anyhow::bail;
+
+    use super::*;
+    use crate::evaluate::{Objective, ObjectiveKind, Reference};
+    use crate::search::{SearchSettings, SearchSpace};
+    use crate::track::fit_tests::cameras_around;
+    use crate::track::hindsight::shape::Shape;
+
+    /// Those who come to the end first wait for nobody, and still what they did stands in the order of the jobs, as does what fails.
+    #[test]
+    fn what_is_shared_comes_back_in_order() {
+        let body = Body::adult(1750.0).unwrap();
+        let space = SearchSpace::of(&body).unwrap();
+        let (objective, shape) = (Objective::of(ObjectiveKind::Ws), Shape::new(&body));
+        let settings = SearchSettings::default();
+        let mut cpus: Vec<Cpu> =
+            (0..3).map(|_| Cpu::with(&body, &cameras_around(), InstructionSet::best(), 1).unwrap()).collect();
+        let scorers = cpus.iter_mut().map(|cpu| Scorer::new(cpu, &objective, &space, &shape, &settings));
+        let mut team = Team::of(scorers, 1).unwrap();
+        let slow_first = |job: u64| std::thread::sleep(Duration::from_millis(20 - job));
+        let doubled = team.share(0..20, |_, job| {
+            slow_first(job);
+            Ok(2 * job)
+        });
+        assert_eq!(doubled.unwrap(), (0..20).map(|job| 2 * job).collect::<Vec<_>>());
+        assert!(team.share(0..0, |_, job: u64| Ok(job)).unwrap().is_empty());
+        let failed = team.share(0..20, |_, job| {
+            slow_first(job);
+            if job % 5 == 3 { bail!("job {job}") } else { Ok(()) }
+        });
+        assert_eq!(failed.unwrap_err().to_string(), "job 3");
+    }
+
+    #[test]
+    fn a_run_on_the_processor_is_shared_and_a_slow_one_is_not() {
+        let body = Body::adult(1750.0).unwrap();
+        let cameras = cameras_around();
+        let reference = Reference::new(&body, &cameras);
+        let cpu = Cpu::new(&body, &cameras).unwrap();
+        let shared = |run: &dyn Evaluator, pieces: usize| {
+            let (members, threads) = side_by_side(run, &body, None, &cameras, [pieces, 6]).unwrap();
+            (members.len(), threads)
+        };
+        assert_eq!(shared(&reference, 10), (0, 6));
+        assert_eq!([1, 2, 5, 10].map(|pieces| shared(&cpu, pieces)), [(0, 6), (2, 3), (5, 1), (6, 1)]);
+        assert!(in_place_of(&reference).is_none() && in_place_of(&cpu).is_none());
+    }
+}
