@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail};
 
 use super::features_made::FeaturesMade;
 use super::feed::Keeps;
-use super::hindsight::in_place_of;
+use super::passes::in_place_of;
 use super::searcher::Searcher;
 use super::smoothed::smoothing;
 use super::{BuiltBackend, Drawing, Passes, TrackSettings};

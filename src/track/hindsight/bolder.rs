@@ -4,16 +4,14 @@
 use std::ops::Range;
 
 use anyhow::Result;
-use glam::DVec3;
 
-use super::mending::{BOLDER, Mending, Section, choose, jerk, order};
+use super::mending::{BOLDER, Mending, choose, jerk};
 use super::refining::{self, Settled};
-use super::scorer::Candidate;
+use super::scorer::{Candidate, apart};
+use super::section::{Section, order};
 use super::tracks::Track;
 use super::window::Seen;
 
-/// From which distance of a joint on both are apart, mm.
-const APART: f64 = 100.0;
 /// Times that the bolder path is searched again, before it is weighed.
 const ROUNDS: usize = 4;
 
@@ -113,11 +111,6 @@ impl Mending<'_> {
         }
         Ok(())
     }
-}
-
-/// Whether two poses have a joint far apart.
-pub(super) fn apart(one: &[DVec3], other: &[DVec3]) -> bool {
-    one.iter().zip(other).any(|(a, b)| a.distance(*b) > APART)
 }
 
 /// The frames in a row that are marked, with `reach` of them on either side.

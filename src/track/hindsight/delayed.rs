@@ -6,10 +6,10 @@ use std::collections::VecDeque;
 use anyhow::Result;
 
 use super::mending::widths;
-use super::on_the_pool;
 use super::refining::{self, Settled};
 use super::scorer::Scorer;
 use super::shape::Shape;
+use super::team::on_the_pool;
 use crate::body::Body;
 use crate::track::confidence::JointProbe;
 use crate::track::feed::Prepared;

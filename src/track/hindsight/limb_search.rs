@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 
 use super::hypotheses::Limbs;
-use super::on_the_pool;
 use super::scorer::{Candidate, Effort, Scorer};
 use super::shape::Shape;
+use super::team::on_the_pool;
 use crate::body::Body;
 use crate::evaluate::{Evaluator, Objective};
 use crate::features::SeenView;

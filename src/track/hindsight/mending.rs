@@ -1,7 +1,5 @@
 //! The frames of a window together: tracks through them, the path that is worth most, every frame searched again beside its neighbours.
 
-use std::ops::Range;
-
 use anyhow::Result;
 use glam::DVec3;
 
@@ -9,6 +7,7 @@ use super::hypotheses::Limbs;
 use super::path::best_path;
 use super::refining::{self, Settled};
 use super::scorer::{Candidate, robust};
+use super::section::{SECTION, Section, order};
 use super::team::Team;
 use super::tracks::{Ended, Track};
 use super::window::Seen;
@@ -16,8 +15,6 @@ use crate::body::Body;
 use crate::geometry::Camera;
 use crate::search::SearchSpace;
 
-/// Frames of a section: tracks go through sections side by side, and on into the next ones where they lead to something else there.
-pub(super) const SECTION: usize = 32;
 /// Frames on either side of a section that tell how widely to search it.
 const AROUND: usize = 24;
 
@@ -42,14 +39,6 @@ pub(super) struct Mending<'a> {
     pub(super) reach: usize,
     /// How many frames a section has.
     pub(super) section: usize,
-}
-
-/// Some frames of a window in a row.
-#[derive(Clone, Debug)]
-pub(super) struct Section {
-    pub(super) frames: Range<usize>,
-    /// How widely to search them.
-    pub(super) spread: Vec<f32>,
 }
 
 impl<'a> Mending<'a> {
@@ -131,11 +120,6 @@ impl<'a> Mending<'a> {
         })?;
         Ok(met.into_iter().flatten().collect())
     }
-}
-
-/// The places of so many frames in the order of a track.
-pub(super) fn order(count: usize, is_back: bool) -> Vec<usize> {
-    if is_back { (0..count).rev().collect() } else { (0..count).collect() }
 }
 
 /// What it costs joints to be at `a`, `b` and `c` one after the other, where they may jerk `bolder` times as far as usual.

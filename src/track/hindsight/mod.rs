@@ -10,6 +10,7 @@ mod mending;
 mod path;
 mod refining;
 mod scorer;
+mod section;
 mod shape;
 mod team;
 mod tracks;
@@ -20,11 +21,11 @@ use image::RgbImage;
 
 pub(super) use self::delayed::Delayed;
 pub(super) use self::limb_search::{LimbSearch, SearchedFrame, TimeLeft};
-use self::mending::{Mending, SECTION};
+use self::mending::Mending;
 use self::refining::Settled;
 use self::scorer::Scorer;
+use self::section::SECTION;
 use self::shape::Shape;
-pub(super) use self::team::in_place_of;
 use self::team::{Team, side_by_side};
 use self::window::{Seen, Windows};
 use super::appearance::RunAppearance;
@@ -111,12 +112,6 @@ impl Hindsight<'_> {
             }
         })
     }
-}
-
-/// Does work that shares out small pieces, a generation's costs, on a thread of the pool: from any other each piece would wait for one to
-/// wake up, or to be done with the features of a frame.
-fn on_the_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    rayon::scope(|_| work())
 }
 
 /// The result of a frame that was searched again, from that of its first search.

@@ -4,8 +4,8 @@
 use anyhow::Result;
 use glam::DVec3;
 
-use super::mending::Section;
 use super::scorer::{Candidate, Effort, Pull, Scorer, most_under};
+use super::section::Section;
 use super::team::Team;
 use super::window::Seen;
 use crate::features::Observation;

@@ -22,6 +22,8 @@ pub(super) const MATCH: f64 = 300.0;
 const LEAST: f64 = 1e-6;
 /// Cost of a millimetre by which parts stand in each other.
 const INTRUSION: f64 = 0.1;
+/// From which distance of a joint on two poses are apart, mm.
+const APART: f64 = 100.0;
 /// Deviations from which on a joint that is elsewhere costs little more.
 const ROBUST: f64 = 3.0;
 
@@ -60,6 +62,11 @@ pub(super) struct Candidate {
     pub(super) is_looked_at: bool,
     /// Whether it is what came of looking for its limbs.
     pub(super) is_looked_into: bool,
+}
+
+/// Whether two poses have a joint far apart.
+pub(super) fn apart(one: &[DVec3], other: &[DVec3]) -> bool {
+    one.iter().zip(other).any(|(a, b)| a.distance(*b) > APART)
 }
 
 /// The index of the candidate that is worth most under a pull, or by itself; of equals the first.

@@ -8,13 +8,13 @@ use std::thread::{Builder, scope};
 use anyhow::{Context, Result};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::on_the_pool;
 use super::scorer::Scorer;
 use crate::body::{Body, Mesh};
 use crate::evaluate::Evaluator;
 use crate::evaluate::cpu::{Cpu, InstructionSet};
 use crate::geometry::Camera;
 use crate::track::Backend;
+use crate::track::passes::in_place_of;
 
 /// Those who work side by side.
 pub(super) struct Team<'a> {
@@ -87,11 +87,10 @@ impl<'a> Team<'a> {
     }
 }
 
-/// The instructions by which the processor does the second pass in a device's place, to the same integers: a generation is too small for a
-/// device. None where it draws other pixels, or has no vector instructions and is slower.
-pub(in crate::track) fn in_place_of(run: &dyn Evaluator) -> Option<InstructionSet> {
-    let set = InstructionSet::best();
-    (run.name() == Backend::Compute.name() && set != InstructionSet::Portable).then_some(set)
+/// Does work that shares out small pieces, a generation's costs, on a thread of the pool: from any other each piece would wait for one to
+/// wake up, or to be done with the features of a frame.
+pub(super) fn on_the_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    rayon::scope(|_| work())
 }
 
 /// Evaluators on the processor that work side by side on so many `pieces` of a run's second pass, and the threads of each: as many as there

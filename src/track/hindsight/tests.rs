@@ -4,9 +4,10 @@ use rayon::ThreadPoolBuilder;
 
 use super::hypotheses::Limbs;
 use super::limb_search::{LimbSearch, SearchedFrame, TimeLeft};
-use super::mending::{Mending, SECTION, Section, order};
+use super::mending::Mending;
 use super::refining::Settled;
 use super::scorer::{Candidate, Scorer};
+use super::section::{SECTION, Section, order};
 use super::shape::{Posed, Shape};
 use super::team::Team;
 use super::tracks::Track;

@@ -3,10 +3,9 @@
 
 use anyhow::Result;
 
-use super::bolder::apart;
 use super::hypotheses::Limbs;
-use super::mending::Section;
-use super::scorer::{Candidate, Effort, Pull, Scorer, most_under};
+use super::scorer::{Candidate, Effort, Pull, Scorer, apart, most_under};
+use super::section::Section;
 use super::window::Seen;
 use crate::features::SeenView;
 
