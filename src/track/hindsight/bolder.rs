@@ -29,7 +29,7 @@ impl Mending<'_> {
         before: &[Settled],
         candidates: &mut [Vec<Candidate>],
     ) -> Result<()> {
-        let Self { team, limbs, steps, section, .. } = self;
+        let Self { team, limbs, steps, .. } = self;
         let [calm, bold] = [1.0, BOLDER].map(|bolder| choose(candidates, before, bolder));
         let of_path = |path: &[usize]| -> Vec<Candidate> {
             candidates.iter().zip(path).map(|(candidates, &chosen)| candidates[chosen].clone()).collect()
@@ -51,7 +51,9 @@ impl Mending<'_> {
                 (sure(), (best + 1 - start..count).collect(), false),
                 (sure(), order(best - start, true), true),
             ];
-            let spread = &sections[best / *section].spread;
+            let Some(Section { spread, .. }) = sections.iter().find(|section| section.frames.contains(&best)) else {
+                return Ok(candidates);
+            };
             for (last, order, is_back) in ways {
                 let track = Track { limbs, given: &given[stretch.clone()], spread, steps, is_back };
                 if last[1].is_some() {

@@ -7,7 +7,7 @@ use super::hypotheses::Limbs;
 use super::path::best_path;
 use super::refining::{self, Settled};
 use super::scorer::{Candidate, robust};
-use super::section::{SECTION, Section, order};
+use super::section::{SECTION, Section, order, pieces};
 use super::team::Team;
 use super::tracks::{Ended, Track};
 use super::window::Seen;
@@ -37,7 +37,7 @@ pub(super) struct Mending<'a> {
     pub(super) steps: Vec<f32>,
     /// How many frames on either side tell of a frame.
     pub(super) reach: usize,
-    /// How many frames a section has.
+    /// How many frames a section has at least.
     pub(super) section: usize,
 }
 
@@ -75,12 +75,13 @@ impl<'a> Mending<'a> {
 
     /// The sections of a window.
     pub(super) fn sections(&self, given: &[Vec<f32>]) -> Vec<Section> {
-        let section = |start: usize| {
-            let end = (start + self.section).min(given.len());
+        let count = pieces(given.len(), self.section);
+        let section = |nth: usize| {
+            let [start, end] = [nth, nth + 1].map(|nth| nth * given.len() / count);
             let around = start.saturating_sub(AROUND)..(end + AROUND).min(given.len());
             Section { frames: start..end, spread: widths(&self.steps, &given[around]) }
         };
-        (0..given.len()).step_by(self.section).map(section).collect()
+        (0..count).map(section).collect()
     }
 
     /// What tracks find through each section, both ways, and where they go on into the next.

@@ -24,7 +24,7 @@ pub(super) use self::limb_search::{LimbSearch, SearchedFrame, TimeLeft};
 use self::mending::Mending;
 use self::refining::Settled;
 use self::scorer::Scorer;
-use self::section::SECTION;
+use self::section::{SECTION, pieces};
 use self::shape::Shape;
 use self::team::{Team, side_by_side};
 use self::window::{Seen, Windows};
@@ -71,7 +71,7 @@ impl Hindsight<'_> {
             let mut windows = Windows::begin(scope, feed, appearance, self.cameras, self.pictures_every)?;
             windows.fill()?;
             let run = backend.evaluator.as_mut();
-            let pieces = windows.seen().len().div_ceil(SECTION);
+            let pieces = pieces(windows.seen().len(), SECTION);
             let shares = [pieces, rayon::current_num_threads()];
             let (mut others, threads) = side_by_side(run, body, mesh.as_ref(), self.cameras, shares)?;
             let scorer = |evaluator| Scorer::new(evaluator, objective, space, &shape, &settings);

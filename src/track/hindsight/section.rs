@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-/// Frames of a section: tracks go through sections side by side, and on into the next ones where they lead to something else there.
-pub(super) const SECTION: usize = 32;
+/// Frames that a section has at least, in a window of as many: tracks go through sections side by side, and on into the next ones where they lead
+/// to something else there. A track that begins in the middle of a quick turn does not find what one does that comes from before it.
+pub(super) const SECTION: usize = 64;
 
 /// Some frames of a window in a row.
 #[derive(Clone, Debug)]
@@ -11,6 +12,11 @@ pub(super) struct Section {
     pub(super) frames: Range<usize>,
     /// How widely to search them.
     pub(super) spread: Vec<f32>,
+}
+
+/// How many sections of at least so many frames a window has.
+pub(super) fn pieces(frames: usize, least: usize) -> usize {
+    (frames / least).max(1)
 }
 
 /// The places of so many frames in the order of a track.
