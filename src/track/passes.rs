@@ -15,9 +15,27 @@ choices! {
     }
 }
 
-/// The instructions by which the processor does the second pass in a device's place, to the same integers: a generation is too small for a
-/// device. None where it draws other pixels, or has no vector instructions and is slower.
-pub(super) fn in_place_of(run: &dyn Evaluator) -> Option<InstructionSet> {
-    let set = InstructionSet::best();
-    (run.name() == Backend::Compute.name() && set != InstructionSet::Portable).then_some(set)
+/// Who does the second pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum SecondPass {
+    /// The run's own evaluator, alone: it draws other pixels than the processor, or there is nobody faster.
+    Run,
+    /// The run's own, the processor's, or several like it side by side.
+    Alike,
+    /// The processor, with these instructions, in a device's place and to the same integers: a generation is too small for a device.
+    InPlace(InstructionSet),
+}
+
+impl SecondPass {
+    /// Of a run with this evaluator.
+    pub(super) fn of(run: &dyn Evaluator) -> Self {
+        let set = InstructionSet::best();
+        if run.name() == Backend::Cpu.name() {
+            Self::Alike
+        } else if run.name() == Backend::Compute.name() && set != InstructionSet::Portable {
+            Self::InPlace(set)
+        } else {
+            Self::Run
+        }
+    }
 }

@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail};
 
 use super::features_made::FeaturesMade;
 use super::feed::Keeps;
-use super::passes::in_place_of;
+use super::passes::SecondPass;
 use super::searcher::Searcher;
 use super::smoothed::smoothing;
 use super::{BuiltBackend, Drawing, Passes, TrackSettings};
@@ -78,7 +78,8 @@ impl Plan {
         if let Some(note) = &made.note {
             backend.reason = format!("{}; {note}", backend.reason);
         }
-        if let (Passes::Both, Some(set)) = (settings.passes(), in_place_of(backend.evaluator.as_ref())) {
+        let second = SecondPass::of(backend.evaluator.as_ref());
+        if let (Passes::Both, SecondPass::InPlace(set)) = (settings.passes(), second) {
             let with = set.name();
             backend.reason =
                 format!("{}; the second pass is the processor's, with {with} instructions", backend.reason);

@@ -97,28 +97,26 @@ impl<'a> Mending<'a> {
             let seen = &seen[section.frames.clone()];
             let mut candidates = first[section.frames.clone()].to_vec();
             let mut most = most;
-            let mut ends = Vec::new();
-            for is_back in [true, false] {
+            let mut follow = |is_back: bool| {
                 let track = Track::through(limbs, steps, given, section, is_back);
-                ends.push(track.follow(scorer, seen, &order(seen.len(), is_back), &mut most, &mut candidates)?);
-            }
+                track.follow(scorer, seen, &order(seen.len(), is_back), &mut most, &mut candidates)
+            };
+            let ends = [follow(true)?, follow(false)?];
             Ok((candidates, ends))
         })?;
-        let sections = sections.iter().enumerate();
-        let met = team.share(sections, |scorer, (at, section)| {
-            let seen = &seen[section.frames.clone()];
-            let mut candidates = found[at].0.clone();
-            let came: [Option<&Ended>; 2] =
-                [found.get(at + 1).map(|(_, ends)| &ends[0]), at.checked_sub(1).map(|before| &found[before].1[1])];
-            for (came, is_back) in came.into_iter().zip([true, false]) {
-                if let Some(last) = came {
-                    let track = Track::through(limbs, steps, given, section, is_back);
-                    let order = order(seen.len(), is_back);
-                    track.go_on(scorer, seen, &order, last.clone(), &mut candidates)?;
+        let (candidates, ends): (Vec<_>, Vec<[Ended; 2]>) = found.into_iter().unzip();
+        let met =
+            team.share(sections.iter().zip(candidates).enumerate(), |scorer, (at, (section, mut candidates))| {
+                let seen = &seen[section.frames.clone()];
+                let came = [ends.get(at + 1).map(|[back, _]| back), at.checked_sub(1).map(|before| &ends[before][1])];
+                for (came, is_back) in came.into_iter().zip([true, false]) {
+                    if let Some(last) = came {
+                        let track = Track::through(limbs, steps, given, section, is_back);
+                        track.go_on(scorer, seen, &order(seen.len(), is_back), last.clone(), &mut candidates)?;
+                    }
                 }
-            }
-            Ok(candidates)
-        })?;
+                Ok(candidates)
+            })?;
         Ok(met.into_iter().flatten().collect())
     }
 }

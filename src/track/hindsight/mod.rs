@@ -14,6 +14,8 @@ mod section;
 mod shape;
 mod team;
 mod tracks;
+#[cfg(test)]
+mod tracks_tests;
 mod window;
 
 use anyhow::{Context, Result};
@@ -72,13 +74,13 @@ impl Hindsight<'_> {
             windows.fill()?;
             let run = backend.evaluator.as_mut();
             let pieces = pieces(windows.seen().len(), SECTION);
-            let shares = [pieces, rayon::current_num_threads()];
-            let (mut others, threads) = side_by_side(run, body, mesh.as_ref(), self.cameras, shares)?;
+            let all = rayon::current_num_threads();
+            let mut others = side_by_side(run, body, mesh.as_ref(), self.cameras, [pieces, all])?;
             let scorer = |evaluator| Scorer::new(evaluator, objective, space, &shape, &settings);
             let team = if others.is_empty() {
-                Team::alone(scorer(run))
+                Team::of([scorer(run)].into_iter(), all)?
             } else {
-                Team::of(others.iter_mut().map(|cpu| scorer(cpu)), threads)?
+                Team::of(others.iter_mut().map(|cpu| scorer(cpu)), all)?
             };
             let mut mending = Mending::new(team, space, body, self.cameras, self.fps)?;
             // Poses of the window before that are not settled yet, and the last that are.

@@ -13,8 +13,7 @@ use crate::body::{Body, Mesh};
 use crate::evaluate::Evaluator;
 use crate::evaluate::cpu::{Cpu, InstructionSet};
 use crate::geometry::Camera;
-use crate::track::Backend;
-use crate::track::passes::in_place_of;
+use crate::track::passes::SecondPass;
 
 /// Those who work side by side.
 pub(super) struct Team<'a> {
@@ -28,22 +27,21 @@ struct Member<'a> {
 }
 
 impl<'a> Team<'a> {
-    /// One with all threads.
-    pub(super) fn alone(scorer: Scorer<'a>) -> Self {
-        Self { members: vec![Member { scorer, threads: None }] }
-    }
-
-    /// As many as there are scorers, with `threads` each.
+    /// The scorers, with an even share of `all` threads each; one by itself has those of the pool it is called on.
     ///
     /// # Errors
     /// When a thread cannot be started.
-    pub(super) fn of(scorers: impl IntoIterator<Item = Scorer<'a>>, threads: usize) -> Result<Self> {
-        let member = |(at, scorer)| {
+    pub(super) fn of(scorers: impl ExactSizeIterator<Item = Scorer<'a>>, all: usize) -> Result<Self> {
+        let count = scorers.len();
+        let threads = |at: usize| {
+            if count == 1 {
+                return Ok(None);
+            }
             let named = ThreadPoolBuilder::new().thread_name(move |nth| format!("second pass {at}.{nth}"));
-            let threads = named.num_threads(threads).build().context("cannot start the threads of the second pass")?;
-            Ok(Member { scorer, threads: Some(threads) })
+            named.num_threads(all / count).build().map(Some).context("cannot start the threads of the second pass")
         };
-        Ok(Self { members: scorers.into_iter().enumerate().map(member).collect::<Result<_>>()? })
+        let member = |(at, scorer)| Ok(Member { scorer, threads: threads(at)? });
+        Ok(Self { members: scorers.enumerate().map(member).collect::<Result<_>>()? })
     }
 
     /// Has every job done by one of them, and hands on what comes of each in the order of the jobs.
@@ -93,8 +91,8 @@ pub(super) fn on_the_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     rayon::scope(|_| work())
 }
 
-/// Evaluators on the processor that work side by side on so many `pieces` of a run's second pass, and the threads of each: as many as there
-/// is work for, with `all` threads together. None where the `run`'s own works alone.
+/// Evaluators on the processor that work side by side on so many `pieces` of a run's second pass: as many as there is work for, with an even share
+/// of `all` threads each. None where the `run`'s own works alone.
 ///
 /// # Errors
 /// When they cannot be made.
@@ -104,19 +102,18 @@ pub(super) fn side_by_side(
     mesh: Option<&Mesh>,
     cameras: &[Camera],
     [pieces, all]: [usize; 2],
-) -> Result<(Vec<Cpu>, usize)> {
+) -> Result<Vec<Cpu>> {
     let count = all.min(pieces).max(1);
-    let threads = all / count;
-    let can_share = count > 1 && run.name() == Backend::Cpu.name();
-    if !can_share && in_place_of(run).is_none() {
-        return Ok((Vec::new(), all));
-    }
-    let set = InstructionSet::best();
-    let one = |_| match mesh {
-        None => Cpu::with(body, cameras, set, threads),
-        Some(mesh) => Cpu::of_mesh_with(body, mesh.clone(), cameras, set, threads),
+    let set = match SecondPass::of(run) {
+        SecondPass::InPlace(set) => set,
+        SecondPass::Alike if count > 1 => InstructionSet::best(),
+        SecondPass::Alike | SecondPass::Run => return Ok(Vec::new()),
     };
-    Ok(((0..count).map(one).collect::<Result<_>>()?, threads))
+    let one = |_| match mesh {
+        None => Cpu::with(body, cameras, set, all / count),
+        Some(mesh) => Cpu::of_mesh_with(body, mesh.clone(), cameras, set, all / count),
+    };
+    (0..count).map(one).collect()
 }
 
 #[cfg(test)]
@@ -141,7 +138,7 @@ mod tests {
         let mut cpus: Vec<Cpu> =
             (0..3).map(|_| Cpu::with(&body, &cameras_around(), InstructionSet::best(), 1).unwrap()).collect();
         let scorers = cpus.iter_mut().map(|cpu| Scorer::new(cpu, &objective, &space, &shape, &settings));
-        let mut team = Team::of(scorers, 1).unwrap();
+        let mut team = Team::of(scorers, 3).unwrap();
         let slow_first = |job: u64| std::thread::sleep(Duration::from_millis(20 - job));
         let doubled = team.share(0..20, |_, job| {
             slow_first(job);
@@ -162,12 +159,10 @@ mod tests {
         let cameras = cameras_around();
         let reference = Reference::new(&body, &cameras);
         let cpu = Cpu::new(&body, &cameras).unwrap();
-        let shared = |run: &dyn Evaluator, pieces: usize| {
-            let (members, threads) = side_by_side(run, &body, None, &cameras, [pieces, 6]).unwrap();
-            (members.len(), threads)
-        };
-        assert_eq!(shared(&reference, 10), (0, 6));
-        assert_eq!([1, 2, 5, 10].map(|pieces| shared(&cpu, pieces)), [(0, 6), (2, 3), (5, 1), (6, 1)]);
-        assert!(in_place_of(&reference).is_none() && in_place_of(&cpu).is_none());
+        let shared =
+            |run: &dyn Evaluator, pieces: usize| side_by_side(run, &body, None, &cameras, [pieces, 6]).unwrap().len();
+        assert_eq!(shared(&reference, 10), 0);
+        assert_eq!([1, 2, 5, 10].map(|pieces| shared(&cpu, pieces)), [0, 2, 5, 6]);
+        assert_eq!([&reference as &dyn Evaluator, &cpu].map(SecondPass::of), [SecondPass::Run, SecondPass::Alike]);
     }
 }

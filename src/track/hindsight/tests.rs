@@ -6,33 +6,32 @@ use super::hypotheses::Limbs;
 use super::limb_search::{LimbSearch, SearchedFrame, TimeLeft};
 use super::mending::Mending;
 use super::refining::Settled;
-use super::scorer::{Candidate, Scorer};
-use super::section::{SECTION, Section, order};
+use super::scorer::Scorer;
+use super::section::{SECTION, Section};
 use super::shape::{Posed, Shape};
 use super::team::Team;
-use super::tracks::Track;
 use super::window::Seen;
 use crate::body::Body;
 use crate::evaluate::cpu::Cpu;
 use crate::evaluate::{Evaluator as _, Objective, ObjectiveKind};
-use crate::features::{Observation, SeenView};
+use crate::features::SeenView;
 use crate::search::{Estimate, SearchSettings, SearchSpace};
 use crate::track::fit_tests::{cameras_around, seen};
 use crate::track::searcher::Searched;
 
-const FRAMES: usize = 10;
+pub(super) const FRAMES: usize = 10;
 
 /// A person who moves, and what three cameras see of it.
-struct Moving {
-    body: Body,
-    space: SearchSpace,
-    truth: Vec<Vec<f32>>,
-    seen: Vec<Seen>,
+pub(super) struct Moving {
+    pub(super) body: Body,
+    pub(super) space: SearchSpace,
+    pub(super) truth: Vec<Vec<f32>>,
+    pub(super) seen: Vec<Seen>,
 }
 
 impl Moving {
     /// A person who stands, but for what `moves` says of a frame: values of degrees of freedom by their names.
-    fn new(moves: impl Fn(f32) -> Vec<(&'static str, f32)>) -> Self {
+    pub(super) fn new(moves: impl Fn(f32) -> Vec<(&'static str, f32)>) -> Self {
         let body = Body::adult(1750.0).unwrap();
         let space = SearchSpace::of(&body).unwrap();
         let truth: Vec<Vec<f32>> = (0..FRAMES)
@@ -70,7 +69,7 @@ impl Moving {
     }
 
     /// What `work` makes of a scorer.
-    fn with_scorer<T>(&self, work: impl FnOnce(Scorer<'_>) -> T) -> T {
+    pub(super) fn with_scorer<T>(&self, work: impl FnOnce(Scorer<'_>) -> T) -> T {
         let mut cpu = Cpu::new(&self.body, &cameras_around()).unwrap();
         let objective = Objective { w1: 1.0, w2: 0.0, ..Objective::of(ObjectiveKind::Ws) };
         let shape = Shape::new(&self.body);
@@ -84,15 +83,14 @@ impl Moving {
         let shape = Shape::new(&self.body);
         let settings = SearchSettings::default();
         let scorers = cpus.iter_mut().map(|cpu| Scorer::new(cpu, &objective, &self.space, &shape, &settings));
-        let mut scorers: Vec<Scorer<'_>> = scorers.collect();
-        let team = if count == 1 { Team::alone(scorers.remove(0)) } else { Team::of(scorers, 1).unwrap() };
+        let team = Team::of(scorers, count).unwrap();
         let mut mending = Mending::new(team, &self.space, &self.body, &cameras_around(), 25.0).unwrap();
         mending.section = section;
         work(mending)
     }
 
     /// The second pass over a track.
-    fn mended(&self, given: &[Vec<f32>]) -> Vec<Vec<f32>> {
+    pub(super) fn mended(&self, given: &[Vec<f32>]) -> Vec<Vec<f32>> {
         self.mended_by([1, SECTION], given)
     }
 
@@ -105,7 +103,7 @@ impl Moving {
     }
 
     /// Distance of every joint from the truth in every frame, mm.
-    fn errors(&self, poses: &[Vec<f32>]) -> Vec<Vec<f64>> {
+    pub(super) fn errors(&self, poses: &[Vec<f32>]) -> Vec<Vec<f64>> {
         let shape = Shape::new(&self.body);
         let pairs = poses.iter().zip(&self.truth);
         let errors = pairs.map(|(pose, truth)| {
@@ -129,11 +127,11 @@ impl Moving {
     }
 }
 
-fn dof(body: &Body, name: &str) -> usize {
+pub(super) fn dof(body: &Body, name: &str) -> usize {
     body.dof_names().iter().position(|known| known == name).unwrap()
 }
 
-fn worst(errors: &[Vec<f64>]) -> f64 {
+pub(super) fn worst(errors: &[Vec<f64>]) -> f64 {
     errors.iter().flatten().fold(0.0, |most: f64, error| most.max(*error))
 }
 
@@ -174,79 +172,6 @@ fn a_lost_limb_is_mended_and_a_kick_is_not_flattened() {
     assert!(one.install(|| kick.mended(&given)) == mended, "the number of threads counts");
     let [alone, three] = [1, 3].map(|count| kick.mended_by([count, 4], &given));
     assert!(alone == three, "the number of those who work side by side counts");
-}
-
-/// An arm that a track loses in the middle of a section, for long, is found by what comes from the sections around.
-#[test]
-fn tracks_go_on_into_the_next_section() {
-    const SECTION: usize = 2;
-    let reach = Moving::new(|t| vec![("left_shoulder.rx", 1.0 + 0.08 * t), ("left_elbow.ry", -0.4)]);
-    let seen: Vec<&Seen> = reach.seen.iter().collect();
-    let shoulder = dof(&reach.body, "left_shoulder.rx");
-    let mut given = reach.truth.clone();
-    given[4..6].iter_mut().for_each(|pose| pose[shoulder] = 0.0);
-    let steps = reach.space.spread(1.0 / 25.0).unwrap();
-    let limbs = Limbs::new(&reach.body, &cameras_around(), &reach.space);
-    reach.with_scorer(|mut scorer| {
-        let (seen, given) = (&seen[4..][..SECTION], &given[4..][..SECTION]);
-        let track = Track { limbs: &limbs, given, spread: &steps, steps: &steps, is_back: true };
-        let of = |scorer: &mut Scorer<'_>, t: usize, poses: &[&Vec<f32>]| {
-            scorer.observe(&reach.seen[t].observations).unwrap();
-            scorer.candidates(&poses.iter().map(|pose| (*pose).clone()).collect::<Vec<_>>()).unwrap()
-        };
-        let last = [7, 6].map(|t| Some(of(&mut scorer, t, &[&reach.truth[t]]).remove(0)));
-        // Where nobody knows the arm it is followed to the end, and where it is known no further.
-        for (known, followed) in [([false, false], 2), ([true, true], 1), ([true, false], 2)] {
-            let of_frame = |nth: usize| {
-                let right = &reach.truth[4 + nth];
-                if known[nth] { vec![&given[nth], right] } else { vec![&given[nth]] }
-            };
-            let mut candidates: Vec<_> = (0..SECTION).map(|nth| of(&mut scorer, 4 + nth, &of_frame(nth))).collect();
-            let before: usize = candidates.iter().map(Vec::len).sum();
-            track.go_on(&mut scorer, seen, &order(SECTION, true), last.clone(), &mut candidates).unwrap();
-            assert_eq!(candidates.iter().map(Vec::len).sum::<usize>(), before + followed, "{known:?}");
-            let errors = candidates.iter().enumerate().map(|(nth, of_frame)| {
-                let right = Shape::new(&reach.body).points(&reach.truth[4 + nth]);
-                let off = of_frame
-                    .iter()
-                    .map(|found| found.points.iter().zip(&right).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max));
-                off.fold(f64::INFINITY, f64::min)
-            });
-            let errors: Vec<f64> = errors.collect();
-            println!("{known:?}: {errors:.1?} mm");
-            assert!(errors[1] < 60.0 && errors[0] < 60.0, "{known:?}: {errors:?}");
-        }
-    });
-}
-
-/// A trunk that is turned far is tried straight, with the limbs that hang on it and no others; one that is turned by less is not.
-#[test]
-fn a_trunk_that_is_turned_far_is_tried_straight() {
-    let standing = Moving::new(|_| vec![("left_shoulder.rx", 0.8), ("right_shoulder.rx", -0.4)]);
-    let Moving { body, space, truth, .. } = &standing;
-    let limbs = Limbs::new(body, &cameras_around(), space);
-    let [turn, elbow, knee] = ["thorax.rz", "left_elbow.ry", "left_knee.ry"].map(|name| dof(body, name));
-    let turned = |share: f32| {
-        let mut pose = truth[0].clone();
-        pose[turn] = share * if share > 0.0 { space.upper()[turn] } else { -space.lower()[turn] };
-        pose
-    };
-    for share in [0.0, 0.4, -0.4] {
-        assert!(limbs.straightened(&turned(share), space).is_none(), "{share}");
-    }
-    for share in [0.6, -1.0] {
-        let pose = turned(share);
-        let (straight, hanging) = limbs.straightened(&pose, space).unwrap();
-        assert_eq!(straight, turned(0.0));
-        let other = vec![9.0; pose.len()];
-        let moved = |d: usize| hanging.iter().any(|&limb| limbs.with(limb, &pose, &other)[d] == 9.0);
-        assert!(moved(elbow) && !moved(knee), "{hanging:?}");
-    }
-    // Where the trunk is straight in the pictures, a track that begins with it turned ends straight in every frame.
-    let given: Vec<Vec<f32>> = vec![turned(0.9); FRAMES];
-    let (before, after) = (standing.errors(&given), standing.errors(&standing.mended(&given)));
-    println!("worst {:.1} to {:.1} mm", worst(&before), worst(&after));
-    assert!(worst(&before) > 200.0 && worst(&after) < 60.0, "{} to {}", worst(&before), worst(&after));
 }
 
 /// Both arms go up while the trunk bends and stay there, and the track knows nothing of it: nowhere before or after are they right, and one
@@ -307,51 +232,6 @@ fn an_arm_that_shakes_wins_over_one_that_lies_still() {
     assert_eq!(weighed(&still, &still), still);
 }
 
-/// A frame that shows something nobody explains has its limbs looked for on the way back, and on the way forwards only where that came to
-/// another pose.
-#[test]
-fn limbs_are_looked_for_once() {
-    const POOR: usize = 5;
-    let mut standing = Moving::new(|t| vec![("left_shoulder.rx", 0.6), ("pelvis.tx", 10.0 * t)]);
-    for observation in &mut standing.seen[POOR].observations {
-        let row = observation.width as usize;
-        let marked = observation.bytes.chunks_exact_mut(row).take(40).flat_map(|row| &mut row[..40]);
-        marked.for_each(|byte| *byte |= Observation::SILHOUETTE);
-    }
-    let steps = standing.space.spread(1.0 / 25.0).unwrap();
-    let seen: Vec<&Seen> = standing.seen.iter().collect();
-    let limbs = Limbs::new(&standing.body, &cameras_around(), &standing.space);
-    let track = |is_back| Track { limbs: &limbs, given: &standing.truth, spread: &steps, steps: &steps, is_back };
-    // Poses scored on the way forwards, where it is known what was looked into and where it is not.
-    let [known, forgotten] = [true, false].map(|is_known| {
-        standing.with_scorer(|mut scorer| {
-            let mut candidates = Vec::new();
-            for (seen, pose) in seen.iter().zip(&standing.truth) {
-                scorer.observe(&seen.observations).unwrap();
-                candidates.push(scorer.candidates(std::slice::from_ref(pose)).unwrap());
-            }
-            let given = candidates.iter().flatten().map(|candidate| candidate.worth);
-            let mut most = given.fold(f64::NEG_INFINITY, f64::max);
-            let mut follow = |scorer: &mut Scorer<'_>, candidates: &mut [Vec<Candidate>], is_back| {
-                track(is_back).follow(scorer, &seen, &order(FRAMES, is_back), &mut most, candidates).unwrap();
-            };
-            follow(&mut scorer, &mut candidates, true);
-            let looked_into: Vec<bool> =
-                candidates.iter().map(|of_frame| of_frame.iter().any(|candidate| candidate.is_looked_into)).collect();
-            assert_eq!(looked_into, (0..FRAMES).map(|t| t == POOR).collect::<Vec<_>>());
-            if !is_known {
-                candidates.iter_mut().flatten().for_each(|candidate| candidate.is_looked_into = false);
-            }
-            let before = scorer.scored;
-            follow(&mut scorer, &mut candidates, false);
-            scorer.scored - before
-        })
-    });
-    println!("{known} poses scored, {forgotten} where it is forgotten what was looked into");
-    // A search round the pose, and one round the best of each limb.
-    assert!(known + 2000 < forgotten, "{known} and {forgotten}");
-}
-
 /// Where an upper arm is right and the forearm folded back, a lattice over the whole arm's limits has nothing near.
 #[test]
 fn a_limb_is_found_from_its_end_inwards() {
@@ -399,38 +279,6 @@ fn a_limb_that_shows_elsewhere_is_suspicious() {
             assert!(!right.contains(&arm) && wrong.contains(&arm), "frame {}: {right:?}, {wrong:?}", seen.index);
         }
     });
-}
-
-/// A pose that was looked at on the way back, and of which nothing suspicious was said, is not looked at forwards; another one is.
-#[test]
-fn a_pose_is_looked_at_once() {
-    let reach = Moving::new(|t| vec![("left_shoulder.rx", 1.0 + 0.08 * t), ("left_elbow.ry", -0.4)]);
-    let shoulder = dof(&reach.body, "left_shoulder.rx");
-    let mut hidden = reach.truth.clone();
-    hidden.iter_mut().for_each(|pose| pose[shoulder] = 0.0);
-    let limbs = Limbs::new(&reach.body, &cameras_around(), &reach.space);
-    // In this frame another limb has its turn.
-    let at = (0..FRAMES).find(|index| {
-        let turned = limbs.with(index % limbs.count(), &hidden[0], &reach.truth[0]);
-        turned[shoulder] == hidden[0][shoulder]
-    });
-    let at = at.unwrap()..at.unwrap() + 1;
-    let narrow: Vec<f32> = reach.space.spread(1.0 / 25.0).unwrap().iter().map(|step| 0.05 * step).collect();
-    let seen: Vec<&Seen> = reach.seen[at.clone()].iter().collect();
-    let given = &hidden[at.clone()];
-    let track = Track { limbs: &limbs, given, spread: &narrow, steps: &narrow, is_back: false };
-    let found = [false, true].map(|is_looked_at| {
-        reach.with_scorer(|mut scorer| {
-            scorer.observe(&seen[0].observations).unwrap();
-            let mut candidates = vec![scorer.candidates(given).unwrap()];
-            candidates[0][0].is_looked_at = is_looked_at;
-            let mut most = candidates[0][0].worth;
-            let [_, last] = track.follow(&mut scorer, &seen, &[0], &mut most, &mut candidates).unwrap();
-            last.unwrap().pose[shoulder]
-        })
-    });
-    let right = reach.truth[at.start][shoulder];
-    assert!((found[0] - right).abs() < 0.2 && found[1] < 0.2, "{found:?} for {right}");
 }
 
 /// Where the only pass left an arm at the trunk, it is found in the same frame, with as many poses counted as were scored; a frame whose time is

@@ -85,7 +85,7 @@ impl<'a> Track<'a> {
             let mut others =
                 if is_looked_into { Vec::new() } else { self.mended(scorer, seen[t], &mut chosen, *most)? };
             if !is_looked_at && !is_looked_into {
-                others.extend(self.straightened(scorer, seen[t], &mut chosen)?);
+                others.extend(self.tried_straight(scorer, seen[t], &mut chosen)?);
             }
             *most = most.max(chosen.worth);
             if !self.is_back {
@@ -236,7 +236,12 @@ impl<'a> Track<'a> {
 
     /// Looks for the limbs of a trunk that is turned far once more, with the trunk straight: where an arm was lost, the other one is reached with
     /// a trunk turned the wrong way, which looks much the same by itself. What was found and not `chosen`.
-    fn straightened(&self, scorer: &mut Scorer<'_>, seen: &Seen, chosen: &mut Candidate) -> Result<Option<Candidate>> {
+    fn tried_straight(
+        &self,
+        scorer: &mut Scorer<'_>,
+        seen: &Seen,
+        chosen: &mut Candidate,
+    ) -> Result<Option<Candidate>> {
         let Some((mut pose, limbs)) = self.limbs.straightened(&chosen.pose, scorer.space) else { return Ok(None) };
         let views = SeenView::all(&seen.observations);
         for &limb in limbs {

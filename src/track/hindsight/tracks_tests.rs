@@ -1,0 +1,161 @@
+//! Tracks through the sections of a window, on a person that is drawn.
+
+use super::hypotheses::Limbs;
+use super::scorer::{Candidate, Scorer};
+use super::section::order;
+use super::shape::Shape;
+use super::tests::{FRAMES, Moving, dof, worst};
+use super::tracks::Track;
+use super::window::Seen;
+use crate::features::Observation;
+use crate::track::fit_tests::cameras_around;
+
+/// An arm that a track loses in the middle of a section, for long, is found by what comes from the sections around.
+#[test]
+fn tracks_go_on_into_the_next_section() {
+    const SECTION: usize = 2;
+    let reach = Moving::new(|t| vec![("left_shoulder.rx", 1.0 + 0.08 * t), ("left_elbow.ry", -0.4)]);
+    let seen: Vec<&Seen> = reach.seen.iter().collect();
+    let shoulder = dof(&reach.body, "left_shoulder.rx");
+    let mut given = reach.truth.clone();
+    given[4..6].iter_mut().for_each(|pose| pose[shoulder] = 0.0);
+    let steps = reach.space.spread(1.0 / 25.0).unwrap();
+    let limbs = Limbs::new(&reach.body, &cameras_around(), &reach.space);
+    reach.with_scorer(|mut scorer| {
+        let (seen, given) = (&seen[4..][..SECTION], &given[4..][..SECTION]);
+        let track = Track { limbs: &limbs, given, spread: &steps, steps: &steps, is_back: true };
+        let of = |scorer: &mut Scorer<'_>, t: usize, poses: &[&Vec<f32>]| {
+            scorer.observe(&reach.seen[t].observations).unwrap();
+            scorer.candidates(&poses.iter().map(|pose| (*pose).clone()).collect::<Vec<_>>()).unwrap()
+        };
+        let last = [7, 6].map(|t| Some(of(&mut scorer, t, &[&reach.truth[t]]).remove(0)));
+        // Where nobody knows the arm it is followed to the end, and where it is known no further.
+        for (known, followed) in [([false, false], 2), ([true, true], 1), ([true, false], 2)] {
+            let of_frame = |nth: usize| {
+                let right = &reach.truth[4 + nth];
+                if known[nth] { vec![&given[nth], right] } else { vec![&given[nth]] }
+            };
+            let mut candidates: Vec<_> = (0..SECTION).map(|nth| of(&mut scorer, 4 + nth, &of_frame(nth))).collect();
+            let before: usize = candidates.iter().map(Vec::len).sum();
+            track.go_on(&mut scorer, seen, &order(SECTION, true), last.clone(), &mut candidates).unwrap();
+            assert_eq!(candidates.iter().map(Vec::len).sum::<usize>(), before + followed, "{known:?}");
+            let errors = candidates.iter().enumerate().map(|(nth, of_frame)| {
+                let right = Shape::new(&reach.body).points(&reach.truth[4 + nth]);
+                let off = of_frame
+                    .iter()
+                    .map(|found| found.points.iter().zip(&right).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max));
+                off.fold(f64::INFINITY, f64::min)
+            });
+            let errors: Vec<f64> = errors.collect();
+            println!("{known:?}: {errors:.1?} mm");
+            assert!(errors[1] < 60.0 && errors[0] < 60.0, "{known:?}: {errors:?}");
+        }
+    });
+}
+
+/// A trunk that is turned far is tried straight, with the limbs that hang on it and no others; one that is turned by less is not.
+#[test]
+fn a_trunk_that_is_turned_far_is_tried_straight() {
+    let standing = Moving::new(|_| vec![("left_shoulder.rx", 0.8), ("right_shoulder.rx", -0.4)]);
+    let Moving { body, space, truth, .. } = &standing;
+    let limbs = Limbs::new(body, &cameras_around(), space);
+    let [turn, elbow, knee] = ["thorax.rz", "left_elbow.ry", "left_knee.ry"].map(|name| dof(body, name));
+    let turned = |share: f32| {
+        let mut pose = truth[0].clone();
+        pose[turn] = share * if share > 0.0 { space.upper()[turn] } else { -space.lower()[turn] };
+        pose
+    };
+    for share in [0.0, 0.4, -0.4] {
+        assert!(limbs.straightened(&turned(share), space).is_none(), "{share}");
+    }
+    for share in [0.6, -1.0] {
+        let pose = turned(share);
+        let (straight, hanging) = limbs.straightened(&pose, space).unwrap();
+        assert_eq!(straight, turned(0.0));
+        let other = vec![9.0; pose.len()];
+        let moved = |d: usize| hanging.iter().any(|&limb| limbs.with(limb, &pose, &other)[d] == 9.0);
+        assert!(moved(elbow) && !moved(knee), "{hanging:?}");
+    }
+    // Where the trunk is straight in the pictures, a track that begins with it turned ends straight in every frame.
+    let given: Vec<Vec<f32>> = vec![turned(0.9); FRAMES];
+    let (before, after) = (standing.errors(&given), standing.errors(&standing.mended(&given)));
+    println!("worst {:.1} to {:.1} mm", worst(&before), worst(&after));
+    assert!(worst(&before) > 200.0 && worst(&after) < 60.0, "{} to {}", worst(&before), worst(&after));
+}
+
+/// A frame that shows something nobody explains has its limbs looked for on the way back, and on the way forwards only where that came to
+/// another pose.
+#[test]
+fn limbs_are_looked_for_once() {
+    const POOR: usize = 5;
+    let mut standing = Moving::new(|t| vec![("left_shoulder.rx", 0.6), ("pelvis.tx", 10.0 * t)]);
+    for observation in &mut standing.seen[POOR].observations {
+        let row = observation.width as usize;
+        let marked = observation.bytes.chunks_exact_mut(row).take(40).flat_map(|row| &mut row[..40]);
+        marked.for_each(|byte| *byte |= Observation::SILHOUETTE);
+    }
+    let steps = standing.space.spread(1.0 / 25.0).unwrap();
+    let seen: Vec<&Seen> = standing.seen.iter().collect();
+    let limbs = Limbs::new(&standing.body, &cameras_around(), &standing.space);
+    let track = |is_back| Track { limbs: &limbs, given: &standing.truth, spread: &steps, steps: &steps, is_back };
+    // Poses scored on the way forwards, where it is known what was looked into and where it is not.
+    let [known, forgotten] = [true, false].map(|is_known| {
+        standing.with_scorer(|mut scorer| {
+            let mut candidates = Vec::new();
+            for (seen, pose) in seen.iter().zip(&standing.truth) {
+                scorer.observe(&seen.observations).unwrap();
+                candidates.push(scorer.candidates(std::slice::from_ref(pose)).unwrap());
+            }
+            let given = candidates.iter().flatten().map(|candidate| candidate.worth);
+            let mut most = given.fold(f64::NEG_INFINITY, f64::max);
+            let mut follow = |scorer: &mut Scorer<'_>, candidates: &mut [Vec<Candidate>], is_back| {
+                track(is_back).follow(scorer, &seen, &order(FRAMES, is_back), &mut most, candidates).unwrap();
+            };
+            follow(&mut scorer, &mut candidates, true);
+            let looked_into: Vec<bool> =
+                candidates.iter().map(|of_frame| of_frame.iter().any(|candidate| candidate.is_looked_into)).collect();
+            assert_eq!(looked_into, (0..FRAMES).map(|t| t == POOR).collect::<Vec<_>>());
+            if !is_known {
+                candidates.iter_mut().flatten().for_each(|candidate| candidate.is_looked_into = false);
+            }
+            let before = scorer.scored;
+            follow(&mut scorer, &mut candidates, false);
+            scorer.scored - before
+        })
+    });
+    println!("{known} poses scored, {forgotten} where it is forgotten what was looked into");
+    // A search round the pose, and one round the best of each limb.
+    assert!(known + 2000 < forgotten, "{known} and {forgotten}");
+}
+
+/// A pose that was looked at on the way back, and of which nothing suspicious was said, is not looked at forwards; another one is.
+#[test]
+fn a_pose_is_looked_at_once() {
+    let reach = Moving::new(|t| vec![("left_shoulder.rx", 1.0 + 0.08 * t), ("left_elbow.ry", -0.4)]);
+    let shoulder = dof(&reach.body, "left_shoulder.rx");
+    let mut hidden = reach.truth.clone();
+    hidden.iter_mut().for_each(|pose| pose[shoulder] = 0.0);
+    let limbs = Limbs::new(&reach.body, &cameras_around(), &reach.space);
+    // In this frame another limb has its turn.
+    let at = (0..FRAMES).find(|index| {
+        let turned = limbs.with(index % limbs.count(), &hidden[0], &reach.truth[0]);
+        turned[shoulder] == hidden[0][shoulder]
+    });
+    let at = at.unwrap()..at.unwrap() + 1;
+    let narrow: Vec<f32> = reach.space.spread(1.0 / 25.0).unwrap().iter().map(|step| 0.05 * step).collect();
+    let seen: Vec<&Seen> = reach.seen[at.clone()].iter().collect();
+    let given = &hidden[at.clone()];
+    let track = Track { limbs: &limbs, given, spread: &narrow, steps: &narrow, is_back: false };
+    let found = [false, true].map(|is_looked_at| {
+        reach.with_scorer(|mut scorer| {
+            scorer.observe(&seen[0].observations).unwrap();
+            let mut candidates = vec![scorer.candidates(given).unwrap()];
+            candidates[0][0].is_looked_at = is_looked_at;
+            let mut most = candidates[0][0].worth;
+            let [_, last] = track.follow(&mut scorer, &seen, &[0], &mut most, &mut candidates).unwrap();
+            last.unwrap().pose[shoulder]
+        })
+    });
+    let right = reach.truth[at.start][shoulder];
+    assert!((found[0] - right).abs() < 0.2 && found[1] < 0.2, "{found:?} for {right}");
+}
