@@ -67,7 +67,7 @@ struct Done {
 }
 
 /// What a batch tells whoever waits for it.
-pub trait BatchProgress {
+pub trait BatchProgress: Sync {
     /// The batch begins: trials in all, and those that earlier calls did.
     fn begin(&self, _trials: usize, _done: usize) {}
 

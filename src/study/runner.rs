@@ -163,7 +163,7 @@ fn finished(run: &Run, output: &OutputFolder) -> Result<Option<Row>> {
 }
 
 /// Tells the tracker when to stop.
-pub(super) struct Watch<'a>(pub(super) &'a dyn Fn() -> bool);
+pub(super) struct Watch<'a>(pub(super) &'a (dyn Fn() -> bool + Sync));
 
 impl track::Progress for Watch<'_> {
     fn should_stop(&self) -> bool {

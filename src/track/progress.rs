@@ -1,7 +1,7 @@
 //! What a run tells whoever waits for it.
 
-/// What a run tells whoever waits for it.
-pub trait Progress {
+/// What a run tells whoever waits for it; threads that work side by side tell it in turns.
+pub trait Progress: Send {
     /// The run begins.
     fn start(&mut self, _run: &RunStart) {}
 
@@ -11,7 +11,7 @@ pub trait Progress {
     /// So many steps of so many are done of work that comes before the first frame; `what` says which.
     fn preparing(&mut self, _what: &'static str, _done: usize, _total: usize) {}
 
-    /// So many frames are done in the second pass too.
+    /// The second pass has done the work of so many frames too.
     fn looked_back(&mut self, _done: usize) {}
 
     /// Whether to stop after the frame in work.

@@ -16,6 +16,7 @@ mod team;
 mod tracks;
 #[cfg(test)]
 mod tracks_tests;
+mod watch;
 mod window;
 
 use anyhow::{Context, Result};
@@ -29,15 +30,20 @@ use self::scorer::Scorer;
 use self::section::{SECTION, pieces};
 use self::shape::Shape;
 use self::team::{Team, side_by_side};
+use self::watch::{Stopped, Watch};
 use self::window::{Seen, Windows};
 use super::appearance::RunAppearance;
 use super::confidence::JointProbe;
 use super::feed::Frames;
 use super::journal::FrameResult;
 use super::plan::Plan;
+use super::progress::Progress;
 use crate::evaluate::{Evaluator, Objective};
 use crate::features::{Observation, SeenView};
 use crate::geometry::Camera;
+
+/// Parts of a frame's work: tracks go both ways.
+const WORK: usize = 2 * tracks::SHARE + refining::ROUNDS * refining::SHARE;
 
 /// What the second pass works on.
 pub(super) struct Hindsight<'a> {
@@ -51,21 +57,24 @@ pub(super) struct Hindsight<'a> {
     pub(super) pictures_every: usize,
 }
 
-/// Takes a frame's result and its pictures, where they were asked for; `false` to go no further.
-pub(super) type Taker<'a> = dyn FnMut(FrameResult, Option<&[RgbImage]>) -> Result<bool> + 'a;
+/// Takes a frame's result and its pictures, where they were asked for.
+pub(super) type Taker<'a> = dyn FnMut(FrameResult, Option<&[RgbImage]>) -> Result<()> + 'a;
 
 impl Hindsight<'_> {
-    /// Hands on the results of all frames of a run again, in order, from those of its first pass. `feed` begins with the first frame.
+    /// Hands on the results of all frames of a run again, in order, from what is known of it: the person's colours, and the results of its first
+    /// pass. `feed` begins with the first frame. Ends early where `progress` says so.
     ///
     /// # Errors
     /// When a frame cannot be read, the evaluator fails, or `take` does.
     pub(super) fn look_back(
         self,
         feed: &mut dyn Frames,
-        appearance: Option<&RunAppearance>,
-        forward: &[FrameResult],
+        (appearance, forward): (Option<&RunAppearance>, &[FrameResult]),
+        progress: &mut dyn Progress,
         take: &mut Taker<'_>,
     ) -> Result<()> {
+        let watch = Watch::of(progress);
+        let worked = |share: usize| watch.work(share);
         let settings = *self.plan.search_settings();
         let Plan { body, mesh, objective, backend, space, .. } = self.plan;
         let shape = Shape::new(body);
@@ -76,7 +85,7 @@ impl Hindsight<'_> {
             let pieces = pieces(windows.seen().len(), SECTION);
             let all = rayon::current_num_threads();
             let mut others = side_by_side(run, body, mesh.as_ref(), self.cameras, [pieces, all])?;
-            let scorer = |evaluator| Scorer::new(evaluator, objective, space, &shape, &settings);
+            let scorer = |evaluator| Scorer::new(evaluator, objective, space, &shape, &settings).watched_by(&worked);
             let team = if others.is_empty() {
                 Team::of([scorer(run)].into_iter(), all)?
             } else {
@@ -94,15 +103,19 @@ impl Hindsight<'_> {
                 let mut track = std::mem::take(&mut carried);
                 let given = forward.iter().skip(done + track.len()).map(|result| result.pose.clone());
                 track.extend(given.take(seen.len().saturating_sub(track.len())));
-                let settled = mending.mend(&seen, &track, &before);
-                let settled = settled.with_context(|| format!("the frames from {} on", first.index))?;
                 let count = windows.settled();
+                watch.begin(WORK * seen.len(), count);
+                let settled = match mending.mend(&seen, &track, &before) {
+                    Err(error) if error.is::<Stopped>() => return Ok(()),
+                    settled => settled.with_context(|| format!("the frames from {} on", first.index))?,
+                };
                 let frames = seen.iter().zip(&settled).zip(&forward[done..]).take(count);
                 let results = mending.team.share(frames, |scorer, ((seen, frame), first)| {
                     result(scorer.evaluator, objective, self.probe, &seen.observations, frame, first)
                 })?;
                 for (seen, result) in seen.iter().zip(results) {
-                    if !take(result, seen.pictures.as_deref())? {
+                    take(result, seen.pictures.as_deref())?;
+                    if !watch.frame() {
                         return Ok(());
                     }
                 }

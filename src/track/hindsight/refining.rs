@@ -13,6 +13,8 @@ use crate::features::Observation;
 /// Times that every frame is searched again, and generations of that.
 pub(super) const ROUNDS: usize = 2;
 const REFINED: usize = 14;
+/// What one of these times is of the second pass's work on a frame, in parts of it.
+pub(super) const SHARE: usize = 1;
 /// Width of these searches, as a share of that of a track's.
 const NARROW: f32 = 0.15;
 
@@ -103,6 +105,7 @@ pub(super) fn refine(
                 scorer.observe(&seen[*t].observations)?;
                 let at = first + t - from;
                 poses[at] = beside(scorer, &narrow, &poses, at, reach, round)?;
+                scorer.has_worked(SHARE)?;
             }
             Ok(order.into_iter().map(|t| (first + t, poses[first + t - from].clone())).collect::<Vec<_>>())
         })?;

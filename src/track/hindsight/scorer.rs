@@ -84,12 +84,16 @@ struct Batch {
     costs: Vec<f64>,
 }
 
+/// Told how much of a frame's work is done; an error where the run is to end.
+pub(super) type Told<'a> = dyn Fn(usize) -> Result<()> + Sync + 'a;
+
 /// Scores poses of the frame observed last.
 pub(super) struct Scorer<'a> {
     pub(super) evaluator: &'a mut dyn Evaluator,
     pub(super) objective: &'a Objective,
     pub(super) space: &'a SearchSpace,
     pub(super) shape: &'a Shape,
+    watch: Option<&'a Told<'a>>,
     /// Decides all random numbers.
     seed: u64,
     /// The poses that a run scores a frame, over the usual ones.
@@ -133,11 +137,25 @@ impl<'a> Scorer<'a> {
             objective,
             space,
             shape,
+            watch: None,
             seed: settings.seed,
             share,
             generation: GENERATION.min(settings.particles),
             scored: 0,
         }
+    }
+
+    /// Tells how far it is, and is stopped.
+    pub(super) fn watched_by(self, watch: &'a Told<'a>) -> Self {
+        Self { watch: Some(watch), ..self }
+    }
+
+    /// So much of a frame's work is done.
+    ///
+    /// # Errors
+    /// Where the run is to end.
+    pub(super) fn has_worked(&self, share: usize) -> Result<()> {
+        self.watch.map_or(Ok(()), |watch| watch(share))
     }
 
     /// What is `usual` where a run scores as many poses as it usually does, at least 1.

@@ -1,16 +1,19 @@
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+use anyhow::ensure;
 use rayon::ThreadPoolBuilder;
 
 use super::hypotheses::Limbs;
 use super::limb_search::{LimbSearch, SearchedFrame, TimeLeft};
 use super::mending::Mending;
 use super::refining::Settled;
-use super::scorer::Scorer;
+use super::scorer::{Scorer, Told};
 use super::section::{SECTION, Section};
 use super::shape::{Posed, Shape};
 use super::team::Team;
 use super::window::Seen;
+use super::{WORK, tracks};
 use crate::body::Body;
 use crate::evaluate::cpu::Cpu;
 use crate::evaluate::{Evaluator as _, Objective, ObjectiveKind};
@@ -77,12 +80,23 @@ impl Moving {
     }
 
     /// What `work` makes of a second pass with so many who work side by side, on sections of so many frames.
-    fn with_mending<T>(&self, [count, section]: [usize; 2], work: impl FnOnce(Mending<'_>) -> T) -> T {
+    fn with_mending<T>(&self, team: [usize; 2], work: impl FnOnce(Mending<'_>) -> T) -> T {
+        self.with_told_mending(team, &|_| Ok(()), work)
+    }
+
+    /// The same with somebody who is told how far it is.
+    fn with_told_mending<T>(
+        &self,
+        [count, section]: [usize; 2],
+        told: &Told<'_>,
+        work: impl FnOnce(Mending<'_>) -> T,
+    ) -> T {
         let mut cpus: Vec<Cpu> = (0..count).map(|_| Cpu::new(&self.body, &cameras_around()).unwrap()).collect();
         let objective = Objective { w1: 1.0, w2: 0.0, ..Objective::of(ObjectiveKind::Ws) };
         let shape = Shape::new(&self.body);
         let settings = SearchSettings::default();
-        let scorers = cpus.iter_mut().map(|cpu| Scorer::new(cpu, &objective, &self.space, &shape, &settings));
+        let scorer = |cpu| Scorer::new(cpu, &objective, &self.space, &shape, &settings).watched_by(told);
+        let scorers = cpus.iter_mut().map(|cpu| scorer(cpu));
         let team = Team::of(scorers, count).unwrap();
         let mut mending = Mending::new(team, &self.space, &self.body, &cameras_around(), 25.0).unwrap();
         mending.section = section;
@@ -172,6 +186,31 @@ fn a_lost_limb_is_mended_and_a_kick_is_not_flattened() {
     assert!(one.install(|| kick.mended(&given)) == mended, "the number of threads counts");
     let [alone, three] = [1, 3].map(|count| kick.mended_by([count, 4], &given));
     assert!(alone == three, "the number of those who work side by side counts");
+}
+
+/// Of every frame all parts of its work are told, and what is told to end does so at once.
+#[test]
+fn work_is_told_and_can_be_ended() {
+    let kick = Moving::kick();
+    let seen: Vec<&Seen> = kick.seen.iter().collect();
+    let mended = |count: usize, most: usize| {
+        let parts = AtomicUsize::new(0);
+        let told = |share: usize| {
+            ensure!(parts.fetch_add(share, Ordering::Relaxed) < most, "enough");
+            Ok(())
+        };
+        let mended = kick.with_told_mending([count, 4], &told, |mut mending| mending.mend(&seen, &kick.truth, &[]));
+        (mended.map_err(|error| error.to_string()).map(|frames| frames.len()), parts.into_inner())
+    };
+    for count in [1, 2] {
+        let (done, parts) = mended(count, usize::MAX);
+        assert_eq!(done, Ok(FRAMES));
+        // A stretch that two paths see otherwise is worked on once more.
+        assert!((FRAMES * WORK..2 * FRAMES * WORK).contains(&parts), "{parts}");
+        let (ended, parts) = mended(count, 10);
+        assert_eq!(ended, Err("enough".to_string()));
+        assert!(parts < 10 + count * (tracks::SHARE + 1) + tracks::SHARE, "{parts}");
+    }
 }
 
 /// Both arms go up while the trunk bends and stay there, and the track knows nothing of it: nowhere before or after are they right, and one

@@ -34,6 +34,9 @@ const CALM: f64 = 0.5;
 /// Distance of a joint from which poses are different, mm.
 const DIFFERENT: f64 = 30.0;
 
+/// What a search along a track is of the second pass's work on a frame, in parts of it.
+pub(super) const SHARE: usize = 3;
+
 /// The last two poses of a track, the last one last.
 pub(super) type Ended = [Option<Candidate>; 2];
 
@@ -105,6 +108,7 @@ impl<'a> Track<'a> {
                 }
             }
             last = [last[1].take(), Some(chosen)];
+            scorer.has_worked(SHARE)?;
         }
         Ok(last)
     }

@@ -44,13 +44,13 @@ impl Run<'_> {
             pictures_every: self.settings.overlay_every,
         };
         let mut results = Vec::with_capacity(self.frames.len());
-        hindsight.look_back(feed, self.appearance.as_ref(), &self.frames, &mut |result, pictures| {
+        let known = (self.appearance.as_ref(), &*self.frames);
+        hindsight.look_back(feed, known, progress, &mut |result, pictures| {
             if let Some(pictures) = pictures {
                 overlay.write(self.output, result.frame, pictures, &result.pose)?;
             }
             results.push(result);
-            progress.looked_back(results.len());
-            Ok(!progress.should_stop())
+            Ok(())
         })?;
         if results.len() < self.frames.len() {
             self.is_cut = true;
