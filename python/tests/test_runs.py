@@ -73,15 +73,16 @@ def test_errors_are_the_program_s(walk, tmp_path):
     assert said.stderr.strip() == f"pantin: {raised.value}"
 
 
-def test_what_progress_raises_stops_and_a_run_goes_on(walk, tmp_path):
+@pytest.mark.parametrize("stage", ["frames", "second pass"])
+def test_what_progress_raises_stops_and_a_run_goes_on(walk, tmp_path, stage):
     class Enough(Exception):
         pass
 
     def progress(step):
-        if step.stage == "frames" and step.done == 2:
+        if step.stage == stage and step.done == 2:
             raise Enough("two are enough")
 
-    settings = {**QUICK, "overlay_every": 0}
+    settings = {**QUICK, "overlay_every": 0, "passes": "both"}
     with pytest.raises(Enough, match="two are enough"):
         pantin.track(walk, tmp_path / "out", progress=progress, **settings)
     assert not (tmp_path / "out/report.html").exists()
