@@ -136,9 +136,16 @@ mod tests {
         let (objective, shape) = (Objective::of(ObjectiveKind::Ws), Shape::new(&body));
         let settings = SearchSettings::default();
         let mut cpus: Vec<Cpu> =
-            (0..3).map(|_| Cpu::with(&body, &cameras_around(), InstructionSet::best(), 1).unwrap()).collect();
-        let scorers = cpus.iter_mut().map(|cpu| Scorer::new(cpu, &objective, &space, &shape, &settings));
-        let mut team = Team::of(scorers, 3).unwrap();
+            (0..4).map(|_| Cpu::with(&body, &cameras_around(), InstructionSet::best(), 1).unwrap()).collect();
+        let (alone, cpus) = cpus.split_at_mut(1);
+        let scorer = |cpu| Scorer::new(cpu, &objective, &space, &shape, &settings);
+        let threads = |team: &Team<'_>| -> Vec<Option<usize>> {
+            team.members.iter().map(|member| member.threads.as_ref().map(ThreadPool::current_num_threads)).collect()
+        };
+        // One by itself has those there are.
+        assert_eq!(threads(&Team::of(alone.iter_mut().map(|cpu| scorer(cpu)), 7).unwrap()), [None]);
+        let mut team = Team::of(cpus.iter_mut().map(|cpu| scorer(cpu)), 7).unwrap();
+        assert_eq!(threads(&team), [Some(2); 3]);
         let slow_first = |job: u64| std::thread::sleep(Duration::from_millis(20 - job));
         let doubled = team.share(0..20, |_, job| {
             slow_first(job);

@@ -68,8 +68,6 @@ impl<'a> Watch<'a> {
     pub(super) fn frame(&self) -> bool {
         let mut told = self.told();
         told.done += 1;
-        // Its share of the window's work is not counted again.
-        told.frames = told.frames.saturating_sub(1);
         let done = told.done;
         told.tell(done);
         !told.progress.should_stop()
