@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::partners::partners;
 use super::signed_distance::SignedDistance;
+use super::surely_far::{SurelyFar, is_far};
 use crate::geometry::Camera;
 
 /// Half the stretch of a ray that is searched, mm: a person's reach and some error.
@@ -70,29 +71,29 @@ pub(super) fn rays_of(
     rays: usize,
     is_wanted: impl Fn(usize) -> bool,
 ) -> Vec<Ray> {
-    let is_wanted = &is_wanted;
-    let silhouettes: Vec<(usize, usize, DVec3)> = moments
+    let far = |(camera, silhouette): (&Camera, &Option<&SignedDistance>)| SurelyFar::of(camera, (*silhouette)?);
+    let looked: Vec<Looked> = moments
         .iter()
         .enumerate()
-        .filter_map(|(at, moment)| Some((at, moment, crossing(cameras, moment)?)))
-        .flat_map(|(at, moment, middle)| {
-            (0..moment.len())
-                .filter(|&view| moment[view].is_some() && is_wanted(view))
-                .map(move |view| (at, view, middle))
+        .filter_map(|(index, moment)| {
+            let middle = crossing(cameras, moment)?;
+            Some(Looked { index, moment, middle, far: cameras.iter().zip(moment).map(far).collect() })
         })
+        .collect();
+    let silhouettes: Vec<(&Looked, usize)> = looked
+        .iter()
+        .flat_map(|looked| (0..looked.moment.len()).map(move |view| (looked, view)))
+        .filter(|&(looked, view)| looked.moment[view].is_some() && is_wanted(view))
         .collect();
     silhouettes
         .into_par_iter()
-        .flat_map_iter(|(at, view, middle)| {
-            let moment = &moments[at];
-            let border = moment[view].map(SignedDistance::border).unwrap_or_default();
+        .flat_map_iter(|(looked, view)| {
+            let border = looked.moment[view].map(SignedDistance::border).unwrap_or_default();
             let every = border.len().div_ceil(rays.max(1)).max(1);
-            let chosen: Vec<DVec2> = border.iter().copied().step_by(every).collect();
-            chosen.into_iter().filter_map(move |pixel| {
+            border.iter().step_by(every).filter_map(move |&pixel| {
                 let (origin, direction) = cameras[view].ray(pixel)?;
-                let around = (middle - origin).dot(direction);
-                let (along, miss) = best(cameras, moment, view, origin, direction, [around, REACH, COARSE])?;
-                Some(Ray { moment: at, view, pixel, miss, along, point: origin + direction * along })
+                let (along, miss) = looked.best(cameras, view, origin, direction)?;
+                Some(Ray { moment: looked.index, view, pixel, miss, along, point: origin + direction * along })
             })
         })
         .collect()
@@ -167,58 +168,99 @@ fn least_of_the_largest(lines: &[(f64, f64)]) -> Option<f64> {
     crossings.filter(|at| at.abs() < NEAR).chain([-NEAR, NEAR]).filter_map(largest).reduce(f64::min)
 }
 
-/// The best point of a ray, `reach` to either side of `around`: first in steps, then ever finer about the best one.
-fn best(
-    cameras: &[Camera],
-    moment: &Moment,
-    view: usize,
+/// A view that a ray is compared with, and the ray in its axes: a third of the work of leading each point there.
+struct Asked<'a> {
+    camera: &'a Camera,
+    silhouette: &'a SignedDistance,
     origin: DVec3,
     direction: DVec3,
-    [mut around, mut reach, mut step]: [f64; 3],
-) -> Option<(f64, f64)> {
-    // Who sees anything, and the ray in his axes: a third of the work of leading each point there.
-    let mut others: Vec<(&Camera, &SignedDistance, DVec3, DVec3)> = partners(view, cameras.len())
-        .into_iter()
-        .filter_map(|other| {
-            let (camera, silhouette) = (&cameras[other], moment[other]?);
-            let map = &camera.camera_from_world;
-            Some((camera, silhouette, map.transform_point3(origin), map.transform_vector3(direction)))
-        })
-        .collect();
-    // The largest miss, or any that is no less than `bound`. Who says that is asked first at the next point: it mostly says so there too.
-    let mut miss = |along: f64, bound: f64| {
-        let mut largest: Option<f64> = None;
-        for at in 0..others.len() {
-            let (camera, silhouette, origin, direction) = others[at];
-            // A view whose picture ends before the point says nothing about it.
-            let said = camera.image_of(origin + direction * along).and_then(|pixel| silhouette.at(pixel));
-            largest = said.map_or(largest, |said| Some(largest.map_or(said, |largest| largest.max(said))));
-            if largest.is_some_and(|largest| largest >= bound) {
-                others.swap(0, at);
-                break;
-            }
+}
+
+/// The largest miss of a point of a ray, or any that is no less than `bound`. Who says that is asked first at the next point: it mostly says
+/// so there too.
+fn largest_miss(others: &mut [Asked], along: f64, bound: f64) -> Option<f64> {
+    let mut largest: Option<f64> = None;
+    for at in 0..others.len() {
+        let Asked { camera, silhouette, origin, direction } = others[at];
+        // A view whose picture ends before the point says nothing about it.
+        let said = camera.image_of(origin + direction * along).and_then(|pixel| silhouette.at(pixel));
+        largest = said.map_or(largest, |said| Some(largest.map_or(said, |largest| largest.max(said))));
+        if largest.is_some_and(|largest| largest >= bound) {
+            others.swap(0, at);
+            break;
         }
-        largest
-    };
-    let mut found: Option<(f64, f64)> = None;
-    loop {
-        let steps = (reach / step).ceil() as i32;
-        for at in -steps..=steps {
-            let along = around + f64::from(at) * step;
-            let least = found.map_or(f64::INFINITY, |(_, least)| least);
-            if along > 0.0
-                && let Some(miss) = miss(along, least)
-                && miss < least
-            {
-                found = Some((along, miss));
-            }
-        }
-        let (along, _) = found?;
-        if step <= FINE {
-            return found;
-        }
-        (around, reach, step) = (along, step, step / 4.0);
     }
+    largest
+}
+
+/// A moment whose rays are looked at.
+struct Looked<'a> {
+    /// Of the moments.
+    index: usize,
+    moment: &'a Moment<'a>,
+    /// Where the person is about, world, mm.
+    middle: DVec3,
+    /// Where each view is surely far, and is asked nothing.
+    far: Vec<Option<SurelyFar>>,
+}
+
+impl Looked<'_> {
+    /// The best point of a ray of a view, [`REACH`] to either side of where it passes the middle, and its miss: first in steps, then ever
+    /// finer about the best one.
+    fn best(&self, cameras: &[Camera], view: usize, origin: DVec3, direction: DVec3) -> Option<(f64, f64)> {
+        let around = (self.middle - origin).dot(direction);
+        let mut nothing_near = Vec::new();
+        let mut farthest = f64::INFINITY;
+        let asked = |other: usize| {
+            let (camera, silhouette) = (&cameras[other], self.moment[other]?);
+            let map = &camera.camera_from_world;
+            let (origin, direction) = (map.transform_point3(origin), map.transform_vector3(direction));
+            if let Some(far) = self.far[other] {
+                nothing_near.push(far.along(origin, direction));
+                farthest = farthest.min(silhouette.farthest());
+            }
+            Some(Asked { camera, silhouette, origin, direction })
+        };
+        let mut others: Vec<Asked> = partners(view, cameras.len()).into_iter().filter_map(asked).collect();
+        let may_be_near = |along: f64| !nothing_near.iter().any(|&sure| is_far(sure, along));
+        let everywhere = |_: f64| true;
+        let mut coarse = best_of(&mut others, around, REACH, COARSE, None, may_be_near);
+        // Places that are no less than the farthest were left out: which of them comes first, nobody asked.
+        if coarse.is_none_or(|(_, miss)| miss >= farthest) {
+            coarse = best_of(&mut others, around, REACH, COARSE, None, everywhere);
+        }
+        let (mut found, mut step) = (coarse?, COARSE);
+        while step > FINE {
+            let reach = step;
+            step /= 4.0;
+            found = best_of(&mut others, found.0, reach, step, Some(found), everywhere)?;
+        }
+        Some(found)
+    }
+}
+
+/// The first best of the points in steps to either side of `around` that are `wanted`, where it is better than `found`; else that.
+fn best_of(
+    others: &mut [Asked],
+    around: f64,
+    reach: f64,
+    step: f64,
+    mut found: Option<(f64, f64)>,
+    wanted: impl Fn(f64) -> bool,
+) -> Option<(f64, f64)> {
+    let steps = (reach / step).ceil() as i32;
+    for at in -steps..=steps {
+        let along = around + f64::from(at) * step;
+        let least = found.map_or(f64::INFINITY, |(_, least)| least);
+        if along > 0.0
+            && wanted(along)
+            && let Some(miss) = largest_miss(others, along, least)
+            && miss < least
+        {
+            found = Some((along, miss));
+        }
+    }
+    found
 }
 
 /// The point nearest to the rays through the middles of a moment's borders; None for fewer than two.

@@ -82,6 +82,42 @@ fn small_turns_do_what_a_search_finds() {
     assert!(searched > 1.0 && apart < 0.2 * searched, "{apart} of {searched}: {slopes:?}");
 }
 
+/// Where a view is surely far it says so when asked, over the whole length of rays, and leaving such places out changes no ray's best point.
+#[test]
+fn places_that_are_left_out_are_far() {
+    let (mut cameras, fields) = scene();
+    // Whose picture ends beside the balls; and a lens that bends much.
+    cameras[1] = turned(&cameras[1], DVec3::new(0.05, 0.45, 0.1));
+    let Lens::BrownConrady(lens) = &mut cameras[3].lens else { panic!("no such lens") };
+    (lens.radial, lens.tangential) = ([-0.25, 0.08, 0.0], [0.004, -0.003]);
+    let moment: Moment = fields.iter().map(Some).collect();
+    let far: Vec<Option<SurelyFar>> =
+        cameras.iter().zip(&fields).map(|(camera, field)| SurelyFar::of(camera, field)).collect();
+    assert!(far.iter().all(Option::is_some));
+    let (mut left_out, mut places) = (0, 0);
+    for (view, field) in fields.iter().enumerate() {
+        for pixel in field.border().iter().step_by(5) {
+            let (origin, direction) = cameras[view].ray(*pixel).unwrap();
+            let search = |far: Vec<Option<SurelyFar>>| {
+                let middle = DVec3::new(0.0, 0.0, 1000.0);
+                Looked { index: 0, moment: &moment, middle, far }.best(&cameras, view, origin, direction)
+            };
+            assert_eq!(search(far.clone()), search(vec![None; 4]), "view {view}, {pixel}");
+            for other in (0..4).filter(|other| *other != view) {
+                let map = &cameras[other].camera_from_world;
+                let along = far[other].unwrap().along(map.transform_point3(origin), map.transform_vector3(direction));
+                for place in (0..600).map(|at| f64::from(at) * 10.0).filter(|&place| is_far(along, place)) {
+                    let asked = said(&cameras[other], &fields[other], origin + direction * place);
+                    assert_eq!(asked, Some(fields[other].farthest()), "view {view}, {pixel}, {other} at {place}");
+                    left_out += 1;
+                }
+                places += 600;
+            }
+        }
+    }
+    assert!(4 * left_out > places, "{left_out} of {places}");
+}
+
 #[test]
 fn the_least_of_the_largest_is_where_lines_cross() {
     // One that rises and one that falls meet at 4, half way; a third lies below them.

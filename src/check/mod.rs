@@ -15,6 +15,7 @@ mod partners;
 mod person;
 mod signed_distance;
 mod silhouettes;
+mod surely_far;
 mod timing;
 mod turns;
 mod view;

@@ -101,6 +101,22 @@ impl SignedDistance {
         })
     }
 
+    /// The first and the last place of the picture, as [`Self::at`] takes them, pixels.
+    pub(super) fn picture(&self) -> [DVec2; 2] {
+        [DVec2::splat(-0.5), self.picture - 0.5]
+    }
+
+    /// Outside of these two corners (pixels) every place of the picture is [`Self::farthest`].
+    pub(super) fn told_apart(&self) -> [DVec2; 2] {
+        let cells = DVec2::new(self.width as f64, self.height as f64);
+        [self.origin - self.step, self.origin + cells * self.step]
+    }
+
+    /// Whether there are places of which nothing is known.
+    pub(super) fn has_ignored(&self) -> bool {
+        self.ignored.is_some()
+    }
+
     /// The largest distance told apart, pixels.
     pub(super) fn farthest(&self) -> f64 {
         f64::from(MARGIN) * self.step
