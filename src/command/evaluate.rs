@@ -82,8 +82,13 @@ pub(super) fn run(args: &EvaluateArgs) -> Result<()> {
     objective.check_segments(frame.observations.iter().all(|view| view.segmentation.is_some()))?;
     let poses = PoseTable::read(&args.poses, &frame.body)?;
     let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
-    let output = args.output.as_deref().map(|path| OutputFolder::create(path, overwrite)).transpose()?;
-    let scores = score_poses(&frame, &poses, drawing, devices, args.model, &objective, output.as_ref(), args.images)?;
+    let score = |output: Option<&OutputFolder>| {
+        score_poses(&frame, &poses, drawing, devices, args.model, &objective, output, args.images)
+    };
+    let scores = match &args.output {
+        Some(path) => OutputFolder::filled(path, overwrite, |output| score(Some(output)))?,
+        None => score(None)?,
+    };
     tell!("{}", scores.backend);
     if scores.drawn_by_reference {
         tell!("the images are drawn by the reference: this backend keeps no picture of a candidate");

@@ -3,15 +3,17 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
+use image::RgbImage;
 use image::codecs::png::PngEncoder;
 use rayon::prelude::*;
 
 use super::output::{say, tell};
 use super::progress::{ProgressBar, WorkBar};
 use crate::evaluate::device::open_device;
+use crate::features::ViewFeatures;
 use crate::files::{OutputFolder, Overwrite, choices};
 use crate::observe::{Observer, feature_settings, with_plates};
-use crate::sequence::Sequence;
+use crate::sequence::{Sequence, View};
 use crate::track::FrameRange;
 
 /// Writes silhouettes, edges, distance maps and packed observations as PNG.
@@ -68,30 +70,33 @@ pub(super) fn run(args: &FeaturesArgs) -> Result<()> {
     {
         tell!("note: the processor makes the features: {error:#}");
     }
-    let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;
-
-    let mut progress = ProgressBar::new("features", frames.len());
-    while let Some(set) = observer.read()? {
-        let Some(features) = observer.features(&set, true)? else { continue };
-        let views = sequence.views.par_iter().zip(&set.pictures).zip(&*features);
-        views.try_for_each(|((view, picture), features)| -> Result<()> {
-            let frame = set.index;
-            for (stage, picture) in features.pictures(picture) {
-                output.write(&format!("{}/{stage}_{frame:06}.png", view.camera), |writer| {
-                    Ok(picture.write_with_encoder(PngEncoder::new(writer))?)
-                })?;
-            }
-            let path = output.file(&format!("frame_{frame:06}/{}.png", view.camera))?;
-            features.observation.write_png(&path, Overwrite::Replace)
-        })?;
-        progress.advance();
-    }
-    drop(progress);
+    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    OutputFolder::filled(&args.output, overwrite, |output| {
+        let mut progress = ProgressBar::new("features", frames.len());
+        while let Some(set) = observer.read()? {
+            let Some(features) = observer.features(&set, true)? else { continue };
+            let views = sequence.views.par_iter().zip(&set.pictures).zip(&*features);
+            views.try_for_each(|((view, picture), features)| write(output, set.index, view, picture, features))?;
+            progress.advance();
+        }
+        Ok(())
+    })?;
     say!(
         "wrote the features of {} frames in {} views to {}",
         frames.len(),
         sequence.views.len(),
-        output.path().display()
+        args.output.display()
     );
     Ok(())
+}
+
+/// Writes the stages of one view of a frame, and the observation that `evaluate` reads.
+fn write(output: &OutputFolder, frame: usize, view: &View, picture: &RgbImage, features: &ViewFeatures) -> Result<()> {
+    for (stage, picture) in features.pictures(picture) {
+        output.write(&format!("{}/{stage}_{frame:06}.png", view.camera), |writer| {
+            Ok(picture.write_with_encoder(PngEncoder::new(writer))?)
+        })?;
+    }
+    let path = output.file(&format!("frame_{frame:06}/{}.png", view.camera))?;
+    features.observation.write_png(&path, Overwrite::Replace)
 }

@@ -89,16 +89,20 @@ pub(super) fn run(args: &MatrixArgs) -> Result<()> {
     ensure!((1..=args.bits).contains(&args.group), "--group {}: expected 1 to the {} bits", args.group, args.bits);
     let chosen =
         Chosen { args, name: args.structure.as_deref().map(StructureName::new).transpose()?.unwrap_or_default() };
-    let folder = args
-        .output
-        .as_deref()
-        .map(|path| OutputFolder::create(path, if args.force { Overwrite::Replace } else { Overwrite::Refuse }));
-    let folder = folder.transpose()?;
-    let rows = chosen.rows(args.n, args.bits)?;
-    ensure!(!rows.is_empty(), "no structure has that arrangement, unit and multiplier: see docs/MATRIX.md");
-    if let Some(folder) = &folder {
-        chosen.write_all(&rows, folder)?;
-    }
+    let rows = || -> Result<Vec<_>> {
+        let rows = chosen.rows(args.n, args.bits)?;
+        ensure!(!rows.is_empty(), "no structure has that arrangement, unit and multiplier: see docs/MATRIX.md");
+        Ok(rows)
+    };
+    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    let rows = match &args.output {
+        Some(path) => OutputFolder::filled(path, overwrite, |folder| {
+            let rows = rows()?;
+            chosen.write_all(&rows, folder)?;
+            Ok(rows)
+        })?,
+        None => rows()?,
+    };
     if args.json {
         say!("{}", serde_json::to_string_pretty(&json!({ "rows": rows }))?);
     } else {

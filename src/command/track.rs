@@ -213,15 +213,14 @@ pub(super) fn tracked(args: &TrackArgs, progress: &mut dyn Progress) -> Result<V
     } else {
         Sequence::open(&args.sequence)?
     };
-    let output = if args.resume {
+    if args.resume {
         if !args.output.is_dir() {
             bail!("there is no folder {} to resume a run in: leave out --resume", args.output.display());
         }
-        OutputFolder::open(&args.output)?
-    } else {
-        OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?
-    };
-    track_all(&sequence, &settings, &output, progress)
+        return track_all(&sequence, &settings, &OutputFolder::open(&args.output)?, progress);
+    }
+    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    OutputFolder::filled(&args.output, overwrite, |output| track_all(&sequence, &settings, output, progress))
 }
 
 fn check_ended(summary: &TrackSummary, args: &TrackArgs) -> Result<()> {

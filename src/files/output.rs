@@ -120,6 +120,22 @@ impl OutputFolder {
         Ok(Self { path: path.to_path_buf(), overwrite: Overwrite::Replace })
     }
 
+    /// [`Self::create`] for work that fills the folder: where the work fails before there is a file, the folders made for it are taken away.
+    ///
+    /// # Errors
+    /// As there, and when the work fails.
+    pub fn filled<T>(path: &Path, overwrite: Overwrite, work: impl FnOnce(&Self) -> Result<T>) -> Result<T> {
+        let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
+        let missing: Vec<&Path> = path.ancestors().take_while(is_missing).collect();
+        let done = work(&Self::create(path, overwrite)?);
+        if done.is_err() && !missing.is_empty() {
+            remove_empty(path);
+            // One that holds something stays, and so do those that it is in.
+            let _ = missing[1..].iter().try_for_each(fs::remove_dir);
+        }
+        done
+    }
+
     /// Whether a folder is there that is not empty.
     ///
     /// # Errors
@@ -161,6 +177,17 @@ impl OutputFolder {
     pub fn write(&self, name: &str, body: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
         write_atomically(&self.file(name)?, self.overwrite, body)
     }
+}
+
+/// Removes a folder in which there are at most folders that are as empty.
+fn remove_empty(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            remove_empty(&entry.path());
+        }
+    }
+    // Of use to nobody, and in nobody's way: what the work failed of is what is to be said.
+    let _ = fs::remove_dir(folder);
 }
 
 /// A folder that a run writes into; free again when this is dropped or the process ends, however it does.
@@ -223,6 +250,32 @@ mod tests {
     use super::*;
 
     #[cfg(unix)]
+    #[test]
+    fn work_that_writes_nothing_leaves_no_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a/b/c");
+        let fail = |names: &[&str]| {
+            let error = OutputFolder::filled(&path, Overwrite::Refuse, |output| -> Result<()> {
+                OutputFolder::open(&output.path().join("person"))?;
+                names.iter().try_for_each(|name| output.write(name, |_| Ok(())))?;
+                bail!("it fails")
+            });
+            assert_eq!(error.unwrap_err().to_string(), "it fails");
+        };
+        fail(&[]);
+        assert!(!folder.path().join("a").exists());
+        // What was there stays.
+        fs::create_dir_all(folder.path().join("a/b")).unwrap();
+        fail(&[]);
+        assert!(folder.path().join("a/b").exists() && !path.exists());
+        fs::create_dir(&path).unwrap();
+        fail(&[]);
+        assert!(path.exists());
+        fs::remove_dir_all(folder.path().join("a")).unwrap();
+        fail(&["half.csv"]);
+        assert!(path.join("half.csv").exists() && !path.join("person").exists());
+    }
+
     #[test]
     fn one_run_at_a_time_is_in_a_folder() {
         let folder = tempfile::tempdir().unwrap();

@@ -527,6 +527,7 @@ fn wrong_inputs_are_one_sentence() {
     let between = format!("limits {} to {}", limits[0], limits[1]);
     let bad_start = track_with(folder.path(), &output, &[]);
     refused(&bad_start, &["start.csv", "left_knee.ry is 171.88", "degrees", &between]);
+    assert!(!output.exists(), "a folder is left of a run that could not begin");
     fs::write(folder.path().join("start.csv"), good).unwrap();
 
     let manifest = change("sequence.toml", "body = \"body.toml\"\n", "");
