@@ -38,7 +38,9 @@ pub fn parse_toml<T: DeserializeOwned>(text: &str, name: &str) -> Result<T> {
 /// # Errors
 /// As [`read_toml`], with the name instead of the line.
 pub fn parse_table<T: DeserializeOwned>(table: &toml::Table, name: &str) -> Result<T> {
-    table.clone().try_into().map_err(|error: toml::de::Error| anyhow!("{name}: {}", one_sentence(error.message())))
+    // By its text, so that every structure is read one way: reading a table itself is another parser for each, compiled once more.
+    let read = toml::to_string(table).map_err(|error| anyhow!("{name}: {error}"))?;
+    toml::from_str(&read).map_err(|error| anyhow!("{name}: {}", one_sentence(error.message())))
 }
 
 /// What a value would be as a file.
