@@ -1,6 +1,8 @@
 //! A track through a window, forwards or backwards: as a run's first pass, but with more starts at hand, and limbs looked for anew where
 //! the pictures say that something is wrong.
 
+use std::ops::Range;
+
 use anyhow::Result;
 
 use super::hypotheses::Limbs;
@@ -22,6 +24,8 @@ const RETRACED: u64 = 1000;
 const STRAIGHTENED: u64 = 500;
 /// The same of one that goes on into the next section.
 const WENT_ON: u64 = 2000;
+/// The same of searches from where a track leads, beside those from a better start.
+const LED: u64 = 4000;
 /// Times that the limbs of a frame are looked for, and how many of those found are tried with all else moving along.
 const RESCUES: u64 = 3;
 const PROMISING: usize = 2;
@@ -39,6 +43,22 @@ pub(super) const SHARE: usize = 3;
 
 /// The last two poses of a track, the last one last.
 pub(super) type Ended = [Option<Candidate>; 2];
+
+/// What a track found in a frame.
+struct Found {
+    /// What is worth most beside where the track leads.
+    best: Candidate,
+    /// What was found from another start, far from that one's.
+    other: Option<Candidate>,
+}
+
+/// Where the frames before lead a track.
+pub(super) struct Lead {
+    /// Which of the starts are there; the others are of single limbs of the track there is. None in a track's first frame.
+    pub(super) led: Range<usize>,
+    /// Where joints are expected.
+    pub(super) pull: Option<Pull>,
+}
 
 /// How to track.
 pub(super) struct Track<'a> {
@@ -78,7 +98,8 @@ impl<'a> Track<'a> {
     ) -> Result<Ended> {
         let mut last: Ended = [None, None];
         for &t in order {
-            let mut chosen = self.searched(scorer, seen[t], t, &last, &candidates[t], (0, 1.0))?;
+            let Found { best: mut chosen, other } =
+                self.searched(scorer, seen[t], t, &last, &candidates[t], (0, 1.0))?;
             // Where the track the other way ended in this pose, having looked for its limbs, another look finds no more.
             let is = |what: fn(&Candidate) -> bool| {
                 candidates[t].iter().any(|known| what(known) && !is_different(known, &chosen))
@@ -90,6 +111,7 @@ impl<'a> Track<'a> {
             if !is_looked_at && !is_looked_into {
                 others.extend(self.tried_straight(scorer, seen[t], &mut chosen)?);
             }
+            others.extend(other);
             *most = most.max(chosen.worth);
             if !self.is_back {
                 let twins = self.limbs.twins.iter();
@@ -128,7 +150,7 @@ impl<'a> Track<'a> {
     ) -> Result<()> {
         for &t in order {
             let found = self.searched(scorer, seen[t], t, &last, &candidates[t], (WENT_ON, 1.0))?;
-            let is_known = candidates[t].iter().any(|known| !apart(&known.points, &found.points));
+            let is_known = candidates[t].iter().any(|known| !apart(&known.points, &found.best.points));
             add(found, &mut last, &mut candidates[t]);
             if is_known {
                 break;
@@ -158,7 +180,12 @@ impl<'a> Track<'a> {
     }
 
     /// What a search of frame `t` finds from the best of its candidates and of where the `last` two lead, with a number that tells its random
-    /// numbers apart, and a share of the deviations from there.
+    /// numbers apart, and a share of the deviations from there. A candidate was searched before, where the track leads was not, and what is
+    /// searched looks better than it is: where the two are far apart, both are searched before one is chosen. Else a track that comes to a
+    /// stretch in which another has legs exchanged would go over to that.
+    ///
+    /// # Errors
+    /// When the evaluator fails.
     fn searched(
         &self,
         scorer: &mut Scorer<'_>,
@@ -167,15 +194,30 @@ impl<'a> Track<'a> {
         last: &Ended,
         known: &[Candidate],
         (number, share): (u64, f64),
-    ) -> Result<Candidate> {
+    ) -> Result<Found> {
         scorer.observe(&seen.observations)?;
         let mut starts: Vec<Vec<f32>> = known.iter().map(|candidate| candidate.pose.clone()).collect();
-        let mut pull = self.lead(scorer, t, last, &mut starts);
+        let Lead { led, mut pull } = self.lead(scorer, t, last, &mut starts);
         pull.iter_mut().flat_map(|pull| &mut pull.scales).for_each(|scale| *scale *= share);
-        let start = most_under(&scorer.candidates(&starts)?, pull.as_ref());
+        let pull = pull.as_ref();
+        let scored = scorer.candidates(&starts)?;
         let generations = scorer.generations(TRACKED);
-        let effort = Effort { spread: self.spread, generations, turn: self.turn(number) };
-        scorer.search_all(seen.index, &starts[start], effort, pull.as_ref())
+        let mut search = |start: usize, number: u64| {
+            let effort = Effort { spread: self.spread, generations, turn: self.turn(number) };
+            scorer.search_all(seen.index, &starts[start], effort, pull)
+        };
+        let start = most_under(&scored, pull);
+        let best = search(start, number)?;
+        if led.is_empty() {
+            return Ok(Found { best, other: None });
+        }
+        let own = led.start + most_under(&scored[led], pull);
+        if !apart(&scored[own].points, &scored[start].points) {
+            return Ok(Found { best, other: None });
+        }
+        let mut both = vec![best, search(own, LED + number)?];
+        let best = both.swap_remove(most_under(&both, pull));
+        Ok(Found { best, other: both.pop() })
     }
 
     /// What tells the random numbers of this track's searches apart.
@@ -183,9 +225,16 @@ impl<'a> Track<'a> {
         2 * number + u64::from(self.is_back)
     }
 
-    /// Where the frames before lead: starts, among them ones with single limbs of the track there is, and where joints are expected.
-    fn lead(&self, scorer: &Scorer<'_>, t: usize, [earlier, last]: &Ended, starts: &mut Vec<Vec<f32>>) -> Option<Pull> {
-        let last = last.as_ref()?;
+    /// Where the frames before lead: starts, and where joints are expected.
+    pub(super) fn lead(
+        &self,
+        scorer: &Scorer<'_>,
+        t: usize,
+        [earlier, last]: &Ended,
+        starts: &mut Vec<Vec<f32>>,
+    ) -> Lead {
+        let first = starts.len();
+        let Some(last) = last else { return Lead { led: first..first, pull: None } };
         let mut ahead = last.pose.clone();
         let mut speeds = vec![0.0; last.points.len()];
         if let Some(earlier) = earlier {
@@ -195,12 +244,13 @@ impl<'a> Track<'a> {
             speeds = last.points.iter().zip(&earlier.points).map(|(a, b)| a.distance(*b)).collect();
         }
         starts.extend([last.pose.clone(), ahead.clone()]);
+        let led = first..starts.len();
         for limb in 0..self.limbs.count() {
             starts.push(self.limbs.with(limb, &ahead, &self.given[t]));
             starts.push(self.limbs.with(limb, &self.given[t], &ahead));
         }
         let scales = speeds.iter().map(|speed| EXPECTED[0] + EXPECTED[1] * speed).collect();
-        Some(Pull { targets: scorer.shape.points(&ahead), scales })
+        Lead { led, pull: Some(Pull { targets: scorer.shape.points(&ahead), scales }) }
     }
 
     /// Looks for limbs anew: those of which the pictures say more elsewhere, all where the frame is worth less than the `most` of others,
@@ -316,9 +366,10 @@ impl<'a> Track<'a> {
 }
 
 /// Adds what a track found to the candidates of its frame.
-fn add(found: Candidate, last: &mut Ended, candidates: &mut Vec<Candidate>) {
-    candidates.push(found.clone());
-    *last = [last[1].take(), Some(found)];
+fn add(found: Found, last: &mut Ended, candidates: &mut Vec<Candidate>) {
+    candidates.push(found.best.clone());
+    candidates.extend(found.other);
+    *last = [last[1].take(), Some(found.best)];
 }
 
 fn is_different(one: &Candidate, other: &Candidate) -> bool {
