@@ -45,7 +45,8 @@ fn smoothed_results_lie_beside_those_found(sequence: &Path, output: &Path) {
     let track = |more: &[&str]| {
         let mut command = program();
         command.arg("track").arg(sequence).arg("-o").arg(output).args(["--particles", "60", "--iterations", "6"]);
-        command.args(["--overlay-every", "0", "--force"]).args(more).output().unwrap()
+        // Forwards alone: a second pass leaves little but the person's own motion to smooth.
+        command.args(["--passes", "forward", "--overlay-every", "0", "--force"]).args(more).output().unwrap()
     };
     let plain = track(&[]);
     assert!(plain.status.success(), "{}", stderr(&plain));
@@ -67,15 +68,13 @@ fn smoothed_results_lie_beside_those_found(sequence: &Path, output: &Path) {
     assert_eq!([cut_off("markers.c3d"), cut_off("smoothed/markers.c3d")], [None, Some(6.0)]);
     // The steps from step to step tremble less.
     let body = pantin::body::Body::load(&sequence.join("body.toml")).unwrap();
-    let trembling = |file: &Path| {
-        let poses = pantin::body::PoseTable::read(file, &body).unwrap().poses;
+    let trembling = |name: &str| {
+        let poses = pantin::body::PoseTable::read(&output.join(name), &body).unwrap().poses;
         let bend = |at: usize, dof: usize| (poses[at - 1][dof] - 2.0 * poses[at][dof] + poses[at + 1][dof]).abs();
         (1..poses.len() - 1).flat_map(|at| (3..6).map(move |dof| (at, dof))).map(|(at, dof)| bend(at, dof)).sum::<f64>()
     };
-    let (rough, smooth) = (trembling(&output.join("poses.csv")), trembling(&output.join("smoothed/poses.csv")));
-    // Beyond what the person does himself: four seeds of two trackers had 0.54 to 0.76 of it.
-    let own = trembling(&sequence.join("truth_poses.csv"));
-    assert!(smooth > own && smooth - own < 0.8 * (rough - own), "{smooth} of {rough}, {own} true");
+    let (rough, smooth) = (trembling("poses.csv"), trembling("smoothed/poses.csv"));
+    assert!(smooth > 0.0 && smooth < 0.8 * rough, "{smooth} of {rough}");
     for name in ["joints.csv", "joints.trc", "markers.c3d", "motion.bvh", "motion.mot"] {
         assert!(output.join("smoothed").join(name).is_file(), "{name}");
     }
