@@ -32,13 +32,7 @@ impl SurelyFar {
             return None;
         }
         let [seen, near] = [silhouette.picture(), silhouette.told_apart()].map(|bounds| sides(camera, bounds));
-        let ([left, right, top, bottom], near) = (seen?, near?);
-        let seen = inner([left, right, top, bottom]);
-        let size = seen[1] - seen[0];
-        let around = outer(near);
-        let slack = (around[1] - around[0]) * SLACK;
-        let near = [around[0] - slack, around[1] + slack];
-        Some(Self { seen: [seen[0] + size * SLACK, seen[1] - size * SLACK], near })
+        Some(Self { seen: grown(inner(&seen?), -SLACK), near: grown(outer(&near?), SLACK) })
     }
 
     /// Where along a ray (in the camera's axes) the view is sure: from and to of `seen`, and of `near` within it, which is not.
@@ -64,16 +58,22 @@ fn sides(camera: &Camera, [low, high]: [DVec2; 2]) -> Option<[Vec<DVec2>; 4]> {
 }
 
 /// The box that all sides lie around.
-fn inner([left, right, top, bottom]: [Vec<DVec2>; 4]) -> Bounds {
-    let largest = |points: &[DVec2], axis: usize| points.iter().map(|at| at[axis]).fold(f64::NEG_INFINITY, f64::max);
-    let least = |points: &[DVec2], axis: usize| points.iter().map(|at| at[axis]).fold(f64::INFINITY, f64::min);
-    [DVec2::new(largest(&left, 0), largest(&top, 1)), DVec2::new(least(&right, 0), least(&bottom, 1))]
+fn inner([left, right, top, bottom]: &[Vec<DVec2>; 4]) -> Bounds {
+    let least = |side: &[DVec2]| side.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    let largest = |side: &[DVec2]| side.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    [DVec2::new(largest(left).x, largest(top).y), DVec2::new(least(right).x, least(bottom).y)]
 }
 
 /// The box around all sides.
-fn outer(sides: [Vec<DVec2>; 4]) -> Bounds {
+fn outer(sides: &[Vec<DVec2>; 4]) -> Bounds {
     let none = [DVec2::INFINITY, DVec2::NEG_INFINITY];
     sides.iter().flatten().fold(none, |[low, high], at| [low.min(*at), high.max(*at)])
+}
+
+/// A box with a share of its size more on every side.
+fn grown([low, high]: Bounds, share: f64) -> Bounds {
+    let more = (high - low) * share;
+    [low - more, high + more]
 }
 
 /// From where to where a ray lies within a box and before the camera; from beyond to where it does not.
