@@ -208,13 +208,10 @@ impl<'a> Track<'a> {
         };
         let start = most_under(&scored, pull);
         let best = search(start, number)?;
-        if led.is_empty() {
+        let own = (!led.is_empty()).then(|| led.start + most_under(&scored[led], pull));
+        let Some(own) = own.filter(|&own| apart(&scored[own].points, &scored[start].points)) else {
             return Ok(Found { best, other: None });
-        }
-        let own = led.start + most_under(&scored[led], pull);
-        if !apart(&scored[own].points, &scored[start].points) {
-            return Ok(Found { best, other: None });
-        }
+        };
         let mut both = vec![best, search(own, LED + number)?];
         let best = both.swap_remove(most_under(&both, pull));
         Ok(Found { best, other: both.pop() })
