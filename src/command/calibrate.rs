@@ -101,7 +101,7 @@ impl FromStr for PictureSize {
 /// When a file cannot be read or makes no sense, a camera cannot be calibrated from its points, or the result cannot be
 /// written.
 pub(super) fn run(args: &CalibrateArgs) -> Result<()> {
-    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    let overwrite = Overwrite::forced(args.force);
     // Said before the work, not after it.
     overwrite.check(&args.output)?;
     let settings = settings(args)?;

@@ -66,7 +66,7 @@ pub(super) fn run(args: &ConvertArgs) -> Result<()> {
     if let Some(rate) = args.rate {
         ensure!(sane(rate), "--rate is {rate:?}, expected a positive number of frames a second, 1e-6 to 1e6");
     }
-    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    let overwrite = Overwrite::forced(args.force);
     if is_skinned_file(&args.input) {
         return import(args, overwrite);
     }

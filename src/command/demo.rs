@@ -67,7 +67,7 @@ pub(super) fn run(args: &DemoArgs) -> Result<()> {
         TrackSettings { search, overlay_every: OVERLAY_EVERY, recording: args.rerun, ..TrackSettings::default() };
     settings.check()?;
     let synthetic = SyntheticSequence::new(&scene)?;
-    let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;
+    let output = OutputFolder::create(&args.output, Overwrite::forced(args.force))?;
 
     let folder = OutputFolder::open(&args.output.join("sequence"))?;
     let begin = Instant::now();

@@ -81,7 +81,7 @@ pub(super) fn run(args: &EvaluateArgs) -> Result<()> {
     };
     objective.check_segments(frame.observations.iter().all(|view| view.segmentation.is_some()))?;
     let poses = PoseTable::read(&args.poses, &frame.body)?;
-    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    let overwrite = Overwrite::forced(args.force);
     let score = |output: Option<&OutputFolder>| {
         score_poses(&frame, &poses, drawing, devices, args.model, &objective, output, args.images)
     };

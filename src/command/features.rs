@@ -70,7 +70,7 @@ pub(super) fn run(args: &FeaturesArgs) -> Result<()> {
     {
         tell!("note: the processor makes the features: {error:#}");
     }
-    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    let overwrite = Overwrite::forced(args.force);
     OutputFolder::filled(&args.output, overwrite, |output| {
         let mut progress = ProgressBar::new("features", frames.len());
         while let Some(set) = observer.read()? {

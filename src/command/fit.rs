@@ -72,7 +72,7 @@ pub(super) fn run(args: &FitArgs) -> Result<()> {
 /// # Errors
 /// As [`run`].
 pub(super) fn fitted(args: &FitArgs, progress: &mut Advance<'_>, told: impl FnOnce(&str)) -> Result<Fit> {
-    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    let overwrite = Overwrite::forced(args.force);
     // Said before the work, not after it.
     for file in [&args.output, &args.start_out].into_iter().flatten() {
         overwrite.check(file)?;

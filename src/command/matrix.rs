@@ -94,7 +94,7 @@ pub(super) fn run(args: &MatrixArgs) -> Result<()> {
         ensure!(!rows.is_empty(), "no structure has that arrangement, unit and multiplier: see docs/MATRIX.md");
         Ok(rows)
     };
-    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    let overwrite = Overwrite::forced(args.force);
     let rows = match &args.output {
         Some(path) => OutputFolder::filled(path, overwrite, |folder| {
             let rows = rows()?;

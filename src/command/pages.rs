@@ -43,7 +43,7 @@ pub(super) fn completions(args: &CompletionsArgs, mut program: Command) -> Resul
 /// # Errors
 /// When a page cannot be written.
 pub(super) fn man(args: &ManArgs, program: Command) -> Result<()> {
-    let output = OutputFolder::create(&args.output, if args.force { Overwrite::Replace } else { Overwrite::Refuse })?;
+    let output = OutputFolder::create(&args.output, Overwrite::forced(args.force))?;
     let mut program = program.disable_help_subcommand(true);
     program.build();
     let pages: Vec<Man> = std::iter::once(&program).chain(program.get_subcommands()).cloned().map(Man::new).collect();

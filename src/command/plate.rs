@@ -42,7 +42,7 @@ pub(super) struct PlateArgs {
 /// # Errors
 /// As [`learn_plate`]; and when a file exists and may not be replaced, or cannot be written.
 pub(super) fn run(args: &PlateArgs) -> Result<()> {
-    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    let overwrite = Overwrite::forced(args.force);
     for file in [Some(&args.output), args.sure.as_ref()].into_iter().flatten() {
         png_name(file)?;
         overwrite.check(file)?;

@@ -99,7 +99,7 @@ fn run_trial(trial: &Pose2SimTrial, manifest: &Table, settings: &TrackSettings, 
         );
     }
     let own = trial.dir.join(POSE2SIM_OWN);
-    let overwrite = if args.force || args.resume { Overwrite::Replace } else { Overwrite::Refuse };
+    let overwrite = Overwrite::forced(args.force || args.resume);
     let is_begun = own.join("track/journal.txt").is_file();
     // The manifest is made anew as long as nothing was made of it: a first try may have failed at it.
     let results = OutputFolder::create(&own.join("track"), overwrite)?;

@@ -124,7 +124,7 @@ pub(super) fn run(args: &ScoreArgs) -> Result<()> {
     let error = compare(false)?;
     let without_offset = args.remove_offset.then(|| compare(true)).transpose()?;
     if let Some(file) = &args.per_frame {
-        let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+        let overwrite = Overwrite::forced(args.force);
         write_atomically(file, overwrite, |out| write_frame_errors(out, &error))?;
     }
     if args.json {

@@ -96,7 +96,7 @@ pub(super) fn run(args: &StartArgs) -> Result<()> {
             iterations: args.iterations,
             ..FitSettings::default()
         },
-        overwrite: if args.force { Overwrite::Replace } else { Overwrite::Refuse },
+        overwrite: Overwrite::forced(args.force),
     };
     let mut bar = WorkBar::default();
     let made = first_try(&settings, &args.output, &mut |what, done, total| bar.show(what, done, total))?;

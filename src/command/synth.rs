@@ -166,6 +166,6 @@ fn device(args: &SynthArgs, synthetic: &SyntheticSequence) -> Result<Option<Devi
 }
 
 fn folder(args: &SynthArgs) -> Result<OutputFolder> {
-    let overwrite = if args.force || args.resume { Overwrite::Replace } else { Overwrite::Refuse };
+    let overwrite = Overwrite::forced(args.force || args.resume);
     OutputFolder::create(&args.output, overwrite)
 }

@@ -233,7 +233,7 @@ pub(super) fn drawn(args: &TextureArgs) -> Result<Drawn> {
 }
 
 fn write(args: &TextureArgs, picture: &DynamicImage, path: &Path) -> Result<()> {
-    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    let overwrite = Overwrite::forced(args.force);
     write_atomically(path, overwrite, |writer| Ok(picture.write_with_encoder(PngEncoder::new(writer))?))
 }
 

@@ -219,7 +219,7 @@ pub(super) fn tracked(args: &TrackArgs, progress: &mut dyn Progress) -> Result<V
         }
         return track_all(&sequence, &settings, &OutputFolder::open(&args.output)?, progress);
     }
-    let overwrite = if args.force { Overwrite::Replace } else { Overwrite::Refuse };
+    let overwrite = Overwrite::forced(args.force);
     OutputFolder::filled(&args.output, overwrite, |output| track_all(&sequence, &settings, output, progress))
 }
 

@@ -19,6 +19,11 @@ pub enum Overwrite {
 }
 
 impl Overwrite {
+    /// Replaces what is there only where that was asked for.
+    pub fn forced(is_forced: bool) -> Self {
+        if is_forced { Self::Replace } else { Self::Refuse }
+    }
+
     /// Whether a file may be written, to be asked before the work and not after it.
     ///
     /// # Errors
