@@ -39,6 +39,10 @@ pub(super) struct FitArgs {
     /// A poses.csv to start from, with one pose or one for every frame used.
     #[arg(long, value_name = "FILE", conflicts_with = "heading")]
     start: Option<PathBuf>,
+    /// Where the person stands in the first of the frames, where several people are seen: world x and y, mm [default: nearest to where the cameras
+    /// look].
+    #[arg(long, value_name = "X,Y", value_parser = floor_place, allow_hyphen_values = true)]
+    at: Option<[f64; 2]>,
     /// Where the person faces: degrees, 0 along x, 90 along y [default: tries all round].
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     heading: Option<f64>,
@@ -56,6 +60,15 @@ pub(super) struct FitArgs {
     /// Replace the files.
     #[arg(long)]
     force: bool,
+}
+
+/// `-1400,250`.
+pub(super) fn floor_place(text: &str) -> Result<[f64; 2], String> {
+    let numbers = text.split_once(',').map(|(x, y)| [x, y].map(|number| number.trim().parse::<f64>().ok()));
+    match numbers {
+        Some([Some(x), Some(y)]) if x.is_finite() && y.is_finite() => Ok([x, y]),
+        _ => Err("expected two numbers in mm, X,Y".to_string()),
+    }
 }
 
 /// Runs the command.
@@ -95,6 +108,7 @@ pub(super) fn fitted(args: &FitArgs, progress: &mut Advance<'_>, told: impl FnOn
         frames: args.frames,
         samples: args.samples,
         start: args.start.clone(),
+        at: args.at,
         heading: args.heading,
         keep_body: args.output.is_none(),
         follow: false,
@@ -107,7 +121,7 @@ pub(super) fn fitted(args: &FitArgs, progress: &mut Advance<'_>, told: impl FnOn
     let summary = summary(&fit);
     // Before anything is written: where that fails the numbers are not lost.
     told(&summary);
-    for remark in &fit.remarks {
+    for remark in fit.remarks.iter().chain(&fit.others) {
         tell!("note: {remark}");
     }
     if let Some(file) = &args.output {

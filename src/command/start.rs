@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 
-use super::fit::summary;
+use super::fit::{floor_place, summary};
 use super::name_pair::name_pair;
 use super::output::{put, say, tell};
 use super::progress::WorkBar;
 use crate::files::{Overwrite, listed};
 use crate::sequence::{DOUBTFUL, Orientation, check_scale};
-use crate::track::{FirstTry, FirstTrySettings, FirstView, FitSettings, FrameRange, first_try};
+use crate::track::{FirstPerson, FirstTry, FirstTrySettings, FirstView, FitSettings, FrameRange, first_try};
 
 /// Makes all that a first track needs from your videos, their calibration and the person's height.
 ///
@@ -25,9 +25,17 @@ pub(super) struct StartArgs {
     /// The calibration: Pose2Sim, anipose or caliscope TOML, Qualisys .qca.txt, Vicon .xcp, OpenCV YAML or XML, EasyMocap's pair.
     #[arg(long, value_name = "FILE")]
     cameras: PathBuf,
-    /// Height of the person, with shoes and hair, mm.
-    #[arg(long, value_name = "MM")]
-    height: f64,
+    /// Height of the person, with shoes and hair, mm. With --people one for each, separated by commas: the largest is of who looks tallest.
+    #[arg(long, value_name = "MM", required = true, value_delimiter = ',')]
+    height: Vec<f64>,
+    /// How many people are tracked together: those who stand nearest to where the cameras look, all to be seen by themselves in the first of the
+    /// frames. Who is not tracked disturbs whom he overlaps in pictures.
+    #[arg(long, value_name = "N", default_value_t = 1, conflicts_with_all = ["at", "heading"])]
+    people: usize,
+    /// Where the person stands in the first of the frames, where several people are seen: world x and y, mm [default: nearest to where the cameras
+    /// look].
+    #[arg(long, value_name = "X,Y", value_parser = floor_place, allow_hyphen_values = true)]
+    at: Option<[f64; 2]>,
     /// The folder to make.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -78,6 +86,13 @@ pub(super) fn run(args: &StartArgs) -> Result<()> {
     if let Some(heading) = args.heading.filter(|heading| !(-360.0..=360.0).contains(heading)) {
         bail!("--heading is {heading}, expected -360 to 360 degrees");
     }
+    if args.people != args.height.len() {
+        bail!(
+            "--people is {} and --height names {}, expected a height for each, in mm and separated by commas",
+            args.people,
+            args.height.len()
+        );
+    }
     args.scale.map_or(Ok(()), check_scale).context("--scale")?;
     let name = args.output.file_name().map_or_else(|| "walk".into(), |name| name.to_string_lossy().into_owned());
     let settings = FirstTrySettings {
@@ -89,13 +104,14 @@ pub(super) fn run(args: &StartArgs) -> Result<()> {
         scale: args.scale,
         orientations: args.orientation.clone(),
         fit: FitSettings {
-            height: Some(args.height),
             frames: args.frames,
+            at: args.at,
             heading: args.heading,
             particles: args.particles,
             iterations: args.iterations,
             ..FitSettings::default()
         },
+        heights: args.height.clone(),
         overwrite: Overwrite::forced(args.force),
     };
     let mut bar = WorkBar::default();
@@ -117,15 +133,20 @@ fn told(made: &FirstTry, args: &StartArgs) -> Result<()> {
     for remark in &made.remarks {
         tell!("note: {remark}");
     }
-    let fit = match &made.fit {
-        Ok(fit) => fit,
+    let people = match &made.people {
+        Ok(people) => people,
         Err(why) => bail!(
             "nobody could be measured ({why}); the rest is made: look at {folder}/look/silhouettes.png, whether the person and nothing \
              else is outlined, and where it is not film the empty scene, or try other frames: `pantin fit {folder} -o \
              {folder}/body.toml --start-out {folder}/start.csv --frames A..B`"
         ),
     };
-    put!("{}", summary(fit));
+    for FirstPerson { name, fit } in people {
+        if let Some(name) = name {
+            say!("{name}, {folder}/{name}:");
+        }
+        put!("{}", summary(fit));
+    }
     say!("look at {folder}/look/silhouettes.png: the outline should hold the person and nothing else");
     let ghosts: Vec<&str> =
         made.views.iter().filter(|view| view.doubtful > DOUBTFUL).map(|view| view.camera.as_str()).collect();

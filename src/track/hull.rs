@@ -69,7 +69,7 @@ impl Hull {
 }
 
 /// Whether a point is in the silhouette of every camera whose picture it is in and does not ignore it there, and those are two or more.
-fn is_person(cameras: &[Camera], views: &[SeenView<'_>], at: DVec3) -> bool {
+pub(super) fn is_person(cameras: &[Camera], views: &[SeenView<'_>], at: DVec3) -> bool {
     let mut seen = 0;
     for (camera, view) in cameras.iter().zip(views) {
         let Some(pixel) = camera.project(at) else { continue };

@@ -100,9 +100,10 @@ fn told(found: &Fit) -> String {
         Some(height) => format!("a body of {height:.0} mm was measured, and "),
         None => String::new(),
     };
+    let others = found.others.iter().map(|others| format!(". {others}")).collect::<String>();
     format!(
         "the sequence names no start: {body}a first pose{heading} with a fitness of {:.3} was found, kept as {START}; `pantin fit` and --start \
-         say otherwise",
+         say otherwise{others}",
         found.fitness
     )
 }

@@ -205,3 +205,68 @@ fn the_lines_of_readme_and_guide_lead_to_a_track() {
     let low: Vec<&str> = with_other.iter().map(|word| if *word == "1750" { "1.75" } else { word }).collect();
     refused_in(folder, &low, "the person's height is 1.75, expected 500 to 2500 mm");
 }
+
+/// Two people are seen: one is measured and the other said, or both are measured, named and tracked together.
+#[test]
+fn several_people_are_begun_together() {
+    if !has_ffmpeg("several_people_are_begun_together") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let scene = "name = \"two\"\nframes = 8\n[output]\npictures = \"video\"\n[rig]\nsize = [240, 180]\n\
+                 [[actor]]\nheight = 1850.0\nmotion = { gait = \"straight\", at = [300.0, 200.0] }\n\
+                 [[actor]]\nheight = 1600.0\nmotion = { gait = \"stand\", at = [-900.0, -700.0], heading = 90.0 }\n";
+    fs::write(folder.join("scene.toml"), scene).unwrap();
+    let (status, _, error) = pantin_in(folder, &["synth", "scene.toml", "-o", "made"]);
+    assert_eq!(status, 0, "{error}");
+    let begin = |heights: &str, more: &[&str]| {
+        let mut arguments = vec!["start".to_string()];
+        for camera in ["cam1", "cam2", "cam3", "cam4"] {
+            arguments.push(format!("made/videos/{camera}.mp4"));
+        }
+        let flags = ["--cameras", "made/cameras.toml", "--plates", "made/plates", "--height", heights];
+        arguments.extend(flags.iter().chain(more).map(|word| (*word).to_string()));
+        arguments.extend(["--particles", "60", "--iterations", "6"].map(String::from));
+        pantin_in(folder, &arguments.iter().map(String::as_str).collect::<Vec<_>>())
+    };
+    let pelvis = |file: &str| -> [f64; 2] {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        let row = text.lines().nth(1).unwrap().split(',').map(|value| value.parse().unwrap());
+        let row: Vec<f64> = row.collect();
+        [row[1], row[2]]
+    };
+    let first = pelvis("made/start.csv");
+    let is_at = |found: [f64; 2], at: [f64; 2]| (found[0] - at[0]).hypot(found[1] - at[1]) < 150.0;
+
+    let (status, _, error) = begin("1600", &["--at", "-900,-700", "-o", "one"]);
+    assert_eq!(status, 0, "{error}");
+    assert!(error.contains("2 people are seen in frame 0: the one at -"), "{error}");
+    assert!(is_at(pelvis("one/start.csv"), [-900.0, -700.0]));
+
+    let (status, said, error) = begin("1600,1850", &["--people", "2", "-o", "both"]);
+    assert_eq!(status, 0, "{error}");
+    assert!(said.contains("person1, both/person1:") && !error.contains("people are seen"), "{said}{error}");
+    assert!(is_at(pelvis("both/person1/start.csv"), first), "the tallest is the first");
+    assert!(is_at(pelvis("both/person2/start.csv"), [-900.0, -700.0]));
+    let manifest = fs::read_to_string(folder.join("both/sequence.toml")).unwrap();
+    assert_eq!(manifest.matches("[[person]]").count(), 2, "{manifest}");
+    let track = ["track", "both", "-o", "out", "--particles", "20", "--iterations", "2", "--passes", "forward"];
+    let (status, _, error) = pantin_in(folder, &track);
+    assert_eq!(status, 0, "{error}");
+    for person in ["person1", "person2"] {
+        let poses = fs::read_to_string(folder.join("out").join(person).join("poses.csv")).unwrap();
+        assert_eq!(poses.lines().count(), 1 + 8, "{person}");
+    }
+
+    for (heights, more, expected) in [
+        ("1750", ["--people", "2"], "--people is 2 and --height names 1"),
+        ("1750", ["--at", "4000,0"], "nobody stands within 1000 mm of 4000,0"),
+        ("1750", ["--at", "left"], "expected two numbers in mm, X,Y"),
+        ("1,2,3", ["--people", "3"], "the person's height is 1, expected 500 to 2500 mm"),
+        ("1700,1700,1700", ["--people", "3"], "3 people are to be tracked and 2 are seen apart in frame 0"),
+    ] {
+        let (status, _, error) = begin(heights, &[&more[..], &["-o", "none", "--force"]].concat());
+        assert!(status != 0 && error.contains(expected), "{error}");
+    }
+}

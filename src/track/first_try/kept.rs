@@ -10,7 +10,7 @@ use crate::geometry::Camera;
 use crate::sequence::Orientation;
 
 /// Keys that are written anew.
-const OWN: [&str; 8] = ["name", "fps", "cameras", "body", "start", "height", "scale", "view"];
+const OWN: [&str; 9] = ["name", "fps", "cameras", "body", "start", "height", "scale", "person", "view"];
 /// The same of a view.
 const OWN_OF_VIEW: [&str; 4] = ["camera", "source", "background", "background_doubtful"];
 
@@ -35,15 +35,15 @@ struct KeptView {
 }
 
 impl Kept {
-    /// Of a manifest.
+    /// Of a manifest, which will have so many people.
     ///
     /// # Errors
-    /// When it is no TOML, or has several people.
-    pub(super) fn read(manifest: &Path) -> Result<Self> {
+    /// When it is no TOML, or has several people where there will be one.
+    pub(super) fn read(manifest: &Path, people: usize) -> Result<Self> {
         let mut table: Table = read_toml(manifest)?;
         ensure!(
-            !table.contains_key("person"),
-            "{} has [[person]], and one person is measured here, expected a manifest of one person or another folder (-o)",
+            people > 1 || !table.contains_key("person"),
+            "{} has [[person]], and one person is measured here, expected a manifest of one person, --people or another folder (-o)",
             manifest.display()
         );
         let number = |value: Option<&Value>| {
@@ -65,7 +65,8 @@ impl Kept {
             keys.retain(|key, _| !OWN_OF_VIEW.contains(&key));
             kept.views.push(KeptView { camera, keys, plate });
         }
-        table.retain(|key, _| !OWN.contains(&key));
+        // People who are tracked together are not measured again.
+        table.retain(|key, _| !OWN.contains(&key) && (people == 1 || key != "measure_again"));
         kept.whole = table;
         Ok(kept)
     }

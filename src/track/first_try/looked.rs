@@ -20,17 +20,12 @@ const GAP: u32 = 6;
 /// Pictures side by side.
 const COLUMNS: usize = 2;
 
-/// Writes the silhouettes of a frame over its pictures, and the body in its pose, where there is one: a picture a view, and all views in
+/// Writes the silhouettes of a frame over its pictures, and the bodies of people in their poses, where there are any: a picture a view, and all views in
 /// one, which come first.
 ///
 /// # Errors
 /// When the frame cannot be read or a picture not be written.
-pub(super) fn look(
-    sequence: &Sequence,
-    frame: usize,
-    fit: Option<&Fit>,
-    output: &OutputFolder,
-) -> Result<Vec<PathBuf>> {
+pub(super) fn look(sequence: &Sequence, frame: usize, people: &[&Fit], output: &OutputFolder) -> Result<Vec<PathBuf>> {
     let mut observer = Observer::new(sequence, silhouette_settings(sequence)?, frame..frame + 1, frame)?;
     let Some(set) = observer.read()? else { return Ok(Vec::new()) };
     let Some(features) = observer.features(&set, true)? else { return Ok(Vec::new()) };
@@ -47,14 +42,15 @@ pub(super) fn look(
         })
         .collect();
     let mut kinds = vec![("silhouettes", seen)];
-    if let Some(fit) = fit
-        && let Some(row) = fit.poses.frames.iter().position(|at| *at == frame)
-    {
+    let mut bodies: Option<Vec<RgbImage>> = None;
+    for fit in people {
+        let Some(row) = fit.poses.frames.iter().position(|at| *at == frame) else { continue };
         let overlay = Overlay::new(&fit.body, None, &sequence.cameras)?;
         let pose: Vec<f32> = fit.poses.poses[row].iter().map(|value| *value as f32).collect();
-        let views = set.pictures.iter().enumerate();
-        kinds.push(("body", views.map(|(view, picture)| overlay.draw(picture, view, &pose)).collect::<Result<_>>()?));
+        let views = bodies.as_ref().unwrap_or(&set.pictures).iter().enumerate();
+        bodies = Some(views.map(|(view, picture)| overlay.draw(picture, view, &pose)).collect::<Result<_>>()?);
     }
+    kinds.extend(bodies.map(|bodies| ("body", bodies)));
     let mut written = Vec::new();
     for (kind, pictures) in kinds {
         let single = pictures.iter().zip(&sequence.cameras);

@@ -8,6 +8,15 @@ use toml::{Table, Value};
 
 use crate::files::seen_from;
 
+/// What was measured of a person.
+pub(super) const BODY: &str = "body.toml";
+pub(super) const START: &str = "start.csv";
+
+/// A file of a person, seen from the manifest; those of one who is tracked alone lie beside it.
+pub(super) fn person_file(name: Option<&str>, file: &str) -> String {
+    name.map_or_else(|| file.to_string(), |name| format!("{name}/{file}"))
+}
+
 /// A view of the manifest.
 pub(super) struct ManifestView<'a> {
     pub(super) camera: &'a str,
@@ -28,6 +37,8 @@ pub(super) struct ManifestText<'a> {
     pub(super) cameras: &'a Path,
     pub(super) height: f64,
     pub(super) scale: f64,
+    /// Their names, where several people are tracked together.
+    pub(super) people: &'a [String],
     pub(super) views: Vec<ManifestView<'a>>,
     /// Keys and tables that its user wrote.
     pub(super) kept: &'a Table,
@@ -45,14 +56,21 @@ impl ManifestText<'_> {
         let cameras = quoted(&named_in(folder, self.cameras)?);
         // Writing into a String cannot fail.
         let _ = writeln!(text, "name = {}\nfps = {:?}\ncameras = {cameras}", quoted(self.name), self.fps);
-        let _ = writeln!(text, "body = \"body.toml\"\nstart = \"start.csv\"\nheight = {:?}", self.height);
+        if self.people.is_empty() {
+            let [body, start] = [BODY, START].map(|file| person_file(None, file));
+            let _ = writeln!(text, "body = {body:?}\nstart = {start:?}\nheight = {:?}", self.height);
+        }
         let _ = writeln!(text, "scale = {:?}", self.scale);
-        if !self.kept.contains_key("measure_again") {
+        if self.people.is_empty() && !self.kept.contains_key("measure_again") {
             text.push_str("measure_again = true # the body: one posture does not tell all of it\n");
         }
         // A table takes all keys that follow.
         let (tables, keys): (Vec<_>, Vec<_>) = self.kept.iter().partition(|(_, value)| has_tables(value));
         text.push_str(&written(&keys)?);
+        for name in self.people {
+            let [body, start] = [BODY, START].map(|file| person_file(Some(name), file));
+            let _ = writeln!(text, "\n[[person]]\nname = {}\nbody = {body:?}\nstart = {start:?}", quoted(name));
+        }
         for view in &self.views {
             let source = quoted(&named_in(folder, view.source)?);
             let _ = writeln!(text, "\n[[view]]\ncamera = {}\nsource = {source}", quoted(view.camera));
@@ -132,7 +150,7 @@ mod tests {
             kept: Some(&kept_view),
         }];
         let (name, fps, height, scale) = ("a \"b\"", 25.0, 1720.0, 0.25);
-        let text = ManifestText { name, fps, cameras: &cameras, height, scale, views, kept: &kept };
+        let mut text = ManifestText { name, fps, cameras: &cameras, height, scale, people: &[], views, kept: &kept };
         let table: Table = text.text(&at("walk")).unwrap().parse().unwrap();
         assert_eq!(table["name"].as_str(), Some("a \"b\""));
         assert_eq!(table["view"][0]["camera"].as_str(), Some("c \\1"));
@@ -143,5 +161,13 @@ mod tests {
         assert_eq!((table["view"][0]["delay"].as_integer(), table["timestamps"].as_str()), (Some(-8), Some("ignore")));
         assert_eq!(table["features"]["shadow"]["chroma"].as_integer(), Some(5));
         assert_eq!(table["measure_again"].as_bool(), Some(true));
+        assert_eq!((table["body"].as_str(), table["height"].as_float()), (Some("body.toml"), Some(1720.0)));
+        let people = ["anna", "ben"].map(str::to_string);
+        text.people = &people;
+        let table: Table = text.text(&at("walk")).unwrap().parse().unwrap();
+        assert_eq!(table["person"][1]["name"].as_str(), Some("ben"));
+        assert_eq!(table["person"][1]["start"].as_str(), Some("ben/start.csv"));
+        assert!(["body", "start", "height", "measure_again"].iter().all(|key| !table.contains_key(*key)));
+        assert_eq!(table["view"][0]["camera"].as_str(), Some("c \\1"));
     }
 }

@@ -15,11 +15,11 @@ use image::codecs::png::PngEncoder;
 
 use self::kept::{Kept, learnt_plate};
 use self::looked::look;
-use self::manifest::{ManifestText, ManifestView};
+use self::manifest::{BODY, ManifestText, ManifestView, START, person_file};
 use self::matching::match_cameras;
 use self::scale::{ChosenScale, choose_scale};
 use super::filmed_plate::filmed_plate;
-use super::fit::{Coverage, Fit, FitSettings, fit_with};
+use super::fit::{Coverage, Fit, FitSettings, PersonSeen, fit_with, people_in};
 use crate::check::{Start, misplaced_pictures, started};
 use crate::features::LearntPlate;
 use crate::files::{OutputFolder, Overwrite, listed, write_atomically};
@@ -47,8 +47,10 @@ pub struct FirstTrySettings {
     pub scale: Option<f64>,
     /// How the pictures of cameras are turned, by name.
     pub orientations: Vec<(String, Orientation)>,
-    /// How the person is measured; its height must be there.
+    /// How the person is measured; the height is one of `heights`.
     pub fit: FitSettings,
+    /// How tall the people are who are tracked together, mm: one is measured alone, of several the tallest is who looks tallest, and so on.
+    pub heights: Vec<f64>,
     /// Whether files that are there may be replaced.
     pub overwrite: Overwrite,
 }
@@ -72,6 +74,15 @@ pub struct FirstView {
     pub doubtful: f64,
 }
 
+/// A person who was measured.
+#[derive(Clone, Debug)]
+pub struct FirstPerson {
+    /// What the manifest calls her; nothing where she is alone.
+    pub name: Option<String>,
+    /// Her body and pose.
+    pub fit: Fit,
+}
+
 /// A first try that is made.
 #[derive(Clone, Debug)]
 pub struct FirstTry {
@@ -85,8 +96,8 @@ pub struct FirstTry {
     pub scale: f64,
     /// The views, in the order of the videos.
     pub views: Vec<FirstView>,
-    /// The measured person; why not, where it could not be.
-    pub fit: Result<Fit, String>,
+    /// The people who were measured; why not, where they could not be.
+    pub people: Result<Vec<FirstPerson>, String>,
     /// Pictures to look at.
     pub looks: Vec<PathBuf>,
     /// Sentences the user should read.
@@ -97,12 +108,13 @@ impl FirstTry {
     /// Whether the body lies on the silhouettes of every view.
     pub fn fits(&self) -> bool {
         let fits = |coverage: &Coverage| coverage.seen >= FITS && coverage.drawn >= FITS;
-        self.fit.as_ref().is_ok_and(|fit| fit.coverage[1].iter().all(fits))
+        let covers = |person: &FirstPerson| person.fit.coverage[1].iter().all(fits);
+        self.people.as_ref().is_ok_and(|people| people.iter().all(covers))
     }
 }
 
-/// Makes sequence.toml, plates/, body.toml, start.csv and look/ in `folder`. Where nobody could be measured all but the body and the
-/// pose is there, and the result says why. Of a manifest that is replaced stays what its user wrote or changed: every key that is not
+/// Makes sequence.toml, plates/, body.toml, start.csv and look/ in `folder`; of several people, who are tracked together, body and pose lie in a folder
+/// for each. Where somebody could not be measured all but bodies and poses is there, and the result says why. Of a manifest that is replaced stays what its user wrote or changed: every key that is not
 /// written here, the name, rate and scale unless others are asked for, and plates that were not learnt.
 ///
 /// # Errors
@@ -110,14 +122,16 @@ impl FirstTry {
 /// background cannot be learnt, or something cannot be read or written.
 pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Advance<'_>) -> Result<FirstTry> {
     ensure!(settings.videos.len() >= 2, "{} videos were given, expected two or more", settings.videos.len());
-    let height = settings.fit.height.context("the person's height is not known, expected it in mm")?;
-    ensure!((500.0..=2500.0).contains(&height), "the person's height is {height}, expected 500 to 2500 mm");
+    let height = *settings.heights.first().context("the person's height is not known, expected it in mm")?;
+    for height in &settings.heights {
+        ensure!((500.0..=2500.0).contains(height), "the person's height is {height}, expected 500 to 2500 mm");
+    }
     let all_cameras = read_cameras(&settings.cameras)?;
     let matched = match_cameras(&settings.videos, &all_cameras)?;
     let cameras: Vec<Camera> = matched.iter().map(|&at| all_cameras[at].clone()).collect();
     let there = folder.join("sequence.toml");
     let is_there = settings.overwrite == Overwrite::Replace && there.is_file();
-    let kept = if is_there { Kept::read(&there)? } else { Kept::default() };
+    let kept = if is_there { Kept::read(&there, settings.heights.len())? } else { Kept::default() };
     let kept = kept.oriented(&settings.orientations, &cameras)?;
     let fitting = |(video, camera): (&PathBuf, &Camera)| {
         let orientation = kept.orientation(&camera.name).with_context(|| there.display().to_string())?;
@@ -154,15 +168,19 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
         Ok(Some((filmed_plate(slice::from_ref(plates), &[&camera.name])?, 0.0)))
     };
     let filmed = cameras.iter().map(filmed).collect::<Result<Vec<_>>>()?;
-    let names = ["sequence.toml", "body.toml", "start.csv"].map(String::from);
+    let people = names(settings.heights.len());
+    let alone = people.is_empty().then_some(None);
+    let own = people.iter().map(|name| Some(name.as_str())).chain(alone);
+    let own = own.flat_map(|name| [BODY, START].map(|file| person_file(name, file)));
     let learnt_plates = cameras.iter().zip(&filmed).filter(|(_, filmed)| filmed.is_none());
-    for name in names.into_iter().chain(learnt_plates.map(|(camera, _)| learnt_plate(&camera.name))) {
+    let learnt_plates = learnt_plates.map(|(camera, _)| learnt_plate(&camera.name));
+    for name in ["sequence.toml".to_string()].into_iter().chain(own).chain(learnt_plates) {
         settings.overwrite.check(&folder.join(name))?;
     }
     let output = OutputFolder::open(folder)?;
     let manifest = output.file("sequence.toml")?;
     let name = kept.name.as_deref().unwrap_or(&settings.name);
-    let write_manifest = |learnt: &[ViewPlate], delays: &[Option<isize>], overwrite: Overwrite| {
+    let write_manifest = |learnt: &[ViewPlate], delays: &[Option<isize>], people: &[String], overwrite: Overwrite| {
         let views = cameras.iter().zip(&settings.videos).zip(&filmed).enumerate();
         let views = views
             .map(|(at, ((camera, source), filmed))| {
@@ -179,11 +197,12 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
                 }
             })
             .collect();
-        let text = ManifestText { name, fps, cameras: &settings.cameras, height, scale, views, kept: &kept.whole };
+        let text =
+            ManifestText { name, fps, cameras: &settings.cameras, height, scale, people, views, kept: &kept.whole };
         let text = text.text(output.path())?;
         write_atomically(&manifest, overwrite, |writer| Ok(writer.write_all(text.as_bytes())?))
     };
-    write_manifest(&[], &[], settings.overwrite)?;
+    write_manifest(&[], &[], &[], settings.overwrite)?;
     let (learnt, delays) = {
         let sequence = Sequence::open_unfitted(&manifest)?;
         let plated = with_plates(&sequence, progress)?;
@@ -203,19 +222,27 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
             .write(&learnt_plate(camera), |writer| Ok(plate.picture.write_with_encoder(PngEncoder::new(writer))?))?;
     }
     if !learnt.is_empty() || !delays.is_empty() {
-        write_manifest(&learnt, &delays, Overwrite::Replace)?;
+        write_manifest(&learnt, &delays, &[], Overwrite::Replace)?;
     }
     let sequence = Sequence::open_unfitted(&manifest)?;
     let frame_count = sequence.frame_count;
     remarks.extend(sequence.remarks_on_recordings());
-    let fit = fit_with(&sequence, &settings.fit, progress).map_err(|error| format!("{error:#}"));
-    if let Ok(fit) = &fit {
-        let text = format!("# Measured by `pantin start` on {}.\n\n{}", sequence.name, fit.body.to_toml());
-        output.write("body.toml", |writer| Ok(writer.write_all(text.as_bytes())?))?;
-        fit.poses.write(&output.file("start.csv")?, Overwrite::Replace, &fit.body)?;
-    }
     let frame = settings.fit.frames.within(frame_count, &sequence.path.display().to_string())?.start;
-    let looks = look(&sequence, frame, fit.as_ref().ok(), &output)?;
+    let measured = measured(&sequence, settings, &people, frame, progress).map_err(|error| format!("{error:#}"));
+    let fits = measured.as_deref().unwrap_or_default();
+    for FirstPerson { name, fit } in fits {
+        let file = |file: &str| person_file(name.as_deref(), file);
+        let text = format!("# Measured by `pantin start` on {}.\n\n{}", sequence.name, fit.body.to_toml());
+        output.write(&file(BODY), |writer| Ok(writer.write_all(text.as_bytes())?))?;
+        fit.poses.write(&output.file(&file(START))?, Overwrite::Replace, &fit.body)?;
+        // Where all are tracked nobody is left out.
+        remarks.extend(fit.others.clone().filter(|_| name.is_none()));
+    }
+    if !people.is_empty() && !fits.is_empty() {
+        write_manifest(&learnt, &delays, &people, Overwrite::Replace)?;
+    }
+    let fits: Vec<&Fit> = fits.iter().map(|person| &person.fit).collect();
+    let looks = look(&sequence, frame, &fits, &output)?;
     let views = cameras.iter().zip(&footage).zip(heights).zip(&filmed);
     let views = views.map(|(((camera, footage), person), filmed)| {
         let plate = of_camera(&learnt, camera);
@@ -231,12 +258,58 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
         }
     });
     let views = views.collect();
-    let mut made = FirstTry { manifest: manifest.clone(), fps, frame_count, scale, views, fit, looks, remarks };
+    let mut made =
+        FirstTry { manifest: manifest.clone(), fps, frame_count, scale, views, people: measured, looks, remarks };
     if !made.fits() {
         // What cannot be looked at says nothing; the first try is made all the same.
         made.remarks.extend(misplaced_pictures(&sequence, progress).unwrap_or_default());
     }
     Ok(made)
+}
+
+/// What so many people are called who are tracked together; nothing where one is tracked alone.
+fn names(count: usize) -> Vec<String> {
+    if count > 1 { (1..=count).map(|nth| format!("person{nth}")).collect() } else { Vec::new() }
+}
+
+/// Measures the person, or each of the people of these names: those who stand nearest to where the cameras look.
+///
+/// # Errors
+/// When somebody cannot be measured, or fewer are seen.
+fn measured(
+    sequence: &Sequence,
+    settings: &FirstTrySettings,
+    names: &[String],
+    frame: usize,
+    progress: &mut Advance<'_>,
+) -> Result<Vec<FirstPerson>> {
+    let mut heights = settings.heights.clone();
+    if names.is_empty() {
+        let fit = FitSettings { height: heights.pop(), ..settings.fit.clone() };
+        return Ok(vec![FirstPerson { name: None, fit: fit_with(sequence, &fit, progress)? }]);
+    }
+    let mut seen = people_in(sequence, frame)?;
+    ensure!(
+        seen.len() >= names.len(),
+        "{} people are to be tracked and {} seen apart in frame {frame}, expected a frame in which all stand by themselves (--frames)",
+        names.len(),
+        match seen.len() {
+            0 => "none is".to_string(),
+            1 => "one is".to_string(),
+            count => format!("{count} are"),
+        }
+    );
+    seen.truncate(names.len());
+    seen.sort_by(|a, b| b.height.total_cmp(&a.height));
+    heights.sort_by(|a, b| b.total_cmp(a));
+    let people = names.iter().zip(seen).zip(heights);
+    people
+        .map(|((name, PersonSeen { at, .. }), height)| {
+            let fit = FitSettings { at: Some(at), height: Some(height), ..settings.fit.clone() };
+            let fit = fit_with(sequence, &fit, &mut *progress).with_context(|| name.clone())?;
+            Ok(FirstPerson { name: Some(name.clone()), fit })
+        })
+        .collect()
 }
 
 /// The plate that was learnt for a camera.

@@ -2,12 +2,13 @@
 //! the flesh lies off the bones; bent and turned limbs tell (METHOD A3).
 
 use anyhow::Result;
+use glam::DVec2;
 
 use super::FitSettings;
 use super::fitter::Fitter;
 use super::following::Following;
 use super::scorer::stature;
-use super::seen::Seen;
+use super::seen::{Seen, known_at};
 use crate::body::Body;
 use crate::evaluate::Objective;
 use crate::observe::Advance;
@@ -70,7 +71,12 @@ pub(in crate::track) fn measure_again(
         ..SearchSettings::default()
     };
     let weighs_evidence = objective.weighs_evidence();
-    let [measured_in, judging] = Seen::look(sequence, &frames, weighs_evidence)?.halves();
+    let place = |pose: &Vec<f32>| {
+        let pose: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
+        Ok(body.world_from_bones(&pose)?[0].translation.truncate())
+    };
+    let places = poses.iter().map(place).collect::<Result<Vec<DVec2>>>()?;
+    let [measured_in, judging] = Seen::look(sequence, &frames, weighs_evidence, &mut known_at(&places))?.halves();
     let half = |first: usize| -> Vec<Vec<f32>> { poses.iter().skip(first).step_by(2).cloned().collect() };
     let (mut own, others) = (half(0), half(1));
 

@@ -7,6 +7,7 @@
 mod again;
 mod fitter;
 mod following;
+mod meant;
 mod scorer;
 mod seen;
 mod shape;
@@ -17,9 +18,11 @@ use anyhow::{Context, Result, bail, ensure};
 
 pub(super) use self::again::{TrackedPoses, measure_again};
 pub(super) use self::following::Following;
+pub use self::meant::{PersonSeen, people_in};
 pub use self::scorer::Coverage;
 
 use self::fitter::Fitter;
+use self::meant::Meant;
 use self::seen::Seen;
 use super::hull::Hull;
 use super::{FrameRange, ObjectiveChoice};
@@ -41,6 +44,9 @@ pub struct FitSettings {
     pub samples: usize,
     /// Poses to start from (one, or one a frame) instead of a search in all directions.
     pub start: Option<PathBuf>,
+    /// Where the person stands in the first of the frames, where several are seen: the one nearest to this place, world x and y, mm. Without it the
+    /// one nearest to where the cameras look.
+    pub at: Option<[f64; 2]>,
     /// The only heading to start from: degrees, 0 along x, 90 along y.
     pub heading: Option<f64>,
     /// Whether the body stays the sequence's and only poses are sought.
@@ -66,6 +72,7 @@ impl Default for FitSettings {
             frames: FrameRange { start: Some(0), end: Some(1) },
             samples: 6,
             start: None,
+            at: None,
             heading: None,
             keep_body: false,
             follow: false,
@@ -96,6 +103,8 @@ pub struct Fit {
     pub coverage: [Vec<Coverage>; 2],
     /// Sentences the user should read.
     pub remarks: Vec<String>,
+    /// One on who else is seen.
+    pub others: Option<String>,
 }
 
 /// Measures the person in a sequence.
@@ -121,7 +130,8 @@ pub fn fit_with(sequence: &Sequence, settings: &FitSettings, progress: &mut Adva
     let remarks = [sequence.remarks(), plated.remarks()].concat();
     let sequence = plated.sequence.as_ref();
     let frames = sampled(settings.frames.within(sequence.frame_count, &name)?, settings.samples);
-    let seen = Seen::look(sequence, &frames, weighs_evidence)?;
+    let mut meant = Meant::new(settings.at, frames.first().copied().unwrap_or_default(), &name);
+    let seen = Seen::look(sequence, &frames, weighs_evidence, &mut |at, figures| meant.choose(at, figures))?;
     let in_frame = |at: usize| format!("{name}, frame {}", frames[at]);
     let hulls: Vec<Hull> = seen
         .observations
@@ -185,6 +195,7 @@ pub fn fit_with(sequence: &Sequence, settings: &FitSettings, progress: &mut Adva
         views: sequence.cameras.iter().map(|camera| camera.name.clone()).collect(),
         coverage: [before, after],
         remarks,
+        others: meant.others,
     })
 }
 

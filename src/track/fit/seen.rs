@@ -1,14 +1,24 @@
 //! What was seen in the frames that a person is measured in.
 
 use anyhow::{Result, bail};
+use glam::DVec2;
 
 use super::super::appearance::teach;
+use super::super::figures::{Figure, figures, nearest, others};
 use crate::body::Body;
 use crate::evaluate::Reference;
-use crate::features::{Likelihood, Observation};
+use crate::features::{Ignoring, Likelihood, Observation, SeenView};
 use crate::geometry::Camera;
 use crate::observe::{Appearance, Observer, silhouette_settings, take_likelihoods, take_observations};
 use crate::sequence::Sequence;
+
+/// Says which of the people in a frame is meant, of whom there may be none.
+pub(super) type Choose<'a> = dyn FnMut(usize, &[Figure]) -> Result<Option<usize>> + 'a;
+
+/// The one of the people who stands nearest to where he is known to be in each frame.
+pub(super) fn known_at(places: &[DVec2]) -> impl FnMut(usize, &[Figure]) -> Result<Option<usize>> {
+    |frame, figures| Ok(places.get(frame).and_then(|place| nearest(figures, *place)))
+}
 
 /// Observations and, where evidence is weighed, likelihoods: `[frame][view]`.
 pub(super) struct Seen {
@@ -17,11 +27,17 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Looks at frames, which rise.
+    /// Looks at frames, which rise, for one person. Where others are seen too, `choose` says who is meant, by the number of the frame among
+    /// these: what shows others counts neither for nor against him.
     ///
     /// # Errors
-    /// When a view has neither background nor masks, or pictures cannot be read.
-    pub(super) fn look(sequence: &Sequence, frames: &[usize], weighs_evidence: bool) -> Result<Self> {
+    /// When a view has neither background nor masks, pictures cannot be read, or `choose` fails.
+    pub(super) fn look(
+        sequence: &Sequence,
+        frames: &[usize],
+        weighs_evidence: bool,
+        choose: &mut Choose<'_>,
+    ) -> Result<Self> {
         if let Some(unknown) = sequence.unknown_background() {
             bail!("{unknown}, expected one of them to measure a person with");
         }
@@ -29,9 +45,19 @@ impl Seen {
         let (Some(&first), Some(last)) = (frames.first(), frames.last()) else { return Ok(seen) };
         let mut settings = silhouette_settings(sequence)?;
         settings.likelihoods = weighs_evidence;
+        let ignoring = Ignoring::new(&settings);
         let mut observer = Observer::new(sequence, settings, first..last + 1, first)?;
         while let Some(frame) = observer.read()? {
             if let Some(features) = observer.features(&frame, frames.contains(&frame.index))? {
+                let views: Vec<SeenView<'_>> =
+                    features.iter().map(|features| SeenView::Whole(&features.observation)).collect();
+                let figures = figures(&sequence.cameras, &views);
+                if let Some(own) = choose(seen.observations.len(), &figures)?
+                    && figures.len() > 1
+                {
+                    let ignored = others(&sequence.cameras, &views, &figures, own);
+                    ignoring.apply(features, &ignored)?;
+                }
                 seen.observations.push(take_observations(features));
                 seen.likelihoods.push(take_likelihoods(features));
             }
