@@ -182,6 +182,14 @@ impl<'a> SeenView<'a> {
         }
     }
 
+    /// The silhouette's pixels.
+    pub fn silhouette(self) -> BitImage {
+        match self {
+            Self::Whole(observation) => observation.silhouette(),
+            Self::Silhouette(silhouette, _) => silhouette.clone(),
+        }
+    }
+
     /// The smallest region that holds the silhouette; none where there is none.
     pub fn bounds(self) -> Option<Region> {
         match self {

@@ -71,7 +71,7 @@ pub(super) fn figures(cameras: &[Camera], views: &[SeenView<'_>]) -> Vec<Figure>
 /// Those of the figures who explain the silhouettes together, beginning with who explains most of what is left: what is seen where the rays of
 /// others cross explains nothing more than they do.
 fn explaining(cameras: &[Camera], views: &[SeenView<'_>], figures: Vec<Figure>) -> Vec<Figure> {
-    let all: Vec<BitImage> = views.iter().map(|view| silhouette(*view)).collect();
+    let all: Vec<BitImage> = views.iter().map(|view| view.silhouette()).collect();
     let mut left = all.clone();
     let within = |silhouettes: &[BitImage], covered: &[BitImage]| -> Vec<f64> {
         let count = |(silhouette, covered): (&BitImage, &BitImage)| {
@@ -125,7 +125,7 @@ pub(super) fn others(
         for (who, covered) in covered.iter().enumerate() {
             if own == who { &mut his } else { &mut others }.or(&covered[at]);
         }
-        let mut strange = silhouette(*view);
+        let mut strange = view.silhouette();
         let mut touched = strange.clone();
         Components::default().keep_touched(&mut touched, &his);
         strange.and_not(&touched);
@@ -164,11 +164,6 @@ impl Figure {
         };
         cameras.par_iter().map(view).collect()
     }
-}
-
-fn silhouette(view: SeenView<'_>) -> BitImage {
-    let [width, height] = view.size();
-    BitImage::from_fn(width, height, |x, y| view.is_person(y as usize * width as usize + x as usize))
 }
 
 /// The part of space in which somebody may stand, in voxels.
@@ -309,7 +304,7 @@ fn is_beside(camera: &Camera, blob: Region, place: DVec3) -> bool {
 /// Where the blobs of a view are that may be somebody.
 fn large_blobs(view: SeenView<'_>) -> Vec<Region> {
     let mut components = Components::default();
-    let blobs = components.find(&silhouette(view), Connectivity::Eight);
+    let blobs = components.find(&view.silhouette(), Connectivity::Eight);
     let largest = blobs.iter().map(|blob| blob.area).max().unwrap_or(0);
     let large = blobs.iter().filter(|blob| f64::from(blob.area) >= BLOB * f64::from(largest));
     large.map(|blob| blob.bounds).collect()

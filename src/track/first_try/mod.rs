@@ -113,9 +113,10 @@ impl FirstTry {
     }
 }
 
-/// Makes sequence.toml, plates/, body.toml, start.csv and look/ in `folder`; of several people, who are tracked together, body and pose lie in a folder
-/// for each. Where somebody could not be measured all but bodies and poses is there, and the result says why. Of a manifest that is replaced stays what its user wrote or changed: every key that is not
-/// written here, the name, rate and scale unless others are asked for, and plates that were not learnt.
+/// Makes sequence.toml, plates/, body.toml, start.csv and look/ in `folder`; of several people, who are tracked together, body and pose lie
+/// in a folder for each. Where somebody could not be measured all but bodies and poses is there, and the result says why. Of a manifest that
+/// is replaced stays what its user wrote or changed: every key that is not written here, the name, rate and scale unless others are asked
+/// for, and plates that were not learnt.
 ///
 /// # Errors
 /// When a video is of no camera or of another size than its camera, no rate is known, a file is there and may not be replaced, a
