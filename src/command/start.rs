@@ -133,12 +133,19 @@ fn told(made: &FirstTry, args: &StartArgs) -> Result<()> {
     for remark in &made.remarks {
         tell!("note: {remark}");
     }
+    let [others, heading] = if args.people > 1 {
+        ["the same line with --frames A..B --force".to_string(), String::new()]
+    } else {
+        [
+            format!("pantin fit {folder} -o {folder}/body.toml --start-out {folder}/start.csv --frames A..B --force"),
+            ", with --heading if back and front are exchanged".to_string(),
+        ]
+    };
     let people = match &made.people {
         Ok(people) => people,
         Err(why) => bail!(
             "nobody could be measured ({why}); the rest is made: look at {folder}/look/silhouettes.png, whether the person and nothing \
-             else is outlined, and where it is not film the empty scene, or try other frames: `pantin fit {folder} -o \
-             {folder}/body.toml --start-out {folder}/start.csv --frames A..B`"
+             else is outlined, and where it is not film the empty scene, or try other frames: {others}"
         ),
     };
     for FirstPerson { name, fit } in people {
@@ -167,11 +174,13 @@ fn told(made: &FirstTry, args: &StartArgs) -> Result<()> {
         };
         say!(
             "look at {folder}/look/body.png: the body and the outline differ by more than a third in a view. Is the outline the person's?{skin} \
-             Are arms and legs apart in that frame? Else measure another one: pantin fit {folder} -o {folder}/body.toml --start-out \
-             {folder}/start.csv --frames A..B --force, with --heading if back and front are exchanged"
+             Are arms and legs apart in that frame? Else measure another one: {others}{heading}"
         );
     }
     say!("then: pantin check {folder}");
-    say!("      pantin track {folder} -o {folder}-track");
+    // The pose is where a track begins.
+    let first = people.first().and_then(|person| person.fit.poses.frames.first().copied()).filter(|first| *first > 0);
+    let first = first.map(|first| format!(" --frames {first}..")).unwrap_or_default();
+    say!("      pantin track {folder} -o {folder}-track{first}");
     Ok(())
 }

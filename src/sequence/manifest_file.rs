@@ -68,9 +68,13 @@ impl ManifestFile {
     pub(super) fn check(&self, name: &str) -> Result<()> {
         check_fps(self.fps).with_context(|| name.to_string())?;
         check_scale(self.scale).with_context(|| name.to_string())?;
-        let own = [("body", self.body.is_some()), ("start", self.start.is_some()), ("truth", self.truth.is_some())];
-        let more = [("height", self.height.is_some()), ("measure_again", self.measure_again.is_some())];
-        let own = own.into_iter().chain(more).find(|(_, is_there)| *is_there);
+        let own = [
+            ("body", self.body.is_some()),
+            ("start", self.start.is_some()),
+            ("truth", self.truth.is_some()),
+            ("height", self.height.is_some()),
+        ];
+        let own = own.into_iter().find(|(_, is_there)| *is_there);
         if let (Some((key, _)), false) = (own, self.person.is_empty()) {
             bail!("{name} has `{key}` and [[person]], expected a `body` and `start` in each [[person]] alone");
         }

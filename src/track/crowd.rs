@@ -57,26 +57,28 @@ impl Crowd {
         Owners(self.sizes.par_iter().enumerate().map(view).collect())
     }
 
-    /// A frame as person `person` is compared with it: the pixels of others, and those just round them that are not her own, count
-    /// neither for nor against her.
+    /// A frame as person `person` is compared with it: what shows others counts neither for nor against her.
     ///
     /// # Errors
     /// When features are of another size than they say.
     pub(super) fn share(&self, prepared: &mut Prepared, owners: &Owners, person: usize) -> Result<()> {
+        let mut features = prepared.features_kept.clone();
+        self.ignoring.apply(&mut features, &self.others(owners, person))?;
+        prepared.observations = take_observations(&mut features);
+        Ok(())
+    }
+
+    /// For each view the pixels of others than person `person`, and those just round them that are not her own.
+    pub(super) fn others(&self, owners: &Owners, person: usize) -> Vec<Option<Arc<BitImage>>> {
         let own = person as u8 + 1;
-        let views = self.sizes.par_iter().zip(&owners.0);
-        let ignored = views.map(|(&[width, height], owners)| {
+        let view = |(&[width, height], owners): (&[u32; 2], &Vec<u8>)| {
             let owner = |x: u32, y: u32| owners[y as usize * width as usize + x as usize];
             let mut others = BitImage::from_fn(width, height, |x, y| !matches!(owner(x, y), 0) && owner(x, y) != own);
             let radius = (RIM * f64::from(height)).ceil() as u32;
             Morphology::default().dilate(&mut others, Element { shape: Shape::Disc, radius });
             others.and_not(&BitImage::from_fn(width, height, |x, y| owner(x, y) == own));
             Some(Arc::new(others))
-        });
-        let ignored: Vec<Option<Arc<BitImage>>> = ignored.collect();
-        let mut features = prepared.features_kept.clone();
-        self.ignoring.apply(&mut features, &ignored)?;
-        prepared.observations = take_observations(&mut features);
-        Ok(())
+        };
+        self.sizes.par_iter().zip(&owners.0).map(view).collect()
     }
 }

@@ -7,7 +7,7 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail, ensure};
 
 use super::begin::{Begun, Planned};
-use super::crowd::Crowd;
+use super::crowd::{Crowd, Owners};
 use super::driver::plated;
 use super::feed::{Feed, Frames, Keeps, Prepared};
 use super::journal::FrameResult;
@@ -18,6 +18,7 @@ use super::summary::{TrackSummary, mean};
 use super::timings::Span;
 use super::{Backend, Drawing, FeaturesOn, TrackSettings};
 use crate::body::Body;
+use crate::features::SeenView;
 use crate::files::OutputFolder;
 use crate::sequence::Sequence;
 
@@ -73,10 +74,6 @@ pub fn track_people(
         settings.features_on != FeaturesOn::Device,
         "{name} has [[person]], and what each is compared with is made of all features: expected --features auto or cpu"
     );
-    ensure!(
-        settings.measure_again != Some(true),
-        "{name} has [[person]], and people who are tracked together are not measured again: leave out --measure-again"
-    );
     let settings = &TrackSettings { features_on: FeaturesOn::Cpu, ..settings.clone() };
     let plated = plated(sequence, settings, progress)?;
     let sequence = plated.sequence.as_ref();
@@ -86,7 +83,7 @@ pub fn track_people(
     let warnings = sequence.remarks().into_iter().chain(plated.remarks()).chain(plated.doubt()).collect();
     let [first_alone, other_alone @ ..] = alone.as_slice() else { bail!("{name} has no [[person]]") };
     let first = Planned::new(first_alone, settings, &folders[0], warnings)?;
-    // What suits one suits all; it is not measured again.
+    // What suits one suits all; it is not timed again.
     let chosen = Backend::from_name(first.plan.backend.evaluator.name())?;
     let drawing = Drawing { backend: chosen, ..settings.drawing };
     let others = TrackSettings { drawing, ..settings.clone() };
@@ -109,7 +106,12 @@ pub fn track_people(
         people.push(Tracked { run, record, warnings });
     }
     search_all(sequence, settings, &crowd, &mut people, progress)?;
-    look_back(sequence, settings, &crowd, &mut people, progress)?;
+    if people.iter().all(|person| person.run.looks_back()) {
+        measure_again(&crowd, &mut people, progress)?;
+        let bodies: Vec<&Body> = people.iter().map(|person| &person.run.plan.body).collect();
+        let crowd = Crowd::new(&bodies, &sequence.cameras, &people[0].run.plan.features)?;
+        look_back(sequence, settings, &crowd, &mut people, progress)?;
+    }
     let named = people.into_iter().zip(&sequence.people);
     let finish = |(Tracked { run, record, warnings }, person): (Tracked<'_>, &crate::sequence::Person)| {
         let summary = run.finish(&record, warnings, progress).with_context(|| format!("person {:?}", person.name))?;
@@ -164,6 +166,16 @@ fn search_all(
     }
 }
 
+/// Measures everybody again who is to be, each beside where the first pass found the others.
+fn measure_again(crowd: &Crowd, people: &mut [Tracked<'_>], progress: &mut dyn Progress) -> Result<()> {
+    let found = found(people);
+    for (at, person) in people.iter_mut().enumerate() {
+        let mut others = |frame: usize, _: &[SeenView<'_>]| Ok(crowd.others(&found.owners(crowd, frame), at));
+        person.warnings.extend(person.run.measure_again(Some(&mut others), progress)?);
+    }
+    Ok(())
+}
+
 /// Goes over all frames again, a person after the other, now that what comes after each is known: each beside where the first pass found
 /// the others.
 fn look_back(
@@ -173,14 +185,7 @@ fn look_back(
     people: &mut [Tracked<'_>],
     progress: &mut dyn Progress,
 ) -> Result<()> {
-    if !people.iter().all(|person| person.run.looks_back()) {
-        return Ok(());
-    }
-    let found = people.iter().map(|person| {
-        let poses = person.run.frames.iter().map(|result| person.run.shown(result));
-        poses.collect::<Vec<Option<Vec<f32>>>>()
-    });
-    let found: Vec<_> = found.collect();
+    let found = found(people);
     for (at, person) in people.iter_mut().enumerate() {
         let (range, features) = (person.run.plan.range.clone(), person.run.plan.features.clone());
         let feed =
@@ -191,12 +196,28 @@ fn look_back(
     Ok(())
 }
 
+/// Where each person shows, `[person][frame]`.
+struct Found(Vec<Vec<Option<Vec<f32>>>>);
+
+/// Where the first pass found everybody.
+fn found(people: &[Tracked<'_>]) -> Found {
+    let shown = |person: &Tracked<'_>| person.run.frames.iter().map(|result| person.run.shown(result)).collect();
+    Found(people.iter().map(shown).collect())
+}
+
+impl Found {
+    /// Who shows where in a frame of the run.
+    fn owners(&self, crowd: &Crowd, frame: usize) -> Owners {
+        let poses: Vec<_> = self.0.iter().map(|poses| poses.get(frame).cloned().flatten()).collect();
+        crowd.owners(&poses)
+    }
+}
+
 /// The frames as they are left to one of the people by where all were found.
 struct Shares<'a> {
     feed: Feed,
     crowd: &'a Crowd,
-    /// Where each person shows, `[person][frame]`.
-    found: &'a [Vec<Option<Vec<f32>>>],
+    found: &'a Found,
     first: usize,
     person: usize,
 }
@@ -204,9 +225,8 @@ struct Shares<'a> {
 impl Frames for Shares<'_> {
     fn next(&mut self) -> Result<Option<Prepared>> {
         let Some(mut prepared) = self.feed.next()? else { return Ok(None) };
-        let at = prepared.index - self.first;
-        let poses: Vec<_> = self.found.iter().map(|poses| poses.get(at).cloned().flatten()).collect();
-        self.crowd.share(&mut prepared, &self.crowd.owners(&poses), self.person)?;
+        let owners = self.found.owners(self.crowd, prepared.index - self.first);
+        self.crowd.share(&mut prepared, &owners, self.person)?;
         Ok(Some(prepared))
     }
 }

@@ -239,9 +239,10 @@ fn several_people_are_begun_together() {
     let first = pelvis("made/start.csv");
     let is_at = |found: [f64; 2], at: [f64; 2]| (found[0] - at[0]).hypot(found[1] - at[1]) < 150.0;
 
-    let (status, _, error) = begin("1600", &["--at", "-900,-700", "-o", "one"]);
+    let (status, said, error) = begin("1600", &["--at", "-900,-700", "--frames", "2..3", "-o", "one"]);
     assert_eq!(status, 0, "{error}");
-    assert!(error.contains("2 people are seen in frame 0: the one at -"), "{error}");
+    assert!(error.contains("2 people are seen in frame 2: the one at -"), "{error}");
+    assert!(said.ends_with("pantin track one -o one-track --frames 2..\n"), "{said}");
     assert!(is_at(pelvis("one/start.csv"), [-900.0, -700.0]));
 
     let (status, said, error) = begin("1600,1850", &["--people", "2", "-o", "both"]);
@@ -264,7 +265,11 @@ fn several_people_are_begun_together() {
         ("1750", ["--at", "4000,0"], "nobody stands within 1000 mm of 4000,0"),
         ("1750", ["--at", "left"], "expected two numbers in mm, X,Y"),
         ("1,2,3", ["--people", "3"], "the person's height is 1, expected 500 to 2500 mm"),
-        ("1700,1700,1700", ["--people", "3"], "3 people are to be tracked and 2 are seen apart in frame 0"),
+        (
+            "1700,1700,1700",
+            ["--people", "3"],
+            "2 are seen apart in frame 0, expected a frame in which all stand by themselves: none of 8 that were looked at is one",
+        ),
     ] {
         let (status, _, error) = begin(heights, &[&more[..], &["-o", "none", "--force"]].concat());
         assert!(status != 0 && error.contains(expected), "{error}");

@@ -65,8 +65,7 @@ impl Kept {
             keys.retain(|key, _| !OWN_OF_VIEW.contains(&key));
             kept.views.push(KeptView { camera, keys, plate });
         }
-        // People who are tracked together are not measured again.
-        table.retain(|key, _| !OWN.contains(&key) && (people == 1 || key != "measure_again"));
+        table.retain(|key, _| !OWN.contains(&key));
         kept.whole = table;
         Ok(kept)
     }

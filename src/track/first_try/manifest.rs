@@ -61,7 +61,7 @@ impl ManifestText<'_> {
             let _ = writeln!(text, "body = {body:?}\nstart = {start:?}\nheight = {:?}", self.height);
         }
         let _ = writeln!(text, "scale = {:?}", self.scale);
-        if self.people.is_empty() && !self.kept.contains_key("measure_again") {
+        if !self.kept.contains_key("measure_again") {
             text.push_str("measure_again = true # the body: one posture does not tell all of it\n");
         }
         // A table takes all keys that follow.
@@ -167,7 +167,8 @@ mod tests {
         let table: Table = text.text(&at("walk")).unwrap().parse().unwrap();
         assert_eq!(table["person"][1]["name"].as_str(), Some("ben"));
         assert_eq!(table["person"][1]["start"].as_str(), Some("ben/start.csv"));
-        assert!(["body", "start", "height", "measure_again"].iter().all(|key| !table.contains_key(*key)));
+        assert!(["body", "start", "height"].iter().all(|key| !table.contains_key(*key)));
+        assert_eq!(table["measure_again"].as_bool(), Some(true));
         assert_eq!(table["view"][0]["camera"].as_str(), Some("c \\1"));
     }
 }

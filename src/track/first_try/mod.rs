@@ -19,7 +19,7 @@ use self::manifest::{BODY, ManifestText, ManifestView, START, person_file};
 use self::matching::match_cameras;
 use self::scale::{ChosenScale, choose_scale};
 use super::filmed_plate::filmed_plate;
-use super::fit::{Coverage, Fit, FitSettings, PersonSeen, fit_with, people_in};
+use super::fit::{Coverage, Fit, FitSettings, PersonSeen, fit_with, people_in, sampled};
 use crate::check::{Start, misplaced_pictures, started};
 use crate::features::LearntPlate;
 use crate::files::{OutputFolder, Overwrite, listed, write_atomically};
@@ -29,6 +29,8 @@ use crate::sequence::{Footage, Orientation, SAME_RATE, Sequence, check_fps, read
 
 /// A body that covers less of the silhouettes than this, or lies on them with less, does not fit.
 const FITS: f64 = 0.65;
+/// Frames of the recording in which people who overlap in the one that was asked for are looked for apart.
+const LOOKED_AT: usize = 12;
 
 /// What a first try is made from.
 #[derive(Clone, Debug)]
@@ -289,16 +291,17 @@ fn measured(
         let fit = FitSettings { height: heights.pop(), ..settings.fit.clone() };
         return Ok(vec![FirstPerson { name: None, fit: fit_with(sequence, &fit, progress)? }]);
     }
-    let mut seen = people_in(sequence, frame)?;
+    let mut seen = people_in(sequence, &[frame])?.pop().unwrap_or_default();
     ensure!(
         seen.len() >= names.len(),
-        "{} people are to be tracked and {} seen apart in frame {frame}, expected a frame in which all stand by themselves (--frames)",
+        "{} people are to be tracked and {} seen apart in frame {frame}, expected a frame in which all stand by themselves: {}",
         names.len(),
         match seen.len() {
             0 => "none is".to_string(),
             1 => "one is".to_string(),
             count => format!("{count} are"),
-        }
+        },
+        where_apart(sequence, names.len())?
     );
     seen.truncate(names.len());
     seen.sort_by(|a, b| b.height.total_cmp(&a.height));
@@ -311,6 +314,22 @@ fn measured(
             Ok(FirstPerson { name: Some(name.clone()), fit })
         })
         .collect()
+}
+
+/// Says in which frame of the recording so many people are seen apart.
+fn where_apart(sequence: &Sequence, people: usize) -> Result<String> {
+    let frames = sampled(0..sequence.frame_count, LOOKED_AT);
+    let seen = people_in(sequence, &frames)?;
+    let apart = frames.iter().zip(&seen).find(|(_, seen)| seen.len() >= people);
+    Ok(apart.map_or_else(
+        || format!("none of {} that were looked at is one; another one with --frames", frames.len()),
+        |(frame, _)| {
+            format!(
+                "frame {frame} is one, with --frames {frame}..{}, and --frames {frame}.. for `pantin track`",
+                frame + 1
+            )
+        },
+    ))
 }
 
 /// The plate that was learnt for a camera.

@@ -8,7 +8,7 @@ use super::FitSettings;
 use super::fitter::Fitter;
 use super::following::Following;
 use super::scorer::stature;
-use super::seen::{Seen, known_at};
+use super::seen::{LeaveOut, Seen, all_but, known_at};
 use crate::body::Body;
 use crate::evaluate::Objective;
 use crate::observe::Advance;
@@ -33,6 +33,8 @@ pub(in crate::track) struct TrackedPoses<'a> {
     /// The pose of each.
     pub(in crate::track) poses: Vec<Vec<f32>>,
     pub(in crate::track) seed: u64,
+    /// What shows others, where that is known; else it is seen by who stands where.
+    pub(in crate::track) others: Option<&'a mut LeaveOut<'a>>,
 }
 
 /// A body that was measured again.
@@ -58,7 +60,7 @@ pub(in crate::track) fn measure_again(
     tracked: TrackedPoses<'_>,
     progress: &mut Advance<'_>,
 ) -> Result<Option<Remeasured>> {
-    let TrackedPoses { sequence, body, objective, frames, poses, seed } = tracked;
+    let TrackedPoses { sequence, body, objective, frames, poses, seed, others } = tracked;
     if stature(body).is_err() {
         return Ok(None);
     }
@@ -76,9 +78,16 @@ pub(in crate::track) fn measure_again(
         Ok(body.world_from_bones(&pose)?[0].translation.truncate())
     };
     let places = poses.iter().map(place).collect::<Result<Vec<DVec2>>>()?;
-    let [measured_in, judging] = Seen::look(sequence, &frames, weighs_evidence, &mut known_at(&places))?.halves();
+    let seen = match others {
+        Some(others) => Seen::look(sequence, &frames, weighs_evidence, others)?,
+        None => {
+            let apart = &mut all_but(&sequence.cameras, known_at(&places));
+            Seen::look(sequence, &frames, weighs_evidence, apart)?
+        }
+    };
+    let [measured_in, judging] = seen.halves();
     let half = |first: usize| -> Vec<Vec<f32>> { poses.iter().skip(first).step_by(2).cloned().collect() };
-    let (mut own, others) = (half(0), half(1));
+    let (mut own, judges) = (half(0), half(1));
 
     let mut fitter = Fitter::new(body, &sequence.cameras, measured_in, search, objective, progress)?;
     fitter.expect(own.len(), true, false, false, true);
@@ -89,12 +98,12 @@ pub(in crate::track) fn measure_again(
 
     let mut judge = Fitter::new(body, &sequence.cameras, judging, search, objective, progress)?;
     if weighs_evidence {
-        judge.relook(body, &others)?;
+        judge.relook(body, &judges)?;
     }
-    let before = judge.settled_fitness(&others)?;
+    let before = judge.settled_fitness(&judges)?;
     let steps = SearchSpace::of(body)?.spread(1.0 / 25.0)?;
     let follow = |pose: &Vec<f32>| Following::new(body, pose, &steps)?.with(&remeasured);
-    let moved: Vec<Vec<f32>> = others.iter().map(follow).collect::<Result<_>>()?;
+    let moved: Vec<Vec<f32>> = judges.iter().map(follow).collect::<Result<_>>()?;
     judge.scorer.set_body(&remeasured)?;
     let after = judge.settled_fitness(&moved)?;
     let gains: Vec<f64> = after.iter().zip(&before).map(|(after, before)| f64::from(after - before)).collect();

@@ -3,7 +3,7 @@
 use anyhow::{Result, bail};
 use glam::DVec2;
 
-use super::super::figures::{Figure, nearest};
+use super::super::figures::{Figure, figures, nearest};
 use super::seen::Seen;
 use crate::files::listed;
 use crate::observe::with_plates;
@@ -88,16 +88,18 @@ pub struct PersonSeen {
     pub height: f64,
 }
 
-/// The people who are seen in a frame, those first who stand nearest to where the cameras look.
+/// The people who are seen in each of some frames, which rise: those first who stand nearest to where the cameras look.
 ///
 /// # Errors
 /// As [`super::fit`].
-pub fn people_in(sequence: &Sequence, frame: usize) -> Result<Vec<PersonSeen>> {
+pub fn people_in(sequence: &Sequence, frames: &[usize]) -> Result<Vec<Vec<PersonSeen>>> {
     let plated = with_plates(sequence, &mut |_, _, _| {})?;
+    let sequence = plated.sequence.as_ref();
     let mut people = Vec::new();
-    Seen::look(plated.sequence.as_ref(), &[frame], false, &mut |_, figures| {
-        people = figures.iter().map(|figure| PersonSeen { at: figure.place.into(), height: figure.height }).collect();
-        Ok(None)
+    Seen::look(sequence, frames, false, &mut |_, views| {
+        let figures = figures(&sequence.cameras, views).into_iter();
+        people.push(figures.map(|figure| PersonSeen { at: figure.place.into(), height: figure.height }).collect());
+        Ok(Vec::new())
     })?;
     Ok(people)
 }

@@ -20,10 +20,12 @@ pub(super) use self::again::{TrackedPoses, measure_again};
 pub(super) use self::following::Following;
 pub use self::meant::{PersonSeen, people_in};
 pub use self::scorer::Coverage;
+pub(super) use self::seen::LeaveOut;
 
 use self::fitter::Fitter;
 use self::meant::Meant;
-use self::seen::Seen;
+use self::seen::{Seen, all_but};
+use super::figures::Figure;
 use super::hull::Hull;
 use super::{FrameRange, ObjectiveChoice};
 use crate::body::{Body, PoseTable, Proportions};
@@ -131,7 +133,8 @@ pub fn fit_with(sequence: &Sequence, settings: &FitSettings, progress: &mut Adva
     let sequence = plated.sequence.as_ref();
     let frames = sampled(settings.frames.within(sequence.frame_count, &name)?, settings.samples);
     let mut meant = Meant::new(settings.at, frames.first().copied().unwrap_or_default(), &name);
-    let seen = Seen::look(sequence, &frames, weighs_evidence, &mut |at, figures| meant.choose(at, figures))?;
+    let chosen = |at: usize, figures: &[Figure]| meant.choose(at, figures);
+    let seen = Seen::look(sequence, &frames, weighs_evidence, &mut all_but(&sequence.cameras, chosen))?;
     let in_frame = |at: usize| format!("{name}, frame {}", frames[at]);
     let hulls: Vec<Hull> = seen
         .observations
@@ -200,7 +203,7 @@ pub fn fit_with(sequence: &Sequence, settings: &FitSettings, progress: &mut Adva
 }
 
 /// At most `count` frames of a range, evenly spread, first and last among them.
-fn sampled(range: std::ops::Range<usize>, count: usize) -> Vec<usize> {
+pub(super) fn sampled(range: std::ops::Range<usize>, count: usize) -> Vec<usize> {
     let last = range.len().saturating_sub(1);
     let count = count.min(range.len());
     (0..count).map(|i| range.start + if count > 1 { (i * last + (count - 1) / 2) / (count - 1) } else { 0 }).collect()

@@ -1,5 +1,7 @@
 //! What was seen in the frames that a person is measured in.
 
+use std::sync::Arc;
+
 use anyhow::{Result, bail};
 use glam::DVec2;
 
@@ -7,13 +9,26 @@ use super::super::appearance::teach;
 use super::super::figures::{Figure, figures, nearest, others};
 use crate::body::Body;
 use crate::evaluate::Reference;
-use crate::features::{Ignoring, Likelihood, Observation, SeenView};
+use crate::features::{BitImage, Ignoring, Likelihood, Observation, SeenView};
 use crate::geometry::Camera;
 use crate::observe::{Appearance, Observer, silhouette_settings, take_likelihoods, take_observations};
 use crate::sequence::Sequence;
 
-/// Says which of the people in a frame is meant, of whom there may be none.
-pub(super) type Choose<'a> = dyn FnMut(usize, &[Figure]) -> Result<Option<usize>> + 'a;
+/// For each view of a frame the pixels that count neither for nor against who is measured; none where all count. By the number of the frame
+/// among those that are looked at.
+pub(in crate::track) type LeaveOut<'a> = dyn FnMut(usize, &[SeenView<'_>]) -> Result<Vec<Option<Arc<BitImage>>>> + 'a;
+
+/// Leaves out what shows others than who is meant, where several people are seen: of whom `choose` says which that is, if any.
+pub(super) fn all_but<'a>(
+    cameras: &'a [Camera],
+    mut choose: impl FnMut(usize, &[Figure]) -> Result<Option<usize>> + 'a,
+) -> impl FnMut(usize, &[SeenView<'_>]) -> Result<Vec<Option<Arc<BitImage>>>> + 'a {
+    move |at, views| {
+        let figures = figures(cameras, views);
+        let own = choose(at, &figures)?.filter(|_| figures.len() > 1);
+        Ok(own.map_or_else(Vec::new, |own| others(cameras, views, &figures, own)))
+    }
+}
 
 /// The one of the people who stands nearest to where he is known to be in each frame.
 pub(super) fn known_at(places: &[DVec2]) -> impl FnMut(usize, &[Figure]) -> Result<Option<usize>> {
@@ -27,16 +42,15 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Looks at frames, which rise, for one person. Where others are seen too, `choose` says who is meant, by the number of the frame among
-    /// these: what shows others counts neither for nor against him.
+    /// Looks at frames, which rise, for one person.
     ///
     /// # Errors
-    /// When a view has neither background nor masks, pictures cannot be read, or `choose` fails.
+    /// When a view has neither background nor masks, pictures cannot be read, or `leave_out` fails.
     pub(super) fn look(
         sequence: &Sequence,
         frames: &[usize],
         weighs_evidence: bool,
-        choose: &mut Choose<'_>,
+        leave_out: &mut LeaveOut<'_>,
     ) -> Result<Self> {
         if let Some(unknown) = sequence.unknown_background() {
             bail!("{unknown}, expected one of them to measure a person with");
@@ -51,11 +65,8 @@ impl Seen {
             if let Some(features) = observer.features(&frame, frames.contains(&frame.index))? {
                 let views: Vec<SeenView<'_>> =
                     features.iter().map(|features| SeenView::Whole(&features.observation)).collect();
-                let figures = figures(&sequence.cameras, &views);
-                if let Some(own) = choose(seen.observations.len(), &figures)?
-                    && figures.len() > 1
-                {
-                    let ignored = others(&sequence.cameras, &views, &figures, own);
+                let ignored = leave_out(seen.observations.len(), &views)?;
+                if !ignored.is_empty() {
                     ignoring.apply(features, &ignored)?;
                 }
                 seen.observations.push(take_observations(features));

@@ -6,9 +6,10 @@ use anyhow::{Context, Result};
 
 use super::Run;
 use crate::body::Body;
+use crate::features::SeenView;
 use crate::sequence::Sequence;
 use crate::track::confidence::JointProbe;
-use crate::track::fit::{Following, TrackedPoses, measure_again};
+use crate::track::fit::{Following, LeaveOut, TrackedPoses, measure_again};
 use crate::track::plan::Plan;
 use crate::track::progress::Progress;
 
@@ -33,11 +34,16 @@ pub(in crate::track) fn why_not_again(sequence: &Sequence, plan: &Plan) -> Optio
 
 impl Run<'_> {
     /// Measures the person again in the poses of the first pass, and goes on with that body where frames that it was not measured in say that
-    /// it fits better. A sentence of what came of it, where that was asked for.
+    /// it fits better. `others` says what shows somebody else, by the number of the frame in the run, where that is known. A sentence of what
+    /// came of it, where that was asked for.
     ///
     /// # Errors
     /// When frames cannot be read, or the body cannot be written.
-    pub(in crate::track) fn measure_again(&mut self, progress: &mut dyn Progress) -> Result<Option<String>> {
+    pub(in crate::track) fn measure_again(
+        &mut self,
+        others: Option<&mut LeaveOut<'_>>,
+        progress: &mut dyn Progress,
+    ) -> Result<Option<String>> {
         if !self.settings.measures_again(self.sequence) || !self.looks_back() {
             return Ok(None);
         }
@@ -53,6 +59,7 @@ impl Run<'_> {
             )));
         }
         let start = Instant::now();
+        let mut others = others.map(|others| |at: usize, views: &[SeenView<'_>]| others(frames[at], views));
         let tracked = TrackedPoses {
             sequence,
             body: &plan.body,
@@ -60,6 +67,7 @@ impl Run<'_> {
             poses: frames.iter().map(|at| self.frames[*at].pose.clone()).collect(),
             frames: frames.iter().map(|at| self.frames[*at].frame).collect(),
             seed: self.settings.search.seed,
+            others: others.as_mut().map(|others| others as &mut LeaveOut<'_>),
         };
         let found = measure_again(tracked, &mut |what, done, total| progress.preparing(what, done, total))
             .context("measuring the person again")?;
