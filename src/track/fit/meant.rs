@@ -37,20 +37,26 @@ impl<'a> Meant<'a> {
             Some(place) => nearest(figures, place),
             None => (!figures.is_empty()).then_some(0),
         };
+        if at == 0
+            && let Some(place) = self.place
+            && chosen.is_none_or(|own| figures[own].place.distance(place) > THERE)
+        {
+            let seen: Vec<String> = figures.iter().map(shown).collect();
+            bail!(
+                "{}, frame {}: nobody stands within {THERE} mm of {:.0},{:.0}; {}",
+                self.name,
+                self.first,
+                place.x,
+                place.y,
+                match &seen[..] {
+                    [] => "nobody is seen standing upright".to_string(),
+                    [one] => format!("seen is somebody at {one}"),
+                    more => format!("seen are people at {}", listed(more)),
+                }
+            );
+        }
         let Some(own) = chosen else { return Ok(None) };
         if at == 0 {
-            if let Some(place) = self.place.filter(|place| figures[own].place.distance(*place) > THERE) {
-                let seen: Vec<String> = figures.iter().map(shown).collect();
-                bail!(
-                    "{}, frame {}: nobody stands within {THERE} mm of {:.0},{:.0}; seen {} at {}",
-                    self.name,
-                    self.first,
-                    place.x,
-                    place.y,
-                    if seen.len() == 1 { "is somebody" } else { "are people" },
-                    listed(&seen)
-                );
-            }
             self.others = self.said(figures, own);
         }
         self.place = Some(figures[own].place);
@@ -102,4 +108,19 @@ pub fn people_in(sequence: &Sequence, frames: &[usize]) -> Result<Vec<Vec<Person
         Ok(Vec::new())
     })?;
     Ok(people)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_where_nobody_stands_is_no_persons() {
+        let error = |place: Option<[f64; 2]>| {
+            Meant::new(place, 4, "walk.toml").choose(0, &[]).map_err(|error| format!("{error:#}"))
+        };
+        let expected = "walk.toml, frame 4: nobody stands within 1000 mm of 900,-20; nobody is seen standing upright";
+        assert_eq!(error(Some([900.0, -20.0])), Err(expected.to_string()));
+        assert_eq!(error(None), Ok(None), "whoever lies on the floor is measured where nobody was named");
+    }
 }
