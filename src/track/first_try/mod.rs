@@ -31,6 +31,8 @@ use crate::sequence::{Footage, Orientation, SAME_RATE, Sequence, check_fps, read
 const FITS: f64 = 0.65;
 /// Frames of the recording in which people who overlap in the one that was asked for are looked for apart.
 const LOOKED_AT: usize = 12;
+/// They are among so many first frames: those between are read too.
+const AMONG: usize = 1000;
 
 /// What a first try is made from.
 #[derive(Clone, Debug)]
@@ -316,9 +318,9 @@ fn measured(
         .collect()
 }
 
-/// Says in which frame of the recording so many people are seen apart.
+/// Says in which frame, of some that are looked at, so many people are seen apart.
 fn where_apart(sequence: &Sequence, people: usize) -> Result<String> {
-    let frames = sampled(0..sequence.frame_count, LOOKED_AT);
+    let frames = sampled(0..sequence.frame_count.min(AMONG), LOOKED_AT);
     let seen = people_in(sequence, &frames)?;
     let apart = frames.iter().zip(&seen).find(|(_, seen)| seen.len() >= people);
     Ok(apart.map_or_else(
