@@ -62,6 +62,16 @@ pub fn write_atomically(
     overwrite: Overwrite,
     body: impl FnOnce(&mut dyn Write) -> Result<()>,
 ) -> Result<()> {
+    let mut body = Some(body);
+    written_atomically(path, overwrite, &mut |writer| body.take().map_or(Ok(()), |body| body(writer)))
+}
+
+/// [`write_atomically`], compiled once for all bodies; `body` is called once at most.
+fn written_atomically(
+    path: &Path,
+    overwrite: Overwrite,
+    body: &mut dyn FnMut(&mut dyn Write) -> Result<()>,
+) -> Result<()> {
     if overwrite == Overwrite::Refuse && path.exists() {
         bail!("{} exists already: pass --force to replace it, or choose another name", path.display());
     }

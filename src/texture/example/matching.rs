@@ -2,12 +2,11 @@
 //! (METHOD B3), by cross-correlation with Fourier transforms or, for few known pixels, directly.
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use anyhow::Result;
 use image::RgbImage;
-use rustfft::num_complex::Complex32;
-use rustfft::{Fft, FftPlanner};
+use phastft::fft_f32_dit_with_planner;
+use phastft::planner::{Direction, PlannerDit32};
 
 use super::colour::{Known, Weighted, squared_error, weighted};
 use super::device_matching::DeviceMatching;
@@ -33,10 +32,12 @@ pub struct Matcher {
     /// Weighted channels, rows one after another; longer than the picture by [`LANES`], so that a row of placements may be
     /// read past its end.
     planes: [Vec<f32>; 3],
+    /// Columns and rows that are transformed: the example's with zeros behind them, powers of two.
+    padded: [usize; 2],
     /// Transforms of the channels and of their sum of squares, transposed.
-    spectra: [Vec<Complex32>; 4],
-    along: [Arc<dyn Fft<f32>>; 2],
-    down: [Arc<dyn Fft<f32>>; 2],
+    spectra: [Complex; 4],
+    along: PlannerDit32,
+    down: PlannerDit32,
     /// Pixels that may not be used above and left of each corner; empty when all may.
     forbidden: Vec<u32>,
     /// What measures instead of the processor.
@@ -49,10 +50,38 @@ impl std::fmt::Debug for Matcher {
     }
 }
 
-/// `from` with `rows` rows, its columns made rows.
-fn transposed(from: &[Complex32], rows: usize) -> Vec<Complex32> {
+/// Complex numbers, row by row: real parts and imaginary parts.
+#[derive(Clone, Default)]
+struct Complex {
+    re: Vec<f32>,
+    im: Vec<f32>,
+}
+
+impl Complex {
+    fn zeros(count: usize) -> Self {
+        Self { re: vec![0.0; count], im: vec![0.0; count] }
+    }
+
+    fn at(&self, i: usize) -> [f32; 2] {
+        [self.re[i], self.im[i]]
+    }
+
+    /// Transforms each row of `columns` numbers.
+    fn transform(&mut self, columns: usize, planner: &PlannerDit32, direction: Direction) {
+        for (re, im) in self.re.chunks_exact_mut(columns).zip(self.im.chunks_exact_mut(columns)) {
+            fft_f32_dit_with_planner(re, im, direction, planner);
+        }
+    }
+
+    /// Its `rows` rows made columns.
+    fn transposed(&self, rows: usize) -> Self {
+        Self { re: transposed(&self.re, rows), im: transposed(&self.im, rows) }
+    }
+}
+
+fn transposed(from: &[f32], rows: usize) -> Vec<f32> {
     let columns = from.len() / rows;
-    let mut to = vec![Complex32::default(); from.len()];
+    let mut to = vec![0.0; from.len()];
     for (y, row) in from.chunks_exact(columns).enumerate() {
         for (x, value) in row.iter().enumerate() {
             to[x * rows + y] = *value;
@@ -61,13 +90,17 @@ fn transposed(from: &[Complex32], rows: usize) -> Vec<Complex32> {
     to
 }
 
+/// `a` times the conjugate of `b`.
+fn times_conjugate(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {
+    [a[0] * b[0] + a[1] * b[1], a[1] * b[0] - a[0] * b[1]]
+}
+
 impl Matcher {
     /// Prepares an example; `usable` says which of its pixels may be used, row by row.
     pub fn new(example: &RgbImage, usable: Option<&[bool]>) -> Self {
         let (width, height) = (example.width() as usize, example.height() as usize);
-        let mut planner = FftPlanner::new();
-        let along = [planner.plan_fft_forward(width), planner.plan_fft_inverse(width)];
-        let down = [planner.plan_fft_forward(height), planner.plan_fft_inverse(height)];
+        let padded = [width, height].map(usize::next_power_of_two);
+        let [along, down] = padded.map(PlannerDit32::new);
         let colours: Vec<Weighted> = example.pixels().map(|pixel| weighted(pixel.0.map(f32::from))).collect();
         let planes: [Vec<f32>; 3] = std::array::from_fn(|c| {
             colours.iter().map(|colour| colour[c]).chain(std::iter::repeat_n(0.0, LANES)).collect()
@@ -83,10 +116,23 @@ impl Matcher {
                 }
             }
         }
-        let mut matcher =
-            Self { width, height, planes, spectra: Default::default(), along, down, forbidden, on_device: None };
-        let plane = |f: &dyn Fn(&Weighted) -> f32| -> Vec<Complex32> {
-            colours.iter().map(|colour| Complex32::new(f(colour), 0.0)).collect()
+        let mut matcher = Self {
+            width,
+            height,
+            planes,
+            padded,
+            spectra: Default::default(),
+            along,
+            down,
+            forbidden,
+            on_device: None,
+        };
+        let plane = |f: &dyn Fn(&Weighted) -> f32| {
+            let mut values = Complex::zeros(padded[0] * padded[1]);
+            for (row, colours) in values.re.chunks_exact_mut(padded[0]).zip(colours.chunks_exact(width.max(1))) {
+                row.iter_mut().zip(colours).for_each(|(value, colour)| *value = f(colour));
+            }
+            values
         };
         matcher.spectra = [
             matcher.forward(plane(&|c| c[0])),
@@ -118,11 +164,12 @@ impl Matcher {
         std::array::from_fn(|c| self.planes[c][y * self.width + x])
     }
 
-    fn forward(&self, mut values: Vec<Complex32>) -> Vec<Complex32> {
-        self.along[0].process(&mut values);
-        let mut columns = transposed(&values, self.height);
-        self.down[0].process(&mut columns);
-        columns
+    fn forward(&self, mut values: Complex) -> Complex {
+        let [columns, rows] = self.padded;
+        values.transform(columns, &self.along, Direction::Forward);
+        let mut values = values.transposed(rows);
+        values.transform(rows, &self.down, Direction::Forward);
+        values
     }
 
     /// Placements of a region of `size` that lie within the example: columns and rows of their upper left corners.
@@ -234,7 +281,7 @@ impl Matcher {
 
     /// The way that takes fewer operations, by count: an estimate, since products summed directly are vector code.
     fn cheaper(&self, placements: usize, known: usize) -> Way {
-        let area = (self.width * self.height) as f32;
+        let area = (self.padded[0] * self.padded[1]) as f32;
         let direct = placements as f32 * known as f32;
         if direct < 3.0 * area * (4.0 * area.max(2.0).log2() + 6.0) { Way::Direct } else { Way::Fourier }
     }
@@ -257,13 +304,13 @@ impl Matcher {
     /// sum w (T - O)^2 = w * T^2 - 2 wO * T + sum w O^2, `*` the cross-correlation: a product of transforms. Regions lie
     /// within the example, so the correlation's wrapping around never shows.
     fn correlated(&self, [columns, rows]: [usize; 2], known: &[Known]) -> Vec<f32> {
-        let area = self.width * self.height;
+        let [wide, high] = self.padded;
         // Two real pictures share one complex transform.
         let packed = |pair: &(dyn Fn(&Known) -> (f32, f32) + Sync)| {
-            let mut values = vec![Complex32::default(); area];
+            let mut values = Complex::zeros(wide * high);
             for pixel in known {
-                let (re, im) = pair(pixel);
-                values[pixel.y * self.width + pixel.x] = pixel.weight * Complex32::new(re, im);
+                let (i, (re, im)) = (pixel.y * wide + pixel.x, pair(pixel));
+                (values.re[i], values.im[i]) = (pixel.weight * re, pixel.weight * im);
             }
             self.forward(values)
         };
@@ -272,29 +319,29 @@ impl Matcher {
             || packed(&|pixel| (pixel.colour[1], pixel.colour[2])),
         );
         let constant: f32 = known.iter().map(|pixel| pixel.weight * squared_error(pixel.colour, [0.0; 3])).sum();
-        // Transposed: index = x * height + y.
-        let mut product = vec![Complex32::default(); area];
-        for x in 0..self.width {
-            for y in 0..self.height {
-                let i = x * self.height + y;
-                let mirrored = (self.width - x) % self.width * self.height + (self.height - y) % self.height;
-                let parts = |z: &[Complex32]| {
-                    let (here, there) = (z[i], z[mirrored].conj());
-                    let difference = here - there;
-                    (0.5 * (here + there), 0.5 * Complex32::new(difference.im, -difference.re))
+        // Transposed: index = x * high + y.
+        let mut product = Complex::zeros(wide * high);
+        for x in 0..wide {
+            for y in 0..high {
+                let i = x * high + y;
+                let mirrored = (wide - x) % wide * high + (high - y) % high;
+                let parts = |z: &Complex| {
+                    let ([re, im], [there_re, there_im]) = (z.at(i), z.at(mirrored));
+                    let sums = [re + there_re, im - there_im, im + there_im, there_re - re];
+                    let [a, b, c, d] = sums.map(|sum| 0.5 * sum);
+                    ([a, b], [c, d])
                 };
                 let ((mask, red), (green, blue)) = (parts(&mask_and_red), parts(&green_and_blue));
-                let cross = red.conj() * self.spectra[0][i]
-                    + green.conj() * self.spectra[1][i]
-                    + blue.conj() * self.spectra[2][i];
-                product[i] = mask.conj() * self.spectra[3][i] - 2.0 * cross;
+                let [red, green, blue, mask] = [(red, 0), (green, 1), (blue, 2), (mask, 3)]
+                    .map(|(part, spectrum)| times_conjugate(self.spectra[spectrum].at(i), part));
+                let sum = |axis: usize| mask[axis] - 2.0 * (red[axis] + green[axis] + blue[axis]);
+                (product.re[i], product.im[i]) = (sum(0), sum(1));
             }
         }
-        self.down[1].process(&mut product);
-        let mut product = transposed(&product, self.width);
-        self.along[1].process(&mut product);
-        let scale = 1.0 / area as f32;
-        let row = |y: usize| product[y * self.width..][..columns].iter().map(|z| z.re * scale + constant);
+        product.transform(high, &self.down, Direction::Inverse);
+        let mut product = product.transposed(wide);
+        product.transform(wide, &self.along, Direction::Inverse);
+        let row = |y: usize| product.re[y * wide..][..columns].iter().map(|error| error + constant);
         (0..rows).flat_map(row).collect()
     }
 }

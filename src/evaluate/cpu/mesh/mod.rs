@@ -95,13 +95,13 @@ impl MeshModel {
     /// Some candidates in every view, by one of the workers.
     pub(super) fn evaluate(&self, code: Code, worker: usize, poses: &[f32], besides: Besides, sums: &mut Sums) {
         let mut scratch = self.scratch[worker].lock().unwrap_or_else(PoisonError::into_inner);
-        code.run(MeshGroup { model: self, poses, besides, scratch: &mut scratch, sums });
+        code.run(MeshTask { model: self, poses, scratch: &mut scratch, purpose: Purpose::Compare(besides, sums) });
     }
 
     /// One pose in one view, as it is drawn.
     pub(super) fn drawn(&self, code: Code, pose: &[f32], view: usize) -> CandidateImage {
         let mut scratch = self.scratch[0].lock().unwrap_or_else(PoisonError::into_inner);
-        code.run(MeshImage { model: self, pose, view, scratch: &mut scratch });
+        code.run(MeshTask { model: self, poses: pose, scratch: &mut scratch, purpose: Purpose::Draw(view) });
         let View { width, height, .. } = self.views[view];
         let mut bytes = vec![0; width as usize * height as usize];
         let ([left, top], rows) = scratch.canvas.region();
@@ -122,51 +122,45 @@ impl Scratch {
     }
 }
 
-/// A pose in a view.
-struct MeshImage<'a> {
-    model: &'a MeshModel,
-    pose: &'a [f32],
-    view: usize,
-    scratch: &'a mut Scratch,
+/// What some poses are drawn for.
+enum Purpose<'a> {
+    /// To be compared in every view, and where what they give goes.
+    Compare(Besides, &'a mut Sums),
+    /// To be looked at, in one view.
+    Draw(usize),
 }
 
-impl Task for MeshImage<'_> {
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let Self { model, pose, view, scratch } = self;
-        model.vertices.pose(&model.projector, pose, &mut scratch.posed);
-        scratch.draw(simd, model, view);
-    }
-}
-
-/// Some poses, and where what they give goes.
-struct MeshGroup<'a> {
+/// Some poses to draw: one piece of code for either purpose, since it is compiled for every instruction set.
+struct MeshTask<'a> {
     model: &'a MeshModel,
     poses: &'a [f32],
-    besides: Besides,
     scratch: &'a mut Scratch,
-    sums: &'a mut Sums,
+    purpose: Purpose<'a>,
 }
 
-impl Task for MeshGroup<'_> {
+impl Task for MeshTask<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { model, poses, besides, scratch, sums } = self;
+        let Self { model, poses, scratch, mut purpose } = self;
         let views = model.views.len();
         for (candidate, pose) in poses.chunks_exact(model.projector.projector.dof_count()).enumerate() {
             model.vertices.pose(&model.projector, pose, &mut scratch.posed);
             for (number, view) in model.views.iter().enumerate() {
+                if matches!(purpose, Purpose::Draw(view) if view != number) {
+                    continue;
+                }
                 scratch.draw(simd, model, number);
+                let Purpose::Compare(besides, sums) = &mut purpose else { continue };
                 let (image, canvas) = (candidate * views + number, &mut scratch.canvas);
                 view.pass_over(canvas);
                 sums.components[image] = view.compare(canvas);
-                match besides {
+                match *besides {
                     Besides::Nothing => (),
                     Besides::Segments | Besides::SegmentEdges => {
                         let segments = view.segment_areas.len();
                         let sums = &mut sums.segments[image * segments..][..segments];
                         view.compare_segments(canvas, &model.numbers, sums);
-                        if besides == Besides::SegmentEdges {
+                        if *besides == Besides::SegmentEdges {
                             view.count_segment_edges(canvas, &model.numbers, sums);
                         }
                     }
