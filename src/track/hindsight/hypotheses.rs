@@ -1,6 +1,8 @@
 //! Other poses that a frame may have than the one its track gave it (METHOD A14): limbs taken from one track or the other, limbs of the
 //! two sides exchanged, limbs looked for everywhere within their limits.
 
+use std::f32::consts::PI;
+
 use anyhow::Result;
 use rayon::prelude::*;
 
@@ -24,6 +26,8 @@ const SIGHTED: usize = 48;
 const SUSPICIOUS: f32 = 0.2;
 /// Share of its limit from which on a trunk is turned so far that it is tried straight.
 const TURNED: f32 = 0.5;
+/// Way from the first to the last of some frames, mm, from which on a person walks.
+const WALKED: f64 = 400.0;
 
 /// The limbs of a body.
 #[derive(Clone, Debug)]
@@ -32,6 +36,10 @@ pub(super) struct Limbs {
     /// Pairs of limbs with the same joints on either side.
     pub(super) twins: Vec<[usize; 2]>,
     turns: Vec<Turn>,
+    /// Of every degree of freedom, whose value it has, and with which sign, where the body faces the other way.
+    facing: Vec<(usize, f32)>,
+    /// The degrees by which the whole body goes along x and y, and turns about its own axis.
+    root: Option<[usize; 3]>,
 }
 
 /// A degree of freedom by which the trunk turns about its own axis, where it is round, and the limbs that turn with it.
@@ -66,7 +74,24 @@ impl Limbs {
             is_turn.then(|| Turn { dof: d, limbs: limbs() })
         };
         let turns = of_dofs.iter().enumerate().filter_map(turn).collect();
-        Self { glances, twins, turns }
+        let is_root = |bone: usize| body.bones[bone].parent.is_none();
+        let other_side = |name: &str| {
+            let sides = [("left_", "right_"), ("right_", "left_")];
+            let other = |(one, other): (&str, &str)| name.strip_prefix(one).map(|rest| format!("{other}{rest}"));
+            sides.into_iter().find_map(other).and_then(|other| names.iter().position(|name| *name == other))
+        };
+        let faced = |(d, (bone, dof)): (usize, &(usize, &Dof))| {
+            let is_turned = matches!(dof.axis, DofAxis::Tx | DofAxis::Ty | DofAxis::Rx | DofAxis::Ry);
+            let sign = if is_turned && !is_root(*bone) { -1.0 } else { 1.0 };
+            (other_side(&names[d]).unwrap_or(d), sign)
+        };
+        let facing = of_dofs.iter().enumerate().map(faced).collect();
+        let of_root = |axis: DofAxis| of_dofs.iter().position(|(bone, dof)| is_root(*bone) && dof.axis == axis);
+        let root = match [DofAxis::Tx, DofAxis::Ty, DofAxis::Rz].map(of_root) {
+            [Some(x), Some(y), Some(heading)] => Some([x, y, heading]),
+            _ => None,
+        };
+        Self { glances, twins, turns, facing, root }
     }
 
     pub(super) fn count(&self) -> usize {
@@ -88,6 +113,41 @@ impl Limbs {
         }
         space.clamp(&mut exchanged);
         exchanged
+    }
+
+    /// `pose` facing the other way: turned by half a turn about the body's axis, with every limb of one side where the other side's was, as far
+    /// as the limits let it; where they are behind, with the limbs' ends bent as the other side's were. None of a body that does not turn.
+    pub(super) fn turned_round(&self, pose: &[f32], space: &SearchSpace) -> Option<[Vec<f32>; 2]> {
+        let [_, _, heading] = self.root?;
+        let mut turned: Vec<f32> = self.facing.iter().map(|&(from, sign)| sign * pose[from]).collect();
+        // Back and forth, so that headings do not grow.
+        turned[heading] += if pose[heading] > 0.0 { -PI } else { PI };
+        let mut bent = turned.clone();
+        for d in 0..turned.len() {
+            // What only bends one way.
+            if space.lower()[d] >= 0.0 || space.upper()[d] <= 0.0 {
+                bent[d] = pose[self.facing[d].0];
+            }
+        }
+        [&mut turned, &mut bent].into_iter().for_each(|pose| space.clamp(pose));
+        Some([turned, bent])
+    }
+
+    /// The mean cosine between where a body faces and the way it goes in these frames; 0 where it goes nowhere.
+    pub(super) fn faces_along(&self, poses: &[Vec<f32>]) -> f64 {
+        let (Some([x, y, heading]), Some(first), Some(last)) = (self.root, poses.first(), poses.last()) else {
+            return 0.0;
+        };
+        let way = [last[x] - first[x], last[y] - first[y]].map(f64::from);
+        let length = way[0].hypot(way[1]);
+        if length < WALKED {
+            return 0.0;
+        }
+        let along = poses.iter().map(|pose| {
+            let (sin, cos) = f64::from(pose[heading]).sin_cos();
+            (way[0] * cos + way[1] * sin) / length
+        });
+        along.sum::<f64>() / poses.len() as f64
     }
 
     /// `pose` with the trunk straight, and the limbs that hang on it, where it is turned far.

@@ -102,6 +102,7 @@ impl<'a> Mending<'a> {
                 track.follow(scorer, seen, &order(seen.len(), is_back), &mut most, &mut candidates)
             };
             let ends = [follow(true)?, follow(false)?];
+            Track::through(limbs, steps, given, section, false).turn_round(scorer, seen, &mut candidates)?;
             Ok((candidates, ends))
         })?;
         let (candidates, ends): (Vec<_>, Vec<[Ended; 2]>) = found.into_iter().unzip();

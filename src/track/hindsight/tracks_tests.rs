@@ -127,6 +127,64 @@ fn a_trunk_that_is_turned_far_is_tried_straight() {
     assert!(worst(&before) > 200.0 && worst(&after) < 60.0, "{} to {}", worst(&before), worst(&after));
 }
 
+/// Somebody who faces the other way has the joints of one side where the other's were, and is turned back by the same.
+#[test]
+fn sides_change_places_where_a_body_faces_the_other_way() {
+    let held =
+        [("thorax.ry", 0.2), ("thorax.rz", 0.3), ("left_hip.rx", 0.2), ("left_hip.ry", 0.3), ("right_hip.ry", -0.4)];
+    let arms = [("left_shoulder.rx", 0.7), ("left_shoulder.ry", -0.3), ("right_shoulder.rx", -0.5), ("pelvis.rz", 0.4)];
+    let standing = Moving::new(|_| [&held[..], &arms[..], &[("pelvis.rx", 0.1), ("pelvis.ry", -0.1)]].concat());
+    let Moving { body, space, truth, .. } = &standing;
+    let limbs = Limbs::new(body, &cameras_around(), space);
+    let [turned, bent] = limbs.turned_round(&truth[0], space).unwrap();
+    let [[back, _], [from_bent, _]] = [&turned, &bent].map(|pose| limbs.turned_round(pose, space).unwrap());
+    let off = |pose: &[f32]| pose.iter().zip(&truth[0]).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+    assert!(off(&back) < 1e-5 && off(&from_bent) < 1e-5 && off(&turned) > 3.0);
+    let shape = Shape::new(body);
+    let [before, after] = [&truth[0], &turned].map(|pose| shape.points(pose));
+    // Of what ends freely the head's top and the toes lie before the axis, on either side.
+    for (name, point) in body.joint_names().iter().zip(&before).take(body.bones.len()) {
+        let other = match (name.strip_prefix("left_"), name.strip_prefix("right_")) {
+            (Some(rest), _) => format!("right_{rest}"),
+            (_, Some(rest)) => format!("left_{rest}"),
+            _ => name.to_string(),
+        };
+        let there = body.joint_names().iter().position(|name| *name == other).unwrap();
+        assert!(point.distance(after[there]) < 0.1, "{name} at {point}, {other} turned at {}", after[there]);
+    }
+}
+
+/// Somebody who was tracked the wrong way round from the first frame on walks forwards afterwards; one who walks backwards goes on doing so.
+#[test]
+fn who_was_tracked_the_wrong_way_round_is_turned() {
+    let walking = |way: f32| {
+        Moving::new(move |t| {
+            let swing = 0.45 * (0.9 * t).sin();
+            let legs =
+                [("left_hip.ry", swing), ("right_hip.ry", -swing), ("left_knee.ry", 0.3), ("right_knee.ry", 0.3)];
+            let arms = [
+                ("left_shoulder.ry", -swing),
+                ("right_shoulder.ry", swing),
+                ("left_elbow.ry", -0.8),
+                ("right_elbow.ry", -0.8),
+            ];
+            [&legs[..], &arms[..], &[("pelvis.tx", way * 60.0 * t)]].concat()
+        })
+    };
+    for (way, is_turned) in [(1.0, true), (-1.0, false)] {
+        let walk = walking(way);
+        let limbs = Limbs::new(&walk.body, &cameras_around(), &walk.space);
+        assert!((limbs.faces_along(&walk.truth) - f64::from(way)).abs() < 1e-6);
+        let turned = |pose: &Vec<f32>| limbs.turned_round(pose, &walk.space).unwrap()[1].clone();
+        let given: Vec<Vec<f32>> = if is_turned { walk.truth.iter().map(turned).collect() } else { walk.truth.clone() };
+        let (before, after) = (walk.errors(&given), walk.errors(&walk.mended(&given)));
+        let of_frames: Vec<f64> = after.iter().map(|errors| worst(std::slice::from_ref(errors))).collect();
+        println!("{way}: worst {:.1} to {of_frames:.0?} mm", worst(&before));
+        assert_eq!(worst(&before) > 300.0, is_turned);
+        assert!(worst(&after) < 60.0, "{way}: {} to {}", worst(&before), worst(&after));
+    }
+}
+
 /// A frame that shows something nobody explains has its limbs looked for on the way back, and on the way forwards only where that came to
 /// another pose.
 #[test]
