@@ -59,6 +59,7 @@ mod tracked_points;
 mod truth;
 mod unaided;
 mod unseen;
+mod worth;
 
 pub use backend::Backend;
 pub use confidence::{Confidence, FrameConfidence, JointConfidence, JointHints, LossRule, WRONG};

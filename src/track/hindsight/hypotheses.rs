@@ -13,6 +13,7 @@ use crate::features::SeenView;
 use crate::geometry::Camera;
 use crate::search::SearchSpace;
 use crate::track::glance::{Glances, Lattice, are_elsewhere};
+use crate::track::worth::Facing;
 
 /// Poses of a limb tried all over its limits, and generations that go on from the best of them.
 const SCATTERED: usize = 96;
@@ -26,8 +27,6 @@ const SIGHTED: usize = 48;
 const SUSPICIOUS: f32 = 0.2;
 /// Share of its limit from which on a trunk is turned so far that it is tried straight.
 const TURNED: f32 = 0.5;
-/// Way from the first to the last of some frames, mm, from which on a person walks.
-const WALKED: f64 = 400.0;
 
 /// The limbs of a body.
 #[derive(Clone, Debug)]
@@ -37,9 +36,9 @@ pub(super) struct Limbs {
     pub(super) twins: Vec<[usize; 2]>,
     turns: Vec<Turn>,
     /// Of every degree of freedom, whose value it has, and with which sign, where the body faces the other way.
-    facing: Vec<(usize, f32)>,
-    /// The degrees by which the whole body goes along x and y, and turns about its own axis.
-    root: Option<[usize; 3]>,
+    sides: Vec<(usize, f32)>,
+    /// None of a body that does not turn.
+    pub(super) facing: Option<Facing>,
 }
 
 /// A degree of freedom by which the trunk turns about its own axis, where it is round, and the limbs that turn with it.
@@ -53,16 +52,6 @@ impl Limbs {
     pub(super) fn new(body: &Body, cameras: &[Camera], space: &SearchSpace) -> Self {
         let glances = Glances::new(body, cameras, space);
         let names = body.dof_names();
-        let side = |limb: &[usize], side: &str| -> Option<Vec<String>> {
-            limb.iter().map(|&d| names[d].strip_prefix(side).map(str::to_string)).collect()
-        };
-        let mut twins = Vec::new();
-        for (one, limb) in glances.limbs().enumerate() {
-            let Some(left) = side(limb, "left_") else { continue };
-            if let Some(other) = glances.limbs().position(|limb| side(limb, "right_").as_ref() == Some(&left)) {
-                twins.push([one, other]);
-            }
-        }
         let of_dofs: Vec<(usize, &Dof)> = body.dofs().collect();
         let hangs_on = |limb: &[usize], trunk: usize| {
             let first = limb.first().map(|&d| of_dofs[d].0);
@@ -85,13 +74,12 @@ impl Limbs {
             let sign = if is_turned && !is_root(*bone) { -1.0 } else { 1.0 };
             (other_side(&names[d]).unwrap_or(d), sign)
         };
-        let facing = of_dofs.iter().enumerate().map(faced).collect();
-        let of_root = |axis: DofAxis| of_dofs.iter().position(|(bone, dof)| is_root(*bone) && dof.axis == axis);
-        let root = match [DofAxis::Tx, DofAxis::Ty, DofAxis::Rz].map(of_root) {
-            [Some(x), Some(y), Some(heading)] => Some([x, y, heading]),
-            _ => None,
-        };
-        Self { glances, twins, turns, facing, root }
+        let sides: Vec<(usize, f32)> = of_dofs.iter().enumerate().map(faced).collect();
+        let are_twins = |one: &[usize], other: &[usize]| one.iter().map(|&d| sides[d].0).eq(other.iter().copied());
+        let limbs: Vec<&[usize]> = glances.limbs().collect();
+        let pairs = (0..limbs.len()).flat_map(|one| (one + 1..limbs.len()).map(move |other| [one, other]));
+        let twins = pairs.filter(|&[one, other]| are_twins(limbs[one], limbs[other])).collect();
+        Self { glances, twins, turns, sides, facing: Facing::of(body) }
     }
 
     pub(super) fn count(&self) -> usize {
@@ -118,36 +106,19 @@ impl Limbs {
     /// `pose` facing the other way: turned by half a turn about the body's axis, with every limb of one side where the other side's was, as far
     /// as the limits let it; where they are behind, with the limbs' ends bent as the other side's were. None of a body that does not turn.
     pub(super) fn turned_round(&self, pose: &[f32], space: &SearchSpace) -> Option<[Vec<f32>; 2]> {
-        let [_, _, heading] = self.root?;
-        let mut turned: Vec<f32> = self.facing.iter().map(|&(from, sign)| sign * pose[from]).collect();
+        let heading = self.facing?.heading;
+        let mut turned: Vec<f32> = self.sides.iter().map(|&(from, sign)| sign * pose[from]).collect();
         // Back and forth, so that headings do not grow.
         turned[heading] += if pose[heading] > 0.0 { -PI } else { PI };
         let mut bent = turned.clone();
         for d in 0..turned.len() {
             // What only bends one way.
             if space.lower()[d] >= 0.0 || space.upper()[d] <= 0.0 {
-                bent[d] = pose[self.facing[d].0];
+                bent[d] = pose[self.sides[d].0];
             }
         }
         [&mut turned, &mut bent].into_iter().for_each(|pose| space.clamp(pose));
         Some([turned, bent])
-    }
-
-    /// The mean cosine between where a body faces and the way it goes in these frames; 0 where it goes nowhere.
-    pub(super) fn faces_along(&self, poses: &[Vec<f32>]) -> f64 {
-        let (Some([x, y, heading]), Some(first), Some(last)) = (self.root, poses.first(), poses.last()) else {
-            return 0.0;
-        };
-        let way = [last[x] - first[x], last[y] - first[y]].map(f64::from);
-        let length = way[0].hypot(way[1]);
-        if length < WALKED {
-            return 0.0;
-        }
-        let along = poses.iter().map(|pose| {
-            let (sin, cos) = f64::from(pose[heading]).sin_cos();
-            (way[0] * cos + way[1] * sin) / length
-        });
-        along.sum::<f64>() / poses.len() as f64
     }
 
     /// `pose` with the trunk straight, and the limbs that hang on it, where it is turned far.

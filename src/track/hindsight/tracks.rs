@@ -107,7 +107,7 @@ impl<'a> Track<'a> {
         let mut last: Ended = [None, None];
         for &t in order {
             let Found { best: mut chosen, other } =
-                self.searched(scorer, seen[t], t, &last, &candidates[t], (0, 1.0))?;
+                self.searched(scorer, seen[t], t, &last, &poses(&candidates[t]), (0, 1.0))?;
             // Where the track the other way ended in this pose, having looked for its limbs, another look finds no more.
             let is = |what: fn(&Candidate) -> bool| {
                 candidates[t].iter().any(|known| what(known) && !is_different(known, &chosen))
@@ -157,7 +157,7 @@ impl<'a> Track<'a> {
         candidates: &mut [Vec<Candidate>],
     ) -> Result<()> {
         for &t in order {
-            let found = self.searched(scorer, seen[t], t, &last, &candidates[t], (WENT_ON, 1.0))?;
+            let found = self.searched(scorer, seen[t], t, &last, &poses(&candidates[t]), (WENT_ON, 1.0))?;
             let is_known = candidates[t].iter().any(|known| !apart(&known.points, &found.best.points));
             add(found, &mut last, &mut candidates[t]);
             if is_known {
@@ -181,7 +181,7 @@ impl<'a> Track<'a> {
         candidates: &mut [Vec<Candidate>],
     ) -> Result<()> {
         for &t in order {
-            let found = self.searched(scorer, seen[t], t, &last, &candidates[t], (RETRACED, CALM))?;
+            let found = self.searched(scorer, seen[t], t, &last, &poses(&candidates[t]), (RETRACED, CALM))?;
             add(found, &mut last, &mut candidates[t]);
         }
         Ok(())
@@ -199,15 +199,44 @@ impl<'a> Track<'a> {
         seen: &[&Seen],
         candidates: &mut [Vec<Candidate>],
     ) -> Result<()> {
-        let limbs: Vec<usize> = (0..self.limbs.count()).collect();
         // Who walks does so forwards: what turning is worth by itself.
-        let forwards = -2.0 * FORWARDS * self.limbs.faces_along(self.given);
+        let along = self.limbs.facing.map_or(0.0, |facing| facing.along(self.given));
+        let forwards = -2.0 * FORWARDS * along;
+        let Some((t, turned)) = self.turned(scorer, seen, candidates, forwards)? else { return Ok(()) };
+        let most = candidates.iter().flatten().map(|known| known.worth).fold(f64::NEG_INFINITY, f64::max);
+        for order in [order(t, true), (t + 1..seen.len()).collect()] {
+            let mut last = [None, Some(turned.clone())];
+            for t in order {
+                let starts = self.limbs.turned_round(&self.given[t], scorer.space);
+                let mut known = poses(&candidates[t]);
+                known.extend(starts.iter().flatten().map(|start| &start[..]));
+                let Found { mut best, other } = self.searched(scorer, seen[t], t, &last, &known, (TURNED, 1.0))?;
+                let others = self.mended(scorer, seen[t], &mut best, most)?;
+                let found = [best.clone()].into_iter().chain(other).chain(others);
+                candidates[t].extend(found.map(|found| Candidate { worth: found.worth + forwards, ..found }));
+                last = [last[1].take(), Some(best)];
+            }
+        }
+        candidates[t].push(Candidate { worth: turned.worth + forwards, ..turned });
+        Ok(())
+    }
+
+    /// The frame of a section, and its pose, in which the body facing the other way is worth most beside what was found, where that is nearly
+    /// as much; `forwards` is what turning is worth besides.
+    fn turned(
+        &self,
+        scorer: &mut Scorer<'_>,
+        seen: &[&Seen],
+        candidates: &[Vec<Candidate>],
+        forwards: f64,
+    ) -> Result<Option<(usize, Candidate)>> {
+        let limbs: Vec<usize> = (0..self.limbs.count()).collect();
         let mut tried = Vec::new();
         for t in (0..TRIED).map(|nth| (2 * nth + 1) * seen.len() / (2 * TRIED)) {
             scorer.observe(&seen[t].observations)?;
             let facing = &candidates[t][most_under(&candidates[t], None)];
             let worth = facing.worth;
-            let Some(poses) = self.limbs.turned_round(&facing.pose, scorer.space) else { return Ok(()) };
+            let Some(poses) = self.limbs.turned_round(&facing.pose, scorer.space) else { return Ok(None) };
             let starts = scorer.candidates(&poses)?;
             let start = &starts[most_under(&starts, None)].pose;
             let turned = self.settled(scorer, seen[t].index, start, TURNED)?;
@@ -222,27 +251,10 @@ impl<'a> Track<'a> {
             self.rescued(scorer, seen[*t], turned, &limbs)?;
         }
         tried.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
-        let Some((_, t, turned)) = tried.into_iter().find(|tried| gain(tried) > -POOR) else { return Ok(()) };
-        let most = candidates.iter().flatten().map(|known| known.worth).fold(f64::NEG_INFINITY, f64::max);
-        for order in [order(t, true), (t + 1..seen.len()).collect()] {
-            let mut last = [None, Some(turned.clone())];
-            for t in order {
-                scorer.observe(&seen[t].observations)?;
-                let starts = self.limbs.turned_round(&self.given[t], scorer.space);
-                let mut known = candidates[t].clone();
-                known.extend(scorer.candidates(starts.as_ref().map_or(&[], |starts| starts))?);
-                let Found { mut best, other } = self.searched(scorer, seen[t], t, &last, &known, (TURNED, 1.0))?;
-                let others = self.mended(scorer, seen[t], &mut best, most)?;
-                let found = [best.clone()].into_iter().chain(other).chain(others);
-                candidates[t].extend(found.map(|found| Candidate { worth: found.worth + forwards, ..found }));
-                last = [last[1].take(), Some(best)];
-            }
-        }
-        candidates[t].push(Candidate { worth: turned.worth + forwards, ..turned });
-        Ok(())
+        Ok(tried.into_iter().find(|tried| gain(tried) > -POOR).map(|(_, t, turned)| (t, turned)))
     }
 
-    /// What a search of frame `t` finds from the best of its candidates and of where the `last` two lead, with a number that tells its random
+    /// What a search of frame `t` finds from the best of its `known` poses and of where the `last` two lead, with a number that tells its random
     /// numbers apart, and a share of the deviations from there. A candidate was searched before, where the track leads was not, and what is
     /// searched looks better than it is: where the two are far apart, both are searched before one is chosen. Else a track that comes to a
     /// stretch in which another has legs exchanged would go over to that.
@@ -255,11 +267,11 @@ impl<'a> Track<'a> {
         seen: &Seen,
         t: usize,
         last: &Ended,
-        known: &[Candidate],
+        known: &[&[f32]],
         (number, share): (u64, f64),
     ) -> Result<Found> {
         scorer.observe(&seen.observations)?;
-        let mut starts: Vec<Vec<f32>> = known.iter().map(|candidate| candidate.pose.clone()).collect();
+        let mut starts: Vec<Vec<f32>> = known.iter().map(|pose| pose.to_vec()).collect();
         let Lead { led, mut pull } = self.lead(scorer, t, last, &mut starts);
         pull.iter_mut().flat_map(|pull| &mut pull.scales).for_each(|scale| *scale *= share);
         let pull = pull.as_ref();
@@ -423,6 +435,10 @@ impl<'a> Track<'a> {
         let effort = Effort { spread: self.steps, generations: scorer.generations(ANEW), turn: self.turn(number) };
         scorer.search_all(index, pose, effort, None)
     }
+}
+
+fn poses(candidates: &[Candidate]) -> Vec<&[f32]> {
+    candidates.iter().map(|candidate| &candidate.pose[..]).collect()
 }
 
 /// Adds what a track found to the candidates of its frame.

@@ -174,7 +174,7 @@ fn who_was_tracked_the_wrong_way_round_is_turned() {
     for (way, is_turned) in [(1.0, true), (-1.0, false)] {
         let walk = walking(way);
         let limbs = Limbs::new(&walk.body, &cameras_around(), &walk.space);
-        assert!((limbs.faces_along(&walk.truth) - f64::from(way)).abs() < 1e-6);
+        assert!((limbs.facing.unwrap().along(&walk.truth) - f64::from(way)).abs() < 1e-6);
         let turned = |pose: &Vec<f32>| limbs.turned_round(pose, &walk.space).unwrap()[1].clone();
         let given: Vec<Vec<f32>> = if is_turned { walk.truth.iter().map(turned).collect() } else { walk.truth.clone() };
         let (before, after) = (walk.errors(&given), walk.errors(&walk.mended(&given)));

@@ -8,6 +8,7 @@ use super::super::super::hull::Hull;
 use super::{Fitter, ROUNDS, SETTLING, SPREADS};
 use crate::body::Body;
 use crate::search::SearchSettings;
+use crate::track::worth::Facing;
 
 /// Headings a first pose is searched from, evenly round the circle.
 const HEADINGS: usize = 8;
@@ -20,10 +21,9 @@ const ENCORES: usize = 3;
 /// Share of the body's height that a hull has at least unless the person crouches or half of it is not seen: what walks and dances before walls like
 /// its clothes has 0.64 of it and more in nearly all frames, and is found by the feet.
 const SHORT: f64 = 0.6;
-/// Way from the first to the last first pose, mm, from which on a person walks, and what it is worth in fitness to face along it: whoever walks
-/// does so forwards but for one in fifty or fewer. By the pictures alone the right way was worth 0.02 to 0.15 more than the other before the poses
-/// of either were settled and searched round their neighbours' (METHOD A3); it is compared after that.
-const WALKED: f32 = 400.0;
+/// What it is worth in fitness to face along the way one goes: whoever walks does so forwards but for one in fifty or fewer. By the pictures alone
+/// the right way was worth 0.02 to 0.15 more than the other before the poses of either were settled and searched round their neighbours' (METHOD
+/// A3); it is compared after that.
 const FORWARDS: f32 = 0.02;
 
 impl Fitter<'_> {
@@ -124,17 +124,8 @@ impl Fitter<'_> {
     /// What poses of all frames are worth: their mean fitness, and that they face along the way they go.
     fn worth(&self, body: &Body, poses: &[Vec<f32>]) -> Result<f32> {
         let fitness = self.scorer.mean_fitness(poses)?;
-        let (Some(first), Some(last)) = (poses.first(), poses.last()) else { return Ok(fitness) };
-        let names = body.dof_names();
-        let [x, y, heading] = ["pelvis.tx", "pelvis.ty", "pelvis.rz"].map(|name| index_of(&names, name));
-        let (x, y, heading) = (x?, y?, heading?);
-        let way = [last[x] - first[x], last[y] - first[y]];
-        let length = way[0].hypot(way[1]);
-        if length < WALKED {
-            return Ok(fitness);
-        }
-        let along = poses.iter().map(|pose| (way[0] * pose[heading].cos() + way[1] * pose[heading].sin()) / length);
-        Ok(fitness + FORWARDS * along.sum::<f32>() / poses.len() as f32)
+        let along = Facing::of(body).map_or(0.0, |facing| facing.along(poses));
+        Ok(fitness + FORWARDS * along as f32)
     }
 
     /// Of these poses of all frames and those that another search finds without having been taught, the ones that are worth more, each by the
