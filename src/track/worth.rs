@@ -1,9 +1,47 @@
-//! What a pose is worth beside its match with the pictures: by which way people go (METHOD A3, A14).
+//! What a pose is worth beside its match with the pictures: by how people hold themselves, and which way they go (METHOD A3, A14).
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
 
 use crate::body::{Body, DofAxis};
 
+/// Worth of the fitness: of its natural logarithm.
+pub(super) const MATCH: f64 = 300.0;
+/// By how much heads lean, radians, the scale of a Cauchy distribution: people who walk keep theirs within 6 to 15 degrees of upright, whatever
+/// their trunks do, and who looks at his feet or dances leans his by 40 to 80, which must cost little more.
+const LEANS: f64 = 10.0 * PI / 180.0;
+
 /// Way from the first to the last of some frames, mm, from which on a person walks.
 const WALKED: f64 = 400.0;
+
+/// How people hold themselves where pictures leave it open: a head is nearly round, and the flat one that is drawn fits it leaning almost as
+/// well as upright (METHOD A14).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Posture {
+    /// Of the joints, the head's and the crown; none of a body without.
+    head: Option<[usize; 2]>,
+}
+
+impl Posture {
+    pub(super) fn of(body: &Body) -> Self {
+        let names = body.joint_names();
+        let at = |name: &str| names.iter().position(|joint| joint == name);
+        Self { head: at("head").zip(at("head_top")).map(<[usize; 2]>::from) }
+    }
+
+    /// What it costs to have the joints at `points`, mm, in the order of [`Body::joint_names`].
+    pub(super) fn cost(&self, points: &[DVec3]) -> f64 {
+        let Some([head, top]) = self.head else { return 0.0 };
+        let lean_squared = 2.0 * (1.0 - (points[top] - points[head]).normalize_or_zero().z);
+        (lean_squared / (LEANS * LEANS)).ln_1p()
+    }
+
+    /// A fitness less that cost, as much smaller as its worth is.
+    pub(super) fn weighed(&self, fitness: f32, points: &[DVec3]) -> f32 {
+        (f64::from(fitness) * (-self.cost(points) / MATCH).exp()) as f32
+    }
+}
 
 /// Which way a body faces: the degrees of freedom by which all of it goes along x and y, and turns about its own axis.
 #[derive(Clone, Copy, Debug)]
@@ -60,5 +98,41 @@ mod tests {
         }
         assert_eq!(facing.along(&way(350.0, 90.0)), 0.0);
         assert_eq!(facing.along(&[]), 0.0);
+    }
+
+    /// What leans costs more the more it does, at first by the square and then ever less; turning costs nothing, nor does a body without a head.
+    #[test]
+    fn a_head_that_leans_costs() {
+        let body = Body::adult(1750.0).unwrap();
+        let posture = Posture::of(&body);
+        let dof = |name: &str| body.dof_names().iter().position(|dof| dof == name).unwrap();
+        let points = |turned: &[(&str, f64)]| {
+            let mut pose = body.standing_pose();
+            turned.iter().for_each(|(name, degrees)| pose[dof(name)] = degrees.to_radians());
+            body.joint_positions(&body.world_from_bones(&pose).unwrap())
+        };
+        let cost = |turned: &[(&str, f64)]| posture.cost(&points(turned));
+        // The crown is a little before the joint at rest.
+        let names = body.joint_names();
+        let [head, top] = ["head", "head_top"].map(|name| names.iter().position(|joint| joint == name).unwrap());
+        let axis = points(&[])[top] - points(&[])[head];
+        let before = axis.x.atan2(axis.z).to_degrees();
+        let nodding = |degrees: f64| cost(&[("head.ry", degrees - before)]);
+        assert!(nodding(0.0) < 1e-9, "{}", nodding(0.0));
+        assert!((cost(&[("head.rz", 60.0)]) - cost(&[])).abs() < 1e-9);
+        let [little, more, far] = [2.0, 10.0, 40.0].map(nodding);
+        assert!((little - 0.04).abs() < 2e-3 && (more - 2.0_f64.ln()).abs() < 5e-3, "{little} {more}");
+        assert!((far - 17.0_f64.ln()).abs() < 0.05, "{far}");
+        assert!((nodding(-10.0) - more).abs() < 1e-9);
+        let on_a_trunk = cost(&[("thorax.ry", 25.0), ("head.ry", -25.0 - before)]);
+        assert!(on_a_trunk < 1e-9, "a head that is upright on a trunk that leans costs {on_a_trunk}");
+        // What it is worth is less by the cost.
+        let leaning = points(&[("head.ry", 40.0 - before)]);
+        let lost = MATCH * (0.8 / f64::from(posture.weighed(0.8, &leaning))).ln();
+        assert!((lost - far).abs() < 1e-3, "{lost} of {far}");
+
+        let mut headless = body.clone();
+        headless.bones.iter_mut().filter(|bone| bone.name == "head").for_each(|bone| bone.name = "mast".to_string());
+        assert_eq!(Posture::of(&headless).cost(&leaning), 0.0);
     }
 }

@@ -12,6 +12,7 @@ use crate::evaluate::cpu::{Cpu, InstructionSet};
 use crate::evaluate::{Components, Evaluator, Objective};
 use crate::features::Observation;
 use crate::geometry::Camera;
+use crate::track::worth::Posture;
 
 /// What a proportion one standard deviation off the tables costs in fitness: enough to settle what the silhouettes leave
 /// open (where a straight leg has its knee), too little to work against them.
@@ -32,6 +33,9 @@ pub struct Coverage {
 /// Scores poses, and bodies with their poses, against all frames used.
 pub(super) struct Scorer {
     objective: Objective,
+    /// Whose poses are scored.
+    body: Body,
+    posture: Posture,
     /// An evaluator of one thread for every frame, `[thread][frame]`: bodies differ from row to row.
     threads: Vec<Mutex<Vec<Cpu>>>,
 }
@@ -52,7 +56,8 @@ impl Scorer {
             });
             Ok(Mutex::new(evaluators.collect::<Result<_>>()?))
         };
-        Ok(Self { objective, threads: (0..count).map(thread).collect::<Result<_>>()? })
+        let threads = (0..count).map(thread).collect::<Result<_>>()?;
+        Ok(Self { objective, body: body.clone(), posture: Posture::of(body), threads })
     }
 
     /// Takes what was seen anew, and what a good pose is.
@@ -80,9 +85,22 @@ impl Scorer {
         })
     }
 
-    /// Fitness of poses in one frame.
+    /// Fitness of poses in one frame, less what it costs to be held so.
     pub(super) fn poses(&self, frame: usize, dofs: usize, rows: &[f32], results: &mut [f32]) -> Result<()> {
-        self.share(rows, dofs, results, |cpus, rows, results| cpus[frame].fitness(rows, &self.objective, results))
+        self.share(rows, dofs, results, |cpus, rows, results| {
+            cpus[frame].fitness(rows, &self.objective, results)?;
+            let mut poses = rows.chunks_exact(dofs).zip(results);
+            poses.try_for_each(|(pose, fitness)| {
+                *fitness = self.weighed(&self.body, *fitness, pose)?;
+                Ok(())
+            })
+        })
+    }
+
+    /// A fitness less what it costs to be held so.
+    fn weighed(&self, body: &Body, fitness: f32, pose: &[f32]) -> Result<f32> {
+        let pose: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
+        Ok(self.posture.weighed(fitness, &body.joint_positions(&body.world_from_bones(&pose)?)))
     }
 
     /// Mean fitness over the frames of rows of proportions and poses, less what unusual proportions cost.
@@ -113,7 +131,8 @@ impl Scorer {
         })
     }
 
-    /// Mean fitness over the frames of a body with a pose in each, less what it costs to be so odd and of another stature than `tall`, mm.
+    /// Mean fitness over the frames of a body with a pose in each, less what it costs to be held so, to be so odd and of another stature than
+    /// `tall`, mm.
     fn person<P: AsRef<[f32]>>(
         &self,
         cpus: &mut [Cpu],
@@ -125,10 +144,10 @@ impl Scorer {
         let frames = cpus.len() as f64;
         let mut sum = 0.0;
         for (cpu, pose) in cpus.iter_mut().zip(poses) {
-            let mut fitness = [0.0];
+            let (mut fitness, pose) = ([0.0], pose?);
             cpu.set_body(body)?;
-            cpu.fitness(pose?.as_ref(), &self.objective, &mut fitness)?;
-            sum += f64::from(fitness[0]);
+            cpu.fitness(pose.as_ref(), &self.objective, &mut fitness)?;
+            sum += f64::from(self.weighed(body, fitness[0], pose.as_ref())?);
         }
         let stature = (stature(body)? / tall - 1.0) / STATURE;
         Ok((sum / frames - PRIOR * oddness - PRIOR * stature * stature) as f32)
@@ -152,11 +171,11 @@ impl Scorer {
         self.with_first(|cpus| cpus.len())
     }
 
-    pub(super) fn set_body(&self, body: &Body) -> Result<()> {
-        for thread in &self.threads {
-            for cpu in thread.lock().unwrap_or_else(PoisonError::into_inner).iter_mut() {
-                cpu.set_body(body)?;
-            }
+    pub(super) fn set_body(&mut self, body: &Body) -> Result<()> {
+        self.body = body.clone();
+        for thread in &mut self.threads {
+            let cpus = thread.get_mut().unwrap_or_else(PoisonError::into_inner);
+            cpus.iter_mut().try_for_each(|cpu| cpu.set_body(body))?;
         }
         Ok(())
     }

@@ -11,17 +11,14 @@ use crate::evaluate::{Evaluator, Objective};
 use crate::features::Observation;
 use crate::search::{SearchKind, SearchSettings, SearchSpace};
 use crate::track::glance::Seer;
+use crate::track::worth::MATCH;
 
 /// Samples of a generation, where a run has as many particles.
 const GENERATION: usize = 50;
 /// Poses whose costs are computed in one piece.
 const COSTS_AT_ONCE: usize = 16;
-/// Worth of the fitness: of its natural logarithm.
-pub(super) const MATCH: f64 = 300.0;
 /// Fitness below which nothing gets worse.
 const LEAST: f64 = 1e-6;
-/// Cost of a millimetre by which parts stand in each other.
-const INTRUSION: f64 = 0.1;
 /// From which distance of a joint on two poses are apart, mm.
 const APART: f64 = 100.0;
 /// Deviations from which on a joint that is elsewhere costs little more.
@@ -182,7 +179,7 @@ impl<'a> Scorer<'a> {
             let each = rows.par_chunks_exact(space.dof_count()).zip(costs.par_iter_mut()).with_min_len(COSTS_AT_ONCE);
             each.for_each_init(Posed::default, |posed, (row, cost)| {
                 shape.pose(row, posed);
-                *cost = INTRUSION * shape.intrusion(posed) + pull.map_or(0.0, |pull| pull.cost(&posed.points));
+                *cost = shape.cost(posed) + pull.map_or(0.0, |pull| pull.cost(&posed.points));
             });
         };
         rayon::join(|| evaluator.fitness(rows, objective, fitness), all_costs).0?;
@@ -207,7 +204,7 @@ impl<'a> Scorer<'a> {
     /// A pose of which the fitness is known.
     fn scored_candidate(&self, pose: Vec<f32>, fitness: f32, posed: &mut Posed) -> Candidate {
         self.shape.pose(&pose, posed);
-        let worth = matched(fitness) - INTRUSION * self.shape.intrusion(posed);
+        let worth = matched(fitness) - self.shape.cost(posed);
         Candidate { pose, points: posed.points.clone(), worth, is_looked_at: false, is_looked_into: false }
     }
 

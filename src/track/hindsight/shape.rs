@@ -3,9 +3,12 @@
 use glam::{DAffine3, DVec3};
 
 use crate::body::{Body, Part};
+use crate::track::worth::Posture;
 
 /// Share of the thinner part's radius by which parts may overlap: radii are measured roughly, and flesh gives way.
 const GIVES: f64 = 0.5;
+/// Cost of a millimetre by which parts stand in each other.
+const INTRUSION: f64 = 0.1;
 /// More than arithmetic is off by, mm.
 const ROUNDING: f64 = 1e-3;
 
@@ -19,6 +22,7 @@ pub(super) struct Shape {
     pairs: Vec<(usize, usize, f64)>,
     /// How far each part reaches from its axis's middle, mm.
     reaches: Vec<f64>,
+    posture: Posture,
 }
 
 /// Memory that posing uses again.
@@ -37,7 +41,7 @@ impl Shape {
         let ends = body.free_ends().iter().map(|end| (end.bone, end.at)).collect();
         let reach = |part: &Part| 0.5 * part.a.distance(part.b) + part.radius_a.max(part.radius_b) + ROUNDING;
         let reaches = body.parts.iter().map(reach).collect();
-        let mut shape = Self { body: body.clone(), ends, pairs: Vec::new(), reaches };
+        let mut shape = Self { body: body.clone(), ends, pairs: Vec::new(), reaches, posture: Posture::of(body) };
         let mut posed = Posed::default();
         let rest: Vec<f32> = body.standing_pose().into_iter().map(|value| value as f32).collect();
         shape.pose(&rest, &mut posed);
@@ -81,11 +85,16 @@ impl Shape {
         posed.points
     }
 
-    /// By how much parts stand in each other in a pose, mm, beyond what they may: the sum over pairs.
-    pub(super) fn intrusion(&self, posed: &Posed) -> f64 {
+    /// What a pose costs in itself: parts that stand in each other, and how it is held.
+    pub(super) fn cost(&self, posed: &Posed) -> f64 {
         if posed.bones.is_empty() {
             return 0.0;
         }
+        INTRUSION * self.intrusion(posed) + self.posture.cost(&posed.points)
+    }
+
+    /// By how much parts stand in each other in a pose, mm, beyond what they may: the sum over pairs.
+    pub(super) fn intrusion(&self, posed: &Posed) -> f64 {
         let near = self.pairs.iter().filter(|&&(one, other, _)| self.may_meet(posed, one, other));
         near.map(|&(one, other, gives)| (self.depth(posed, one, other) - gives).max(0.0)).sum()
     }
