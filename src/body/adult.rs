@@ -102,14 +102,13 @@ mod tests {
     #[test]
     fn joints_bend_the_way_people_do() {
         let body = Body::adult(ADULT_HEIGHT).unwrap();
-        let names = body.dof_names();
         let moved = |dof: &str, joint: &str, end: usize| {
             let mut pose = vec![0.0; body.dof_count()];
-            let index = names.iter().position(|name| name == dof).unwrap();
+            let index = body.dof_index(dof).unwrap();
             pose[index] = body.dofs().nth(index).unwrap().1.limits[end] * 0.5;
             let at = |pose: &[f64]| {
                 let joints = body.joint_positions(&body.world_from_bones(pose).unwrap());
-                joints[body.joint_names().iter().position(|name| name == joint).unwrap()]
+                joints[body.joint_index(joint).unwrap()]
             };
             at(&pose) - at(&vec![0.0; pose.len()])
         };

@@ -81,8 +81,7 @@ impl Coordinates {
         let names = body.dof_names();
         let known: Vec<&str> = names.iter().map(String::as_str).collect();
         for (dof, coordinate) in file.coordinate {
-            let place = names.iter().position(|name| *name == dof);
-            let Some(place) = place else {
+            let Some(place) = body.dof_index(&dof) else {
                 anyhow::bail!(
                     "it names `{}`, which is no degree of freedom, {}",
                     shortened(&dof),
@@ -236,7 +235,6 @@ mod tests {
     fn bending_counts_as_in_opensim() {
         let body = adult();
         let coordinates = Coordinates::of_body(&body).unwrap();
-        let names = body.dof_names();
         // Raised forward, bent, moved to the middle: what OpenSim counts as positive moves the limb's end so (forward, left, up).
         let cases: [(&str, f64, &str, &str, DVec3); 7] = [
             ("left_hip.ry", -0.5, "hip_flexion_l", "left_knee", DVec3::X),
@@ -249,12 +247,12 @@ mod tests {
         ];
         let rest = vec![0.0; body.dof_count()];
         let joint = |pose: &[f64], name: &str| {
-            let place = body.joint_names().iter().position(|known| known == name).unwrap();
+            let place = body.joint_index(name).unwrap();
             body.joint_positions(&body.world_from_bones(pose).unwrap())[place]
         };
         for (dof, value, name, end, towards) in cases {
             let mut pose = rest.clone();
-            pose[names.iter().position(|known| known == dof).unwrap()] = value;
+            pose[body.dof_index(dof).unwrap()] = value;
             let table = PoseTable { frames: vec![0], poses: vec![pose.clone()] };
             let found = column(&coordinates.of_poses(&body, &table, 25.0).unwrap(), name);
             assert!((found - value.abs().to_degrees()).abs() < 1e-9, "{name} is {found}");

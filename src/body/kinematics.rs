@@ -131,9 +131,7 @@ impl Body {
     /// z, so that the lowest end of a part touches the floor.
     pub fn standing_pose(&self) -> Vec<f64> {
         let mut pose: Vec<f64> = self.dofs().map(|(_, dof)| 0.0_f64.clamp(dof.limits[0], dof.limits[1])).collect();
-        let lift =
-            self.dofs().position(|(bone, dof)| self.bones[bone].parent.is_none() && dof.axis == super::DofAxis::Tz);
-        if let (Some(lift), Ok(bones)) = (lift, self.world_from_bones(&pose)) {
+        if let (Some(lift), Ok(bones)) = (self.root_dof(super::DofAxis::Tz), self.world_from_bones(&pose)) {
             let lowest = |at: DVec3, axis: DVec3, radius: f64| {
                 // The disc of a cone's end reaches down by its radius times the sine of the axis with the vertical.
                 at.z - radius * (1.0 - axis.z * axis.z).max(0.0).sqrt()

@@ -388,7 +388,7 @@ mod tests {
         let body = adult();
         let mut pose = body.standing_pose();
         body.check_limits(&pose).unwrap();
-        let knee = body.dof_names().iter().position(|name| name == "left_knee.ry").unwrap();
+        let knee = body.dof_index("left_knee.ry").unwrap();
         pose[knee] = f64::from((150.0_f64).to_radians() as f32);
         body.check_limits(&pose).unwrap();
         pose[knee] = 170.0_f64.to_radians();

@@ -178,8 +178,7 @@ mod tests {
     fn lengths(body: &Body) -> Vec<(String, f64)> {
         let bones = body.world_from_bones(&vec![0.0; body.dof_count()]).unwrap();
         let joints = body.joint_positions(&bones);
-        let names = body.joint_names();
-        let at = |name: &str| joints[names.iter().position(|joint| joint == name).unwrap()];
+        let at = |name: &str| joints[body.joint_index(name).unwrap()];
         let pairs = [
             ("thorax", "pelvis"),
             ("head", "left_clavicle"),

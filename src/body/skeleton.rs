@@ -164,6 +164,17 @@ impl Body {
         self.dofs().map(|(bone, dof)| format!("{}.{}", self.bones[bone].name, dof.axis.name())).collect()
     }
 
+    /// The place of the degree of freedom of that name in the state vector.
+    pub fn dof_index(&self, name: &str) -> Option<usize> {
+        let (bone, axis) = name.rsplit_once('.')?;
+        self.dofs().position(|(index, dof)| self.bones[index].name == bone && dof.axis.name() == axis)
+    }
+
+    /// The place of the root's degree of freedom along or about an axis in the state vector.
+    pub fn root_dof(&self, axis: DofAxis) -> Option<usize> {
+        self.dofs().position(|(bone, dof)| self.bones[bone].parent.is_none() && dof.axis == axis)
+    }
+
     /// The index of the bone of that name.
     pub fn bone_index(&self, name: &str) -> Option<usize> {
         self.bones.iter().position(|bone| bone.name == name)
@@ -187,6 +198,12 @@ impl Body {
     pub fn joint_names(&self) -> Vec<String> {
         let ends = self.free_ends();
         self.bones.iter().map(|bone| bone.name.clone()).chain(ends.iter().map(|end| end.name.to_string())).collect()
+    }
+
+    /// The place of the joint of that name among [`Self::joint_names`].
+    pub fn joint_index(&self, name: &str) -> Option<usize> {
+        let end = || self.free_ends().iter().position(|end| end.name == name);
+        self.bone_index(name).or_else(|| Some(self.bones.len() + end()?))
     }
 
     /// Names of the markers in file order.

@@ -50,11 +50,10 @@ pub(super) fn seen(body: &Body, cameras: &[Camera], pose: &[f64]) -> Vec<Observa
 
 /// Somebody who stands at a place, world x and y, with an arm lifted and a leg forward.
 pub(super) fn standing_at(body: &Body, [x, y]: [f64; 2]) -> Vec<f64> {
-    let names = body.dof_names();
     let mut pose = body.standing_pose();
     let held = [("pelvis.tx", x), ("pelvis.ty", y), ("left_shoulder.rx", 1.2), ("right_hip.ry", -0.5)];
     for (name, value) in held {
-        pose[names.iter().position(|known| known == name).unwrap()] = value;
+        pose[body.dof_index(name).unwrap()] = value;
     }
     pose
 }
@@ -102,12 +101,11 @@ fn a_drawn_person_is_measured() {
     let adult = Body::adult(1700.0).unwrap();
     let person = wanted.apply(&adult);
     let mut pose = person.standing_pose();
-    let dofs = person.dof_names();
     for (name, value) in [("pelvis.tx", 150.0), ("pelvis.ty", -90.0)] {
-        pose[dofs.iter().position(|dof| dof == name).unwrap()] = value;
+        pose[person.dof_index(name).unwrap()] = value;
     }
     for (name, degrees) in [("pelvis.rz", 35.0_f64), ("left_shoulder.rx", 80.0), ("right_shoulder.rx", -85.0)] {
-        pose[dofs.iter().position(|dof| dof == name).unwrap()] = degrees.to_radians();
+        pose[person.dof_index(name).unwrap()] = degrees.to_radians();
     }
     let cameras = cameras_around();
     let folder = tempfile::tempdir().unwrap();
@@ -162,7 +160,7 @@ fn a_person_is_as_tall_as_was_said() {
     shown.parts.retain(|part| !["calf", "foot"].iter().any(|hidden| part.name.ends_with(hidden)));
     let mut pose = adult.standing_pose();
     for (name, degrees) in [("left_shoulder.rx", 80.0_f64), ("right_shoulder.rx", -80.0)] {
-        pose[adult.dof_names().iter().position(|dof| dof == name).unwrap()] = degrees.to_radians();
+        pose[adult.dof_index(name).unwrap()] = degrees.to_radians();
     }
     let cameras = cameras_around();
     let folder = tempfile::tempdir().unwrap();
@@ -176,7 +174,7 @@ fn a_person_is_as_tall_as_was_said() {
     let found = fit(&sequence, &settings).unwrap();
     let stature = |body: &Body| {
         let joints = body.joint_positions(&body.world_from_bones(&vec![0.0; body.dof_count()]).unwrap());
-        let z = |name: &str| joints[body.joint_names().iter().position(|joint| joint == name).unwrap()].z;
+        let z = |name: &str| joints[body.joint_index(name).unwrap()].z;
         z("head_top") - z("right_ankle")
     };
     let share = stature(&found.body) / stature(&adult);
@@ -212,9 +210,8 @@ fn forearms_like_the_wall_are_measured_by_evidence() {
     let cameras = cameras_around();
     let person = Body::adult(1700.0).unwrap();
     let mut pose = person.standing_pose();
-    let dofs = person.dof_names();
     for (name, degrees) in [("left_shoulder.rx", 80.0_f64), ("right_shoulder.rx", -80.0)] {
-        pose[dofs.iter().position(|dof| dof == name).unwrap()] = degrees.to_radians();
+        pose[person.dof_index(name).unwrap()] = degrees.to_radians();
     }
     let folder = tempfile::tempdir().unwrap();
     let mut manifest = "name = \"wall\"\nfps = 25.0\ncameras = \"cameras.toml\"\nheight = 1700\n".to_string();

@@ -324,7 +324,7 @@ mod tests {
         let (space, cameras) = (SearchSpace::of(&body).unwrap(), cameras_around());
         let standing = body.standing_pose();
         let mut raised = standing.clone();
-        let shoulder = body.dof_names().iter().position(|name| name == "left_shoulder.rx").unwrap();
+        let shoulder = body.dof_index("left_shoulder.rx").unwrap();
         raised[shoulder] = 1.3;
         let observations = seen(&body, &cameras, &raised);
         let views = SeenView::all(&observations);

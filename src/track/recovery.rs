@@ -57,14 +57,12 @@ pub(super) struct LostFrame<'a> {
 
 impl Recovery {
     pub(super) fn new(body: &Body, cameras: &[Camera], settings: &SearchSettings, space: &SearchSpace) -> Self {
-        let place =
-            |axis: DofAxis| body.dofs().position(|(bone, dof)| body.bones[bone].parent.is_none() && dof.axis == axis);
         Self {
             settings: SearchSettings { kind: SearchKind::Pso, refine: 0, ..*settings },
             space: space.clone(),
             body: body.clone(),
             cameras: cameras.to_vec(),
-            root: [DofAxis::Tx, DofAxis::Ty, DofAxis::Tz, DofAxis::Rz].map(place),
+            root: [DofAxis::Tx, DofAxis::Ty, DofAxis::Tz, DofAxis::Rz].map(|axis| body.root_dof(axis)),
             sure: None,
             lost_frames: 0,
         }
@@ -166,13 +164,12 @@ impl Recovery {
 
     /// Poses in the middle of the hull, turned by so many of [`HEADINGS`].
     fn starts(&self, hull: &Hull, turn: usize) -> Vec<Vec<f32>> {
-        let names = self.body.dof_names();
         let mut rests: Vec<Vec<f64>> = ARMS
             .iter()
             .map(|arms| {
                 let mut pose = self.body.standing_pose();
                 for (name, sign) in [("left_shoulder.rx", 1.0), ("right_shoulder.rx", -1.0)] {
-                    if let Some(place) = names.iter().position(|known| known == name) {
+                    if let Some(place) = self.body.dof_index(name) {
                         pose[place] = sign * arms.to_radians();
                     }
                 }

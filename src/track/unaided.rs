@@ -9,6 +9,7 @@ use anyhow::{Context, Result, ensure};
 use super::fit::{Fit, FitSettings, fit_with};
 use super::progress::Progress;
 use super::{FrameRange, TrackSettings};
+use crate::body::DofAxis;
 use crate::files::{OutputFolder, Overwrite};
 use crate::sequence::Sequence;
 
@@ -93,8 +94,7 @@ fn search(sequence: &Sequence, settings: &TrackSettings, progress: &mut dyn Prog
 
 /// What was found, in a sentence.
 fn told(found: &Fit) -> String {
-    let names = found.body.dof_names();
-    let heading = names.iter().position(|name| name == "pelvis.rz").and_then(|at| found.poses.poses.first()?.get(at));
+    let heading = found.body.root_dof(DofAxis::Rz).and_then(|at| found.poses.poses.first()?.get(at));
     let heading = heading.map_or_else(String::new, |angle| format!(", facing {:.0} degrees", angle.to_degrees()));
     let body = match found.height {
         Some(height) => format!("a body of {height:.0} mm was measured, and "),

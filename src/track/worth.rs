@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 use crate::body::{Body, DofAxis};
 
@@ -19,27 +19,27 @@ const WALKED: f64 = 400.0;
 /// well as upright (METHOD A14).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Posture {
-    /// Of the joints, the head's and the crown; none of a body without.
-    head: Option<[usize; 2]>,
+    /// The head's bone, and the one with the crown on it and where; none of a body without.
+    head: Option<(usize, usize, DVec3)>,
 }
 
 impl Posture {
     pub(super) fn of(body: &Body) -> Self {
-        let names = body.joint_names();
-        let at = |name: &str| names.iter().position(|joint| joint == name);
-        Self { head: at("head").zip(at("head_top")).map(<[usize; 2]>::from) }
+        let crown = body.free_ends().into_iter().find(|end| end.name == "head_top");
+        Self { head: body.bone_index("head").zip(crown).map(|(head, crown)| (head, crown.bone, crown.at)) }
     }
 
-    /// What it costs to have the joints at `points`, mm, in the order of [`Body::joint_names`].
-    pub(super) fn cost(&self, points: &[DVec3]) -> f64 {
-        let Some([head, top]) = self.head else { return 0.0 };
-        let lean_squared = 2.0 * (1.0 - (points[top] - points[head]).normalize_or_zero().z);
+    /// What it costs to have the bones there, mm.
+    pub(super) fn cost(&self, world_from_bones: &[DAffine3]) -> f64 {
+        let Some((head, bone, at)) = self.head else { return 0.0 };
+        let axis = world_from_bones[bone].transform_point3(at) - world_from_bones[head].translation;
+        let lean_squared = 2.0 * (1.0 - axis.normalize_or_zero().z);
         (lean_squared / (LEANS * LEANS)).ln_1p()
     }
 
     /// A fitness less that cost, as much smaller as its worth is.
-    pub(super) fn weighed(&self, fitness: f32, points: &[DVec3]) -> f32 {
-        (f64::from(fitness) * (-self.cost(points) / MATCH).exp()) as f32
+    pub(super) fn weighed(&self, fitness: f32, world_from_bones: &[DAffine3]) -> f32 {
+        (f64::from(fitness) * (-self.cost(world_from_bones) / MATCH).exp()) as f32
     }
 }
 
@@ -54,9 +54,8 @@ pub(super) struct Facing {
 impl Facing {
     /// None of a body that does not go or turn.
     pub(super) fn of(body: &Body) -> Option<Self> {
-        let of_root =
-            |axis: DofAxis| body.dofs().position(|(bone, dof)| body.bones[bone].parent.is_none() && dof.axis == axis);
-        Some(Self { x: of_root(DofAxis::Tx)?, y: of_root(DofAxis::Ty)?, heading: of_root(DofAxis::Rz)? })
+        let [x, y, heading] = [DofAxis::Tx, DofAxis::Ty, DofAxis::Rz].map(|axis| body.root_dof(axis));
+        Some(Self { x: x?, y: y?, heading: heading? })
     }
 
     /// The mean cosine between where a body faces and the way it goes from the first of these poses to the last; 0 where it goes nowhere.
@@ -105,17 +104,16 @@ mod tests {
     fn a_head_that_leans_costs() {
         let body = Body::adult(1750.0).unwrap();
         let posture = Posture::of(&body);
-        let dof = |name: &str| body.dof_names().iter().position(|dof| dof == name).unwrap();
-        let points = |turned: &[(&str, f64)]| {
+        let bones = |turned: &[(&str, f64)]| {
             let mut pose = body.standing_pose();
-            turned.iter().for_each(|(name, degrees)| pose[dof(name)] = degrees.to_radians());
-            body.joint_positions(&body.world_from_bones(&pose).unwrap())
+            turned.iter().for_each(|(name, degrees)| pose[body.dof_index(name).unwrap()] = degrees.to_radians());
+            body.world_from_bones(&pose).unwrap()
         };
-        let cost = |turned: &[(&str, f64)]| posture.cost(&points(turned));
+        let cost = |turned: &[(&str, f64)]| posture.cost(&bones(turned));
         // The crown is a little before the joint at rest.
-        let names = body.joint_names();
-        let [head, top] = ["head", "head_top"].map(|name| names.iter().position(|joint| joint == name).unwrap());
-        let axis = points(&[])[top] - points(&[])[head];
+        let [head, top] = ["head", "head_top"].map(|name| body.joint_index(name).unwrap());
+        let joints = body.joint_positions(&bones(&[]));
+        let axis = joints[top] - joints[head];
         let before = axis.x.atan2(axis.z).to_degrees();
         let nodding = |degrees: f64| cost(&[("head.ry", degrees - before)]);
         assert!(nodding(0.0) < 1e-9, "{}", nodding(0.0));
@@ -127,7 +125,7 @@ mod tests {
         let on_a_trunk = cost(&[("thorax.ry", 25.0), ("head.ry", -25.0 - before)]);
         assert!(on_a_trunk < 1e-9, "a head that is upright on a trunk that leans costs {on_a_trunk}");
         // What it is worth is less by the cost.
-        let leaning = points(&[("head.ry", 40.0 - before)]);
+        let leaning = bones(&[("head.ry", 40.0 - before)]);
         let lost = MATCH * (0.8 / f64::from(posture.weighed(0.8, &leaning))).ln();
         assert!((lost - far).abs() < 1e-3, "{lost} of {far}");
 

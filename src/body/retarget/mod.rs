@@ -90,8 +90,7 @@ impl Body {
 
     /// Indices of the root's tx, ty, tz in the state vector, where it has all three.
     fn root_shift(&self) -> Option<[usize; 3]> {
-        let find = |axis| self.dofs().position(|(bone, dof)| self.bones[bone].parent.is_none() && dof.axis == axis);
-        Some([find(DofAxis::Tx)?, find(DofAxis::Ty)?, find(DofAxis::Tz)?])
+        Some([self.root_dof(DofAxis::Tx)?, self.root_dof(DofAxis::Ty)?, self.root_dof(DofAxis::Tz)?])
     }
 
     /// Origins of all bones and free ends at rest, root at its offset.

@@ -58,7 +58,7 @@ fn person(turned: &[(&str, [f64; 3])]) -> SkeletalMotion {
 }
 
 fn degrees(body: &Body, pose: &[f64], dof: &str) -> f64 {
-    pose[body.dof_names().iter().position(|name| name == dof).unwrap()].to_degrees()
+    pose[body.dof_index(dof).unwrap()].to_degrees()
 }
 
 fn one(body: &Body, motion: &SkeletalMotion) -> Vec<f64> {
@@ -79,7 +79,7 @@ fn a_person_with_stretched_arms_stretches_the_bodys() {
         assert!((value.to_degrees() - expected).abs() < 1e-6, "{name} is {}", value.to_degrees());
     }
     // On the floor, as the standing pose, but for the blending of its lowest points.
-    let tz = body.dof_names().iter().position(|name| name == "pelvis.tz").unwrap();
+    let tz = body.dof_index("pelvis.tz").unwrap();
     assert!((pose[tz] - body.standing_pose()[tz]).abs() < 12.0, "{}", pose[tz]);
 }
 

@@ -73,19 +73,17 @@ impl UnityBones {
     /// # Errors
     /// When it has none of them.
     pub(super) fn of(body: &Body) -> Result<Self> {
-        let names = body.joint_names();
-        let index = |name: &str| names.iter().position(|known| known == name);
         let ends = body.free_ends();
         let rest = body.joint_positions(&body.world_from_bones(&vec![0.0; body.dof_count()])?);
         let mut mapped: Vec<Mapped> = Vec::new();
         for Row(name, joint, parent, limb) in &ROWS {
-            let Some(joint) = index(joint) else { continue };
+            let Some(joint) = body.joint_index(joint) else { continue };
             let parent = nearest_parent(parent, &mapped);
             let bone = joint.checked_sub(body.bones.len()).map_or(joint, |end| ends[end].bone);
             let before = parent.map_or(DQuat::IDENTITY, |parent| mapped[parent].t_pose);
             let t_pose = match limb {
                 Some((tip, towards)) => {
-                    let along = index(tip).map(|tip| rest[tip] - rest[joint]).and_then(DVec3::try_normalize);
+                    let along = body.joint_index(tip).map(|tip| rest[tip] - rest[joint]).and_then(DVec3::try_normalize);
                     turned(along, *towards)
                 }
                 None if is_end(name) => before,
@@ -172,7 +170,7 @@ mod tests {
     }
 
     fn set(body: &Body, pose: &mut [f64], name: &str, degrees: f64) {
-        pose[body.dof_names().iter().position(|dof| dof == name).unwrap()] = degrees.to_radians();
+        pose[body.dof_index(name).unwrap()] = degrees.to_radians();
     }
 
     fn bone(bones: &[UnityBone], name: &str) -> UnityBone {

@@ -199,12 +199,12 @@ mod tests {
         let all = ask(&observations, &single);
         assert_eq!(all.len(), body.joint_names().len());
         assert!(all.iter().filter(|hints| hints.seen == 1.0).count() * 4 > all.len() * 3, "{all:?}");
-        let joint = |name: &str| body.joint_names().iter().position(|known| known == name).unwrap();
+        let joint = |name: &str| body.joint_index(name).unwrap();
         let [wrist, ankle] = ["left_wrist", "left_ankle"].map(joint);
         assert!(all[ankle].support > 0.9 && all[ankle].looseness < 60.0, "{:?}", all[ankle]);
         // An arm that is not where it is thought is not supported.
         let mut lifted = single.clone();
-        lifted[body.dof_names().iter().position(|name| name == "left_shoulder.rx").unwrap()] = 1.5;
+        lifted[body.dof_index("left_shoulder.rx").unwrap()] = 1.5;
         let wrong = ask(&observations, &lifted);
         assert!(wrong[wrist].support < 0.0 && wrong[ankle].support > 0.9, "{:?}", wrong[wrist]);
         // Fewer views see less, and hold less.

@@ -282,9 +282,9 @@ mod tests {
         let body = Body::adult(1750.0).unwrap();
         let mut still = result(0.8, &[0.9; 4], 0.0);
         // The left hip alone is unsure.
-        let hip = body.dof_names().iter().position(|name| name == "left_hip.ry").unwrap();
+        let hip = body.dof_index("left_hip.ry").unwrap();
         still.spread[hip] = 0.1;
-        let joint = |name: &str| body.joint_names().iter().position(|known| known == name).unwrap();
+        let joint = |name: &str| body.joint_index(name).unwrap();
         still.joints[joint("head")].seen = 0.25;
         let joints = confidence().next(&still).joints;
         let [hip, knee, ankle, other] = ["left_hip", "left_knee", "left_ankle", "right_knee"].map(joint);

@@ -83,11 +83,10 @@ mod tests {
         let body = Body::adult(1750.0).unwrap();
         let space = SearchSpace::of(&body).unwrap();
         let mut pose = body.standing_pose();
-        let names = body.dof_names();
         for (name, degrees) in
             [("left_hip.ry", -40.0_f64), ("left_knee.ry", 60.0), ("left_elbow.ry", -70.0), ("right_shoulder.rx", -60.0)]
         {
-            pose[names.iter().position(|dof| dof == name).unwrap()] = degrees.to_radians();
+            pose[body.dof_index(name).unwrap()] = degrees.to_radians();
         }
         let single: Vec<f32> = pose.iter().map(|value| *value as f32).collect();
         let following = Following::new(&body, &single, &space.spread(1.0 / 25.0).unwrap()).unwrap();

@@ -91,16 +91,10 @@ impl Scorer {
             cpus[frame].fitness(rows, &self.objective, results)?;
             let mut poses = rows.chunks_exact(dofs).zip(results);
             poses.try_for_each(|(pose, fitness)| {
-                *fitness = self.weighed(&self.body, *fitness, pose)?;
+                *fitness = weighed(&self.body, self.posture, *fitness, pose)?;
                 Ok(())
             })
         })
-    }
-
-    /// A fitness less what it costs to be held so.
-    fn weighed(&self, body: &Body, fitness: f32, pose: &[f32]) -> Result<f32> {
-        let pose: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
-        Ok(self.posture.weighed(fitness, &body.joint_positions(&body.world_from_bones(&pose)?)))
     }
 
     /// Mean fitness over the frames of rows of proportions and poses, less what unusual proportions cost.
@@ -141,13 +135,13 @@ impl Scorer {
         oddness: f64,
         tall: f64,
     ) -> Result<f32> {
-        let frames = cpus.len() as f64;
+        let (frames, posture) = (cpus.len() as f64, Posture::of(body));
         let mut sum = 0.0;
         for (cpu, pose) in cpus.iter_mut().zip(poses) {
             let (mut fitness, pose) = ([0.0], pose?);
             cpu.set_body(body)?;
             cpu.fitness(pose.as_ref(), &self.objective, &mut fitness)?;
-            sum += f64::from(self.weighed(body, fitness[0], pose.as_ref())?);
+            sum += f64::from(weighed(body, posture, fitness[0], pose.as_ref())?);
         }
         let stature = (stature(body)? / tall - 1.0) / STATURE;
         Ok((sum / frames - PRIOR * oddness - PRIOR * stature * stature) as f32)
@@ -172,7 +166,7 @@ impl Scorer {
     }
 
     pub(super) fn set_body(&mut self, body: &Body) -> Result<()> {
-        self.body = body.clone();
+        (self.body, self.posture) = (body.clone(), Posture::of(body));
         for thread in &mut self.threads {
             let cpus = thread.get_mut().unwrap_or_else(PoisonError::into_inner);
             cpus.iter_mut().try_for_each(|cpu| cpu.set_body(body))?;
@@ -216,12 +210,17 @@ impl Scorer {
     }
 }
 
+/// A fitness less what it costs a body to be held so.
+fn weighed(body: &Body, posture: Posture, fitness: f32, pose: &[f32]) -> Result<f32> {
+    let pose: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
+    Ok(posture.weighed(fitness, &body.world_from_bones(&pose)?))
+}
+
 /// How high the crown is above the ankles of a person who stands upright, mm.
 pub(super) fn stature(body: &Body) -> Result<f64> {
-    let names = body.joint_names();
     let joints = body.joint_positions(&body.world_from_bones(&vec![0.0; body.dof_count()])?);
     let level = |name: &str| -> Result<f64> {
-        let at = names.iter().position(|joint| joint == name);
+        let at = body.joint_index(name);
         Ok(joints[at.with_context(|| format!("the body has no {name}, expected the joints of the default body"))?].z)
     };
     Ok(level("head_top")? - level("left_ankle")?)

@@ -67,7 +67,7 @@ impl Limbs {
         let other_side = |name: &str| {
             let sides = [("left_", "right_"), ("right_", "left_")];
             let other = |(one, other): (&str, &str)| name.strip_prefix(one).map(|rest| format!("{other}{rest}"));
-            sides.into_iter().find_map(other).and_then(|other| names.iter().position(|name| *name == other))
+            sides.into_iter().find_map(other).and_then(|other| body.dof_index(&other))
         };
         let faced = |(d, (bone, dof)): (usize, &(usize, &Dof))| {
             let is_turned = matches!(dof.axis, DofAxis::Tx | DofAxis::Ty | DofAxis::Rx | DofAxis::Ry);

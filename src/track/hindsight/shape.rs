@@ -90,7 +90,7 @@ impl Shape {
         if posed.bones.is_empty() {
             return 0.0;
         }
-        INTRUSION * self.intrusion(posed) + self.posture.cost(&posed.points)
+        INTRUSION * self.intrusion(posed) + self.posture.cost(&posed.bones)
     }
 
     /// By how much parts stand in each other in a pose, mm, beyond what they may: the sum over pairs.

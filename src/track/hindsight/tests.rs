@@ -142,7 +142,7 @@ impl Moving {
 }
 
 pub(super) fn dof(body: &Body, name: &str) -> usize {
-    body.dof_names().iter().position(|known| known == name).unwrap()
+    body.dof_index(name).unwrap()
 }
 
 pub(super) fn worst(errors: &[Vec<f64>]) -> f64 {
@@ -176,7 +176,7 @@ fn a_lost_limb_is_mended_and_a_kick_is_not_flattened() {
     let still = [&before[..3], &before[7..]].concat();
     assert!(mean(&after) < 0.6 * mean(&still), "{} to {}", mean(&still), mean(&after));
     // The kicking foot, at the top above all.
-    let ankle = kick.body.joint_names().iter().position(|name| name == "right_ankle").unwrap();
+    let ankle = kick.body.joint_index("right_ankle").unwrap();
     let foot = |errors: &[Vec<f64>]| vec![errors.iter().map(|errors| errors[ankle]).collect::<Vec<_>>()];
     assert!(mean(&foot(&after)) < mean(&foot(&before)), "{:?} to {:?}", foot(&before), foot(&after));
     println!("mean {:.1} to {:.1} mm, the kicking foot {:.1} mm", mean(&still), mean(&after), after[5][ankle]);
@@ -278,7 +278,7 @@ fn a_limb_is_found_from_its_end_inwards() {
     let elbow = dof(&kick.body, "left_elbow.ry");
     let mut folded = kick.truth.clone();
     folded.iter_mut().for_each(|pose| pose[elbow] = -2.5);
-    let wrist = kick.body.joint_names().iter().position(|name| name == "left_wrist").unwrap();
+    let wrist = kick.body.joint_index("left_wrist").unwrap();
     let off = |poses: &[Vec<f32>]| kick.errors(poses).iter().map(|errors| errors[wrist]).fold(0.0, f64::max);
     let found: Vec<Vec<f32>> = kick.with_scorer(|mut scorer| {
         let limbs = Limbs::new(&kick.body, &cameras_around(), &kick.space);

@@ -149,7 +149,7 @@ fn sides_change_places_where_a_body_faces_the_other_way() {
             (_, Some(rest)) => format!("left_{rest}"),
             _ => name.to_string(),
         };
-        let there = body.joint_names().iter().position(|name| *name == other).unwrap();
+        let there = body.joint_index(&other).unwrap();
         assert!(point.distance(after[there]) < 0.1, "{name} at {point}, {other} turned at {}", after[there]);
     }
 }

@@ -395,10 +395,9 @@ pub(super) fn differences(a: &CandidateImage, b: &CandidateImage) -> [usize; 3] 
 
 /// The standing pose, moved by so many mm along x and y.
 pub(super) fn standing(body: &Body, x: f32, y: f32) -> Vec<f32> {
-    let names = body.dof_names();
     let mut pose: Vec<f32> = body.standing_pose().iter().map(|value| *value as f32).collect();
     for (name, by) in [("pelvis.tx", x), ("pelvis.ty", y)] {
-        pose[names.iter().position(|known| known == name).unwrap()] += by;
+        pose[body.dof_index(name).unwrap()] += by;
     }
     pose
 }

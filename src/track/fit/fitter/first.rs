@@ -103,7 +103,7 @@ impl Fitter<'_> {
         follow: bool,
         hold: Hold,
     ) -> Result<Vec<Vec<f32>>> {
-        let dof = index_of(&body.dof_names(), "pelvis.rz")?;
+        let dof = index_of(body, "pelvis.rz")?;
         let headings: Vec<f64> = own.iter().map(|pose| f64::from(pose[dof])).collect();
         let is_along = |heading: f64, way: f64| (heading - way).cos() > 0.0;
         let alike = |way: f64| headings.iter().filter(|heading| is_along(**heading, way)).count();
@@ -191,9 +191,8 @@ impl Fitter<'_> {
 }
 
 /// The place of a degree of freedom in a pose.
-fn index_of(names: &[String], name: &str) -> Result<usize> {
-    let index = names.iter().position(|known| known == name);
-    index.with_context(|| format!("the body has no {name}, expected the joints of the default body"))
+fn index_of(body: &Body, name: &str) -> Result<usize> {
+    body.dof_index(name).with_context(|| format!("the body has no {name}, expected the joints of the default body"))
 }
 
 /// What of a standing pose is where the hull ends.
@@ -211,7 +210,6 @@ fn crown(body: &Body) -> Result<f64> {
 
 /// Standing in the hull, facing `heading` (degrees), arms lifted by `arms` degrees.
 fn rest_pose(body: &Body, hull: &Hull, hold: Hold, heading: f64, arms: f64) -> Result<Vec<f32>> {
-    let names = body.dof_names();
     let mut pose = body.standing_pose();
     for (name, value) in [
         ("pelvis.tx", hull.centre.x),
@@ -220,9 +218,9 @@ fn rest_pose(body: &Body, hull: &Hull, hold: Hold, heading: f64, arms: f64) -> R
         ("left_shoulder.rx", arms.to_radians()),
         ("right_shoulder.rx", -arms.to_radians()),
     ] {
-        pose[index_of(&names, name)?] = value;
+        pose[index_of(body, name)?] = value;
     }
-    if let Some(lift) = names.iter().position(|name| name == "pelvis.tz") {
+    if let Some(lift) = body.dof_index("pelvis.tz") {
         pose[lift] += match hold {
             Hold::Feet => hull.span[0],
             Hold::Crown => hull.span[1] - crown(body)?,
@@ -254,10 +252,9 @@ mod tests {
     }
 
     fn held(body: &Body, degrees: &[(&str, f64)]) -> Vec<f64> {
-        let names = body.dof_names();
         let mut pose = body.standing_pose();
         for (name, degrees) in degrees {
-            pose[index_of(&names, name).unwrap()] = degrees.to_radians();
+            pose[index_of(body, name).unwrap()] = degrees.to_radians();
         }
         body.clamp_to_limits(&mut pose);
         pose
@@ -286,7 +283,7 @@ mod tests {
         let mut progress = |_: &str, _, _| {};
         let seen = Seen::of(vec![observations]);
         let mut fitter = Fitter::new(&body, &cameras, seen, search(), by_silhouettes(), &mut progress).unwrap();
-        let heading = index_of(&body.dof_names(), "pelvis.rz").unwrap();
+        let heading = index_of(&body, "pelvis.rz").unwrap();
         let right: Vec<f32> = walking.iter().map(|value| *value as f32).collect();
         let mut wrong = right.clone();
         wrong[heading] -= PI as f32;
@@ -315,7 +312,7 @@ mod tests {
         let seen = Seen::of(poses.iter().map(|pose| seen(&body, &cameras, pose)).collect());
         let mut progress = |_: &str, _, _| {};
         let mut fitter = Fitter::new(&body, &cameras, seen, search(), by_silhouettes(), &mut progress).unwrap();
-        let shoulder = index_of(&body.dof_names(), "left_shoulder.rx").unwrap();
+        let shoulder = index_of(&body, "left_shoulder.rx").unwrap();
         let right = poses.map(|pose| pose.into_iter().map(|value| value as f32).collect::<Vec<f32>>());
         let mut hanging = right.to_vec();
         for pose in &mut hanging {
@@ -342,8 +339,7 @@ mod tests {
     #[test]
     fn who_looks_alike_both_ways_walks_forwards() {
         let body = Body::adult(1750.0).unwrap();
-        let names = body.dof_names();
-        let [x, heading] = ["pelvis.tx", "pelvis.rz"].map(|name| index_of(&names, name).unwrap());
+        let [x, heading] = ["pelvis.tx", "pelvis.rz"].map(|name| index_of(&body, name).unwrap());
         let cameras = cameras_around();
         let places = [-300.0, 300.0].map(|at| {
             let mut pose = held(&body, &[]);
@@ -390,7 +386,7 @@ mod tests {
             seen.ignore(&Arc::new(table)).unwrap();
         }
         let hulls = [Hull::carve(&cameras, &SeenView::all(&observations)).unwrap()];
-        let height = index_of(&body.dof_names(), "pelvis.tz").unwrap();
+        let height = index_of(&body, "pelvis.tz").unwrap();
         let mut found = |hold: Option<Hold>| {
             let mut progress = |_: &str, _, _| {};
             let seen = Seen::of(vec![observations.clone()]);
