@@ -24,7 +24,7 @@ pub struct FrameResult {
     pub spread: Vec<f32>,
     /// f1 and f2 (METHOD A7) of each view.
     pub views: Vec<[f32; 2]>,
-    /// What the frame by itself says of each joint.
+    /// What the frame says of each joint.
     pub joints: Vec<JointHints>,
 }
 
@@ -43,7 +43,8 @@ impl Extent {
 }
 
 impl FrameResult {
-    /// A line of the journal: the frame, the bits of every number in hexadecimal, a checksum of all that.
+    /// A line of the journal: the frame, the bits of every number in hexadecimal, a checksum of all that. It is of first passes, which leave
+    /// ambiguity to the second.
     fn to_line(&self) -> String {
         let mut line = format!("{} {:08x}", self.frame, self.fitness.to_bits());
         let joints = self.joints.iter().flat_map(|hints| [hints.seen, hints.looseness, hints.support]);
@@ -81,7 +82,7 @@ impl FrameResult {
             spread: spread.to_vec(),
             views: views.as_chunks().0.to_vec(),
             joints: (joints.as_chunks().0.iter())
-                .map(|&[seen, looseness, support]| JointHints { seen, looseness, support })
+                .map(|&[seen, looseness, support]| JointHints { seen, looseness, support, ambiguity: None })
                 .collect(),
         })
     }
@@ -198,8 +199,8 @@ mod tests {
             spread: vec![1.0 / 3.0, 0.0, 7.0],
             views: vec![[0.5, 0.25], [at, 1.0]],
             joints: vec![
-                JointHints { seen: 0.75, looseness: at, support: -0.25 },
-                JointHints { seen: at, looseness: 7.0, support: 1.0 },
+                JointHints { seen: 0.75, looseness: at, support: -0.25, ambiguity: None },
+                JointHints { seen: at, looseness: 7.0, support: 1.0, ambiguity: None },
             ],
         }
     }

@@ -61,11 +61,11 @@ fn joint_sigmas(joints: &PointTrajectory, table: &PoseTable, confidences: &[Fram
 }
 
 /// What confidence.csv says of a joint.
-const COLUMNS: [&str; 6] = ["spread", "seen", "confidence", "sigma", "looseness", "support"];
+const COLUMNS: [&str; 7] = ["spread", "seen", "confidence", "sigma", "looseness", "support", "ambiguity"];
 
 /// `frame,fitness,<camera>.f1,<camera>.f2,…,position_spread,angle_spread,confidence,agreement,wrong,state`, then
-/// `<joint>.spread,<joint>.seen,<joint>.confidence,<joint>.sigma,<joint>.looseness,<joint>.support` a joint: spreads and looseness in mm and degrees,
-/// the state `sure` or `lost`, support in [-1, 1], the rest in [0, 1]; see [`super::Confidence`].
+/// `<joint>.spread,<joint>.seen,<joint>.confidence,<joint>.sigma,<joint>.looseness,<joint>.support,<joint>.ambiguity` a joint: spreads, looseness
+/// and ambiguity in mm and degrees, the state `sure` or `lost`, support in [-1, 1], the rest in [0, 1]; see [`super::Confidence`].
 fn write_confidence(
     out: &mut dyn Write,
     body: &Body,
@@ -88,9 +88,12 @@ fn write_confidence(
         cells.push(if frame.is_lost { "lost" } else { "sure" }.to_string());
         cells.extend(frame.joints.iter().zip(&result.joints).flat_map(|(joint, hints)| {
             let [spread, seen, confidence] = [joint.spread, joint.seen, joint.confidence];
-            let JointHints { looseness, support, .. } = hints;
+            let JointHints { looseness, support, ambiguity, .. } = hints;
             let own = [format!("{spread:.3}"), format!("{seen:.3}"), format!("{confidence:.4}")];
-            own.into_iter().chain([format!("{:.2}", joint.sigma), format!("{looseness:.3}"), format!("{support:.4}")])
+            let sigma = format!("{:.2}", joint.sigma);
+            let ambiguity = ambiguity.map_or_else(String::new, |it| format!("{it:.3}"));
+            let hints = [format!("{looseness:.3}"), format!("{support:.4}"), ambiguity];
+            own.into_iter().chain([sigma]).chain(hints)
         }));
         writer.write_record(&cells)?;
     }

@@ -20,6 +20,8 @@ pub struct JointHints {
     /// What the pictures say of the limbs that meet in it, from -1 (surely background) to 1 (surely those limbs): the mean along the axes
     /// of the worse of the two.
     pub support: f32,
+    /// How far it lies from here in other poses of the frame that a second pass found, by what they are worth, mm; none without such a pass.
+    pub ambiguity: Option<f32>,
 }
 
 /// How far a degree of freedom moves the joint that it moves most, to see what the fitness makes of it, mm.
@@ -84,6 +86,7 @@ impl JointProbe {
             seen: self.seen(views, joint),
             looseness,
             support,
+            ambiguity: None,
         });
         Ok(hints.collect())
     }

@@ -247,7 +247,7 @@ mod tests {
             spread: vec![spread; 31],
             views: views.iter().map(|f1| [*f1, 0.5]).collect(),
             joints: vec![
-                JointHints { seen: 1.0, looseness: 20.0, support: 1.0 };
+                JointHints { seen: 1.0, looseness: 20.0, support: 1.0, ambiguity: None };
                 Body::adult(1750.0).unwrap().joint_names().len()
             ],
         }

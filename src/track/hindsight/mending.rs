@@ -3,8 +3,9 @@
 use anyhow::Result;
 use glam::DVec3;
 
+use super::ambiguity::ambiguities;
 use super::hypotheses::Limbs;
-use super::path::best_path;
+use super::path::Ways;
 use super::refining::{self, Settled};
 use super::scorer::{Candidate, robust};
 use super::section::{SECTION, Section, order, pieces};
@@ -48,11 +49,16 @@ impl<'a> Mending<'a> {
         Ok(Self { limbs, team, steps, reach: refining::reach(fps), section: SECTION })
     }
 
-    /// The poses of a window's frames, of which `given` were found, after those of `before`.
+    /// The poses of a window's frames, of which `given` were found, after those of `before`, and how ambiguous each joint of each is, mm.
     ///
     /// # Errors
     /// When the evaluator fails.
-    pub(super) fn mend(&mut self, seen: &[&Seen], given: &[Vec<f32>], before: &[Settled]) -> Result<Vec<Settled>> {
+    pub(super) fn mend(
+        &mut self,
+        seen: &[&Seen],
+        given: &[Vec<f32>],
+        before: &[Settled],
+    ) -> Result<(Vec<Settled>, Vec<Vec<f32>>)> {
         let sections = self.sections(given);
         let mut candidates = self.tracked(seen, given, &sections)?;
         self.retrace(seen, given, &sections, before, &mut candidates)?;
@@ -70,7 +76,9 @@ impl<'a> Mending<'a> {
         refining::refine(&mut self.team, seen, &all, &sections, &mut poses, [self.reach, refining::ROUNDS])?;
         self.weigh_bolder(seen, &sections, &bolder, &mut poses)?;
         poses.drain(..before.len());
-        Ok(poses)
+        let losses = over_paths(&candidates, before, 1.0, |ways| ways.losses());
+        let ambiguities = ambiguities(&poses, &candidates, &losses, self.reach);
+        Ok((poses, ambiguities))
     }
 
     /// The sections of a window.
@@ -143,6 +151,16 @@ pub(super) fn widths(steps: &[f32], track: &[Vec<f32>]) -> Vec<f32> {
 
 /// The path through the candidates, going on from the frames before, along which joints may jerk `bolder` times as far as usual.
 pub(super) fn choose(candidates: &[Vec<Candidate>], before: &[Settled], bolder: f64) -> Vec<usize> {
+    over_paths(candidates, before, bolder, |ways| ways.best())
+}
+
+/// What `work` says, a frame, of all these paths.
+fn over_paths<T>(
+    candidates: &[Vec<Candidate>],
+    before: &[Settled],
+    bolder: f64,
+    work: impl FnOnce(&Ways<'_>) -> Vec<T>,
+) -> Vec<T> {
     let fixed = &before[before.len().saturating_sub(2)..];
     let mut worth: Vec<Vec<f64>> = fixed.iter().map(|_| vec![0.0]).collect();
     worth.extend(candidates.iter().map(|found| found.iter().map(|candidate| candidate.worth).collect()));
@@ -153,6 +171,7 @@ pub(super) fn choose(candidates: &[Vec<Candidate>], before: &[Settled], bolder: 
         let pairs = points(0, j).iter().zip(points(1, k));
         pairs.map(|(a, b)| robust(a.distance_squared(*b) / (FIRST * FIRST))).sum::<f64>()
     };
-    let path = best_path(&worth, &first, &|t, i, j, k| jerk(points(t - 2, i), points(t - 1, j), points(t, k), bolder));
-    path[fixed.len()..].to_vec()
+    let cost = |t, i, j, k| jerk(points(t - 2, i), points(t - 1, j), points(t, k), bolder);
+    let mut said = work(&Ways { worth, first: &first, cost: &cost });
+    said.split_off(fixed.len())
 }

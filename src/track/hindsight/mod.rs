@@ -2,6 +2,7 @@
 //! and forwards make several poses a frame, the path through them that is worth most is taken, and then every frame is searched again
 //! close to where its neighbours expect it.
 
+mod ambiguity;
 mod bolder;
 mod delayed;
 mod hypotheses;
@@ -105,13 +106,16 @@ impl Hindsight<'_> {
                 track.extend(given.take(seen.len().saturating_sub(track.len())));
                 let count = windows.settled();
                 watch.begin(WORK * seen.len(), count);
-                let settled = match mending.mend(&seen, &track, &before) {
+                let (settled, ambiguities) = match mending.mend(&seen, &track, &before) {
                     Err(error) if error.is::<Stopped>() => return Ok(()),
                     settled => settled.with_context(|| format!("the frames from {} on", first.index))?,
                 };
-                let frames = seen.iter().zip(&settled).zip(&forward[done..]).take(count);
-                let results = mending.team.share(frames, |scorer, ((seen, frame), first)| {
-                    result(scorer.evaluator, objective, self.probe, &seen.observations, frame, first)
+                let frames = seen.iter().zip(&settled).zip(ambiguities).zip(&forward[done..]).take(count);
+                let results = mending.team.share(frames, |scorer, (((seen, frame), ambiguities), first)| {
+                    let mut result = result(scorer.evaluator, objective, self.probe, &seen.observations, frame, first)?;
+                    let joints = result.joints.iter_mut().zip(ambiguities);
+                    joints.for_each(|(hints, ambiguity)| hints.ambiguity = Some(ambiguity));
+                    Ok(result)
                 })?;
                 for (seen, result) in seen.iter().zip(results) {
                     take(result, seen.pictures.as_deref())?;

@@ -1,51 +1,100 @@
 //! The path through the candidates of frames that is worth most together (Viterbi 1967), over pairs of frames, so that a joint may move
 //! as fast as it likes but not jerk (METHOD A14).
 
-/// Finds the path of greatest worth. `worth[t][k]` is what candidate k of frame t is worth by itself; `cost(t, i, j, k)` what it costs to
-/// go from candidate i of frame t - 2 over j of frame t - 1 to k of frame t, and `first(j, k)` from j of frame 0 to k of frame 1. The
-/// indices of the candidates, one a frame; of equals the first. Every frame has at least one.
-pub(super) fn best_path(
-    worth: &[Vec<f64>],
-    first: &dyn Fn(usize, usize) -> f64,
-    cost: &dyn Fn(usize, usize, usize, usize) -> f64,
-) -> Vec<usize> {
-    let count = worth.len();
-    if count < 2 {
-        return worth.iter().map(|values| greatest(values.iter().copied())).collect();
-    }
-    // sums[j][k]: the best worth of all paths that end with j, k.
-    let mut sums: Vec<Vec<f64>> = worth[0]
-        .iter()
-        .enumerate()
-        .map(|(j, own)| worth[1].iter().enumerate().map(|(k, next)| own + next - first(j, k)).collect())
-        .collect();
-    let mut came: Vec<Vec<Vec<usize>>> = Vec::with_capacity(count);
-    for t in 2..count {
-        let mut next = vec![vec![f64::NEG_INFINITY; worth[t].len()]; worth[t - 1].len()];
-        let mut from = vec![vec![0; worth[t].len()]; worth[t - 1].len()];
-        for j in 0..worth[t - 1].len() {
-            for k in 0..worth[t].len() {
-                for (i, sums) in sums.iter().enumerate() {
-                    let sum = sums[j] - cost(t, i, j, k);
-                    if sum > next[j][k] || i == 0 {
-                        (next[j][k], from[j][k]) = (sum, i);
-                    }
-                }
-                next[j][k] += worth[t][k];
-            }
+/// What a path's candidates are worth and what it costs to go from one to the next. Every frame has at least one.
+pub(super) struct Ways<'a> {
+    /// `worth[t][k]` is what candidate k of frame t is worth by itself.
+    pub(super) worth: Vec<Vec<f64>>,
+    /// `first(j, k)` is what it costs to go from candidate j of frame 0 to k of frame 1.
+    pub(super) first: &'a dyn Fn(usize, usize) -> f64,
+    /// `cost(t, i, j, k)` is what it costs to go from candidate i of frame t - 2 over j of frame t - 1 to k of frame t.
+    pub(super) cost: &'a dyn Fn(usize, usize, usize, usize) -> f64,
+}
+
+impl Ways<'_> {
+    /// The path of greatest worth: the indices of the candidates, one a frame; of equals the first.
+    pub(super) fn best(&self) -> Vec<usize> {
+        let Self { worth, cost, .. } = self;
+        let sums = self.worth_up_to();
+        let Some(last) = sums.last() else {
+            return worth.iter().map(|values| greatest(values.iter().copied())).collect();
+        };
+        let width = worth[worth.len() - 1].len();
+        let end = greatest(last.iter().flatten().copied());
+        let mut path = vec![end % width, end / width];
+        for t in (2..worth.len()).rev() {
+            let [.., k, j] = path[..] else { break };
+            path.push(greatest(sums[t - 2].iter().enumerate().map(|(i, sums)| sums[j] - cost(t, i, j, k))));
         }
-        sums = next;
-        came.push(from);
+        path.reverse();
+        path
     }
-    let width = worth[count - 1].len();
-    let end = greatest(sums.into_iter().flatten());
-    let mut path = vec![end % width, end / width];
-    for from in came.iter().rev() {
-        let [.., k, j] = path[..] else { break };
-        path.push(from[j][k]);
+
+    /// By how much the best path through each candidate is worth less than the best of all.
+    pub(super) fn losses(&self) -> Vec<Vec<f64>> {
+        let worth = &self.worth;
+        let [before, after] = [self.worth_up_to(), self.worth_from()];
+        let most = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::NEG_INFINITY, f64::max);
+        if before.is_empty() {
+            let alone = |values: &Vec<f64>| {
+                let best = most(&mut values.iter().copied());
+                values.iter().map(|value| best - value).collect()
+            };
+            return worth.iter().map(alone).collect();
+        }
+        let both = |pair: usize, j: usize, k: usize| before[pair][j][k] + after[pair][j][k];
+        let through = |t: usize, at: usize| match t.checked_sub(1) {
+            Some(pair) => most(&mut (0..worth[t - 1].len()).map(|j| both(pair, j, at))),
+            None => most(&mut (0..worth[1].len()).map(|k| both(0, at, k))),
+        };
+        let of_frame = |t: usize| {
+            let through: Vec<f64> = (0..worth[t].len()).map(|at| through(t, at)).collect();
+            let best = most(&mut through.iter().copied());
+            through.iter().map(|worth| best - worth).collect()
+        };
+        (0..worth.len()).map(of_frame).collect()
     }
-    path.reverse();
-    path
+
+    /// `[t - 1][j][k]`: the best worth of all paths that end with candidate j of frame t - 1 and k of frame t.
+    fn worth_up_to(&self) -> Vec<Vec<Vec<f64>>> {
+        let Self { worth, first, cost } = self;
+        let mut sums: Vec<Vec<Vec<f64>>> = Vec::with_capacity(worth.len());
+        for (t, pair) in worth.windows(2).enumerate().map(|(before, pair)| (before + 1, pair)) {
+            let of_pair = |(j, own): (usize, &f64)| -> Vec<f64> {
+                let all = |(k, next): (usize, &f64)| match sums.last() {
+                    None => own + next - first(j, k),
+                    Some(sums) => {
+                        let ways = sums.iter().enumerate().map(|(i, sums)| sums[j] - cost(t, i, j, k));
+                        ways.fold(f64::NEG_INFINITY, f64::max) + next
+                    }
+                };
+                pair[1].iter().enumerate().map(all).collect()
+            };
+            let next = pair[0].iter().enumerate().map(of_pair).collect();
+            sums.push(next);
+        }
+        sums
+    }
+
+    /// `[t - 1][j][k]`: the best worth of what comes after candidate j of frame t - 1 and k of frame t.
+    fn worth_from(&self) -> Vec<Vec<Vec<f64>>> {
+        let Self { worth, cost, .. } = self;
+        let mut sums: Vec<Vec<Vec<f64>>> = Vec::with_capacity(worth.len());
+        for (t, pair) in worth.windows(2).enumerate().map(|(before, pair)| (before + 1, pair)).rev() {
+            let goes_on = |j: usize, k: usize| match sums.last() {
+                None => 0.0,
+                Some(sums) => {
+                    let ways = sums[k].iter().zip(&worth[t + 1]).enumerate();
+                    ways.map(|(l, (sum, own))| sum + own - cost(t + 1, j, k, l)).fold(f64::NEG_INFINITY, f64::max)
+                }
+            };
+            let of_pair = |j: usize| (0..pair[1].len()).map(|k| goes_on(j, k)).collect();
+            let next = (0..pair[0].len()).map(of_pair).collect();
+            sums.push(next);
+        }
+        sums.reverse();
+        sums
+    }
 }
 
 /// The index of the greatest value; of equals the first, and of none 0.
@@ -66,23 +115,20 @@ mod tests {
         row.into_iter().map(f64::from).collect()
     }
 
-    /// Every path there is.
-    fn brute_force(worth: &[Vec<f64>], sum: &dyn Fn(&[usize]) -> f64) -> Vec<usize> {
+    /// The worth of every path there is, the last candidate changing least often.
+    fn all_paths(worth: &[Vec<f64>], sum: &dyn Fn(&[usize]) -> f64) -> Vec<(f64, Vec<usize>)> {
         let mut path = vec![0; worth.len()];
-        let mut best = (f64::NEG_INFINITY, path.clone());
+        let mut all = Vec::new();
         loop {
-            let sum = sum(&path);
-            if sum > best.0 {
-                best = (sum, path.clone());
-            }
-            let Some(at) = (0..path.len()).rev().find(|&at| path[at] + 1 < worth[at].len()) else { return best.1 };
+            all.push((sum(&path), path.clone()));
+            let Some(at) = (0..path.len()).rev().find(|&at| path[at] + 1 < worth[at].len()) else { return all };
             path[at] += 1;
             path[at + 1..].fill(0);
         }
     }
 
     #[test]
-    fn the_best_of_all_paths_is_found() {
+    fn the_best_of_all_paths_is_found_and_what_others_are_worth_less() {
         for table in 0..60 {
             let sizes: Vec<usize> = (0..1 + table as usize % 6).map(|t| 1 + (t * 7 + table as usize) % 4).collect();
             let worth: Vec<Vec<f64>> =
@@ -95,8 +141,22 @@ mod tests {
                 let begin = if path.len() > 1 { first(path[0], path[1]) } else { 0.0 };
                 own - begin - (2..path.len()).map(|t| cost(t, path[t - 2], path[t - 1], path[t])).sum::<f64>()
             };
-            let found = best_path(&worth, &first, &cost);
-            assert_eq!(found, brute_force(&worth, &sum), "table {table} of {sizes:?}");
+            let all = all_paths(&worth, &sum);
+            let best = &all[greatest(all.iter().map(|(sum, _)| *sum))];
+            let ways = Ways { worth: worth.clone(), first: &first, cost: &cost };
+            assert_eq!(ways.best(), best.1, "table {table} of {sizes:?}");
+            for (t, losses) in ways.losses().iter().enumerate() {
+                for (k, loss) in losses.iter().enumerate() {
+                    let through = all.iter().filter(|(_, path)| path[t] == k).map(|(sum, _)| *sum);
+                    let expected = best.0 - through.fold(f64::NEG_INFINITY, f64::max);
+                    assert!(
+                        (loss - expected).abs() < 1e-9,
+                        "table {table}, candidate {k} of frame {t}: {loss}, {expected}"
+                    );
+                }
+            }
         }
+        let nothing = Ways { worth: Vec::new(), first: &|_, _| 0.0, cost: &|_, _, _, _| 0.0 };
+        assert!(nothing.best().is_empty() && nothing.losses().is_empty());
     }
 }

@@ -111,7 +111,7 @@ impl Moving {
     fn mended_by(&self, team: [usize; 2], given: &[Vec<f32>]) -> Vec<Vec<f32>> {
         self.with_mending(team, |mut mending| {
             let seen: Vec<&Seen> = self.seen.iter().collect();
-            let settled = mending.mend(&seen, given, &[]).unwrap();
+            let (settled, _) = mending.mend(&seen, given, &[]).unwrap();
             settled.into_iter().map(|Settled { pose, .. }| pose).collect()
         })
     }
@@ -200,7 +200,7 @@ fn work_is_told_and_can_be_ended() {
             Ok(())
         };
         let mended = kick.with_told_mending([count, 4], &told, |mut mending| mending.mend(&seen, &kick.truth, &[]));
-        (mended.map_err(|error| error.to_string()).map(|frames| frames.len()), parts.into_inner())
+        (mended.map_err(|error| error.to_string()).map(|(frames, _)| frames.len()), parts.into_inner())
     };
     for count in [1, 2] {
         let (done, parts) = mended(count, usize::MAX);
