@@ -50,13 +50,18 @@ impl Held {
 
     /// Runs of frames that are gaps: the first and the last of each.
     pub(super) fn runs(&self) -> Vec<[usize; 2]> {
-        let mut runs: Vec<[usize; 2]> = Vec::new();
-        for frame in self.gaps.iter().map(|&row| self.table.frames[row]) {
-            match runs.last_mut() {
-                Some([_, last]) if *last + 1 == frame => *last = frame,
-                _ => runs.push([frame, frame]),
-            }
-        }
-        runs
+        runs_of(self.gaps.iter().map(|&row| self.table.frames[row]))
     }
+}
+
+/// Runs of rising frames: the first and the last of each.
+pub(super) fn runs_of(frames: impl Iterator<Item = usize>) -> Vec<[usize; 2]> {
+    let mut runs: Vec<[usize; 2]> = Vec::new();
+    for frame in frames {
+        match runs.last_mut() {
+            Some([_, last]) if *last + 1 == frame => *last = frame,
+            _ => runs.push([frame, frame]),
+        }
+    }
+    runs
 }

@@ -1,9 +1,18 @@
 //! What a run yielded.
 
+use std::cmp::Reverse;
+
 use super::TimingSummary;
+use super::confidence::FrameConfidence;
+use super::held::{Held, runs_of};
 use super::journal::FrameResult;
 use super::realtime::RealtimeSummary;
 use crate::motion::TrajectoryError;
+
+/// An expected error from which on a joint is one to look at, mm.
+const DOUBTFUL: f64 = 100.0;
+/// Of these, how many are named.
+const NAMED: usize = 4;
 
 /// The error of a whole track.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,18 +59,104 @@ pub struct TrackSummary {
 /// What the user should know about the gaps of a track.
 pub(super) fn lost_sentence(runs: &[[usize; 2]], frames: usize) -> Option<String> {
     let lost: usize = runs.iter().map(|[first, last]| last + 1 - first).sum();
-    let shown: Vec<String> = runs.iter().take(5).map(|[first, last]| format!("{first} to {last}")).collect();
-    let more = if runs.len() > shown.len() { ", …" } else { "" };
     (lost > 0).then(|| {
+        let shown = shown(runs, 5);
+        format!("the person is lost in {lost} of {frames} frames, which are gaps in the results: {shown}")
+    })
+}
+
+/// What the user should look at before using it: joints that are expected to be off by more than [`DOUBTFUL`], in frames that are no gaps. Those
+/// of most frames go first.
+pub(super) fn doubtful_sentence(names: &[String], held: &Held, confidences: &[FrameConfidence]) -> Option<String> {
+    let sure = held.sure();
+    let doubtful = |joint: usize| -> Vec<usize> {
+        let is_doubtful = |row: &usize| confidences[*row].joints.get(joint).is_some_and(|it| it.sigma > DOUBTFUL);
+        sure.iter().copied().filter(is_doubtful).map(|row| held.table.frames[row]).collect()
+    };
+    let mut joints: Vec<(&String, Vec<usize>)> =
+        names.iter().enumerate().map(|(joint, name)| (name, doubtful(joint))).collect();
+    joints.retain(|(_, frames)| !frames.is_empty());
+    joints.sort_by_key(|(_, frames)| Reverse(frames.len()));
+    let told: Vec<String> = (joints.iter().take(NAMED))
+        .map(|(name, frames)| format!("{name} in {}", shown(&runs_of(frames.iter().copied()), 3)))
+        .collect();
+    let more = match joints.len() - told.len() {
+        0 => String::new(),
+        1 => ", and 1 more joint".to_string(),
+        more => format!(", and {more} more joints"),
+    };
+    (!told.is_empty()).then(|| {
         format!(
-            "the person is lost in {lost} of {frames} frames, which are gaps in the results: {}{more}",
-            shown.join(", ")
+            "look at these frames before you use them, joints are expected to be off by more than {DOUBTFUL} mm there (sigma in confidence.csv): \
+             {}{more}",
+            told.join("; ")
         )
     })
+}
+
+/// The first so many of runs of frames.
+fn shown(runs: &[[usize; 2]], most: usize) -> String {
+    let run =
+        |[first, last]: &[usize; 2]| if first == last { format!("{first}") } else { format!("{first} to {last}") };
+    let shown: Vec<String> = runs.iter().take(most).map(run).collect();
+    let more = if runs.len() > most { ", …" } else { "" };
+    format!("{}{more}", shown.join(", "))
 }
 
 /// The mean; 0 of nothing.
 pub(super) fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0_usize), |(sum, count), value| (sum + value, count + 1));
     if count > 0 { sum / count as f64 } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::track::confidence::JointConfidence;
+
+    /// The joints of most frames are named first, with the stretches in which they are doubtful; gaps are told of elsewhere.
+    #[test]
+    fn doubtful_joints_are_named_with_their_frames() {
+        let names: Vec<String> = ["hip", "knee", "ankle", "elbow", "wrist", "head"].map(str::to_string).to_vec();
+        let frame = |sigmas: [f64; 6], is_lost: bool| FrameConfidence {
+            position_spread: 0.0,
+            angle_spread: 0.0,
+            confidence: 1.0,
+            agreement: 1.0,
+            wrong: 0.0,
+            is_lost,
+            joints: sigmas.map(|sigma| JointConfidence { spread: 0.0, seen: 1.0, confidence: 1.0, sigma }).to_vec(),
+        };
+        let said = |frames: &[([f64; 6], bool)]| {
+            let confidences: Vec<FrameConfidence> = frames.iter().map(|(sigmas, lost)| frame(*sigmas, *lost)).collect();
+            let gaps = |held: &[FrameConfidence]| -> Vec<FrameResult> {
+                (10..10 + held.len())
+                    .map(|frame| FrameResult {
+                        frame,
+                        pose: Vec::new(),
+                        fitness: 1.0,
+                        spread: Vec::new(),
+                        views: Vec::new(),
+                        joints: Vec::new(),
+                    })
+                    .collect()
+            };
+            let held = Held::new(&gaps(&confidences), &confidences, true);
+            doubtful_sentence(&names, &held, &confidences)
+        };
+        let sure = ([99.0; 6], false);
+        assert_eq!(said(&[sure; 3]), None);
+        let with = |joint: usize| {
+            let mut sigmas = [20.0; 6];
+            sigmas[joint] = 101.0;
+            (sigmas, false)
+        };
+        let told = said(&[with(3), sure, with(4), with(4), sure, with(4), ([500.0; 6], true)]).unwrap();
+        assert!(told.ends_with("wrist in 12 to 13, 15; elbow in 10"), "{told}");
+        let all = said(&[([200.0; 6], false), sure, with(5), sure, with(5), sure, with(5)]).unwrap();
+        assert!(
+            all.contains(": head in 10, 12, 14, …; hip in 10; knee in 10; ankle in 10, and 2 more joints"),
+            "{all}"
+        );
+    }
 }

@@ -13,7 +13,7 @@ use crate::track::progress::Progress;
 use crate::track::results;
 use crate::track::run_record::RunRecord;
 use crate::track::smoothed;
-use crate::track::summary::{TrackSummary, lost_sentence, mean};
+use crate::track::summary::{TrackSummary, doubtful_sentence, lost_sentence, mean};
 
 impl Run<'_> {
     /// Writes the results, unless the run was stopped.
@@ -67,6 +67,7 @@ impl Run<'_> {
             return Ok(summary);
         }
         summary.warnings.extend(lost_sentence(&held.runs(), summary.frames.len()));
+        summary.warnings.extend(doubtful_sentence(&body.joint_names(), &held, &confidences));
         if !summary.frames.is_empty() {
             let warning =
                 results::write(output, body, &sequence.cameras, &summary.frames, &confidences, &held, sequence.fps)?;
