@@ -35,7 +35,7 @@ pub struct LossRule {
 
 impl Default for LossRule {
     fn default() -> Self {
-        Self { lost_below: 0.8, found_from: 0.9, wrong_from: 0.7, right_below: 0.5 }
+        Self { lost_below: 0.8, found_from: 0.9, wrong_from: 0.8, right_below: 0.5 }
     }
 }
 

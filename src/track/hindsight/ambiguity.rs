@@ -8,6 +8,8 @@ use super::scorer::Candidate;
 /// and neighbours say which it is.
 const LIKELY: f64 = 2.0;
 const LED: f64 = 64.0;
+/// By how much less the poses of a frame are worth than those of another where hardly anybody is seen in it, which tells nothing of that other.
+const NOBODY: f64 = 100.0;
 
 /// The ambiguity of each joint in each frame, mm: of all candidates of the frame and of those up to `reach` around it, as likely as they and the
 /// paths through them are worth, the root mean square of how far the joint lies from where it was settled.
@@ -19,8 +21,11 @@ pub(super) fn ambiguities(
 ) -> Vec<Vec<f32>> {
     let frames = settled.iter().zip(candidates).zip(losses);
     let own: Vec<Vec<f64>> = frames.map(|((frame, found), losses)| mean_squares(frame, found, losses)).collect();
+    let most = |found: &Vec<Candidate>| found.iter().map(|it| it.worth).fold(f64::NEG_INFINITY, f64::max);
+    let worth: Vec<f64> = candidates.iter().map(most).collect();
     let around = |t: usize| {
-        let near = &own[t.saturating_sub(reach)..(t + reach + 1).min(own.len())];
+        let near = t.saturating_sub(reach)..(t + reach + 1).min(own.len());
+        let near: Vec<&Vec<f64>> = near.filter(|&at| worth[at] >= worth[t] - NOBODY).map(|at| &own[at]).collect();
         let mean = |joint: usize| near.iter().map(|frame| frame[joint]).sum::<f64>() / near.len() as f64;
         (0..own[t].len()).map(|joint| mean(joint).sqrt() as f32).collect()
     };
@@ -85,5 +90,12 @@ mod tests {
         // Neighbours speak against it, more softly.
         let spoken = joint(&led(candidate(200.0, -30.0), 128.0))[1];
         assert!((share(spoken) - 1.0 / (1.0 + 2.0_f32.exp())).abs() < 1e-3, "{spoken}");
+        // Where nobody is seen any more, poses lie anywhere; that is no doubt of who was there the frame before.
+        let mut candidates = vec![vec![candidate(0.0, -30.0)]; 5];
+        candidates[3] = [0.0, 900.0].map(|x| candidate(x, -2000.0)).to_vec();
+        let mut losses = vec![vec![0.0]; 5];
+        losses[3] = vec![0.0; 2];
+        let gone = joint(&ambiguities(&settled, &candidates, &losses, 1));
+        assert!(gone[3] > 300.0 && gone[2] == 0.0 && gone[4] == 0.0, "{gone:?}");
     }
 }
