@@ -174,8 +174,9 @@ fn files_read_back_and_the_walk_is_followed() {
     let confidence = fs::read_to_string(folder.join("confidence.csv")).unwrap();
     assert!(confidence.starts_with("frame,fitness,cam0.f1,cam0.f2,cam1.f1"), "{confidence}");
     for line in confidence.lines().skip(1) {
-        let last: f64 = line.rsplit(',').next().unwrap().parse().unwrap();
-        assert!((0.0..=1.0).contains(&last), "{line}");
+        let mut last = line.rsplit(',').map(|cell| cell.parse::<f64>().unwrap());
+        let [ambiguity, support] = [last.next().unwrap(), last.next().unwrap()];
+        assert!((0.0..200.0).contains(&ambiguity) && (0.0..=1.0).contains(&support), "{line}");
     }
     let stages: serde_json::Value = serde_json::from_slice(&fs::read(folder.join("stages.json")).unwrap()).unwrap();
     let names: Vec<&str> = stages["stages"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
