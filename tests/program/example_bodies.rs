@@ -202,7 +202,7 @@ fn joints_bend_the_way_people_do() {
         let at = |pose: &[f64]| points(&body, pose)[names.iter().position(|name| name == point).unwrap()];
         let mut pose = vec![0.0; body.dof_count()];
         let rest = at(&pose);
-        pose[body.dof_names().iter().position(|name| name == dof).unwrap()] = degrees.to_radians();
+        pose[body.dof_index(dof).unwrap()] = degrees.to_radians();
         body.check_limits(&pose).unwrap();
         at(&pose) - rest
     };

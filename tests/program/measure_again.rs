@@ -117,7 +117,7 @@ fn a_person_made_otherwise_is_measured_on_the_way() {
         |line: usize| -> Vec<String> { joints.lines().nth(line).unwrap().split(',').map(str::to_string).collect() };
     let place = |name: &str| row(0).iter().position(|column| column == name).unwrap();
     let wrist = refined.joint_positions(&refined.world_from_bones(&poses.poses[0]).unwrap())
-        [refined.joint_names().iter().position(|name| name == "left_wrist").unwrap()];
+        [refined.joint_index("left_wrist").unwrap()];
     for (value, name) in wrist.to_array().iter().zip(["left_wrist.x", "left_wrist.y", "left_wrist.z"]) {
         let written: f64 = row(1)[place(name)].parse().unwrap();
         assert!((value - written).abs() < 0.1, "{name}: {value} of {written}");

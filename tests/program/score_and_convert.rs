@@ -277,7 +277,7 @@ fn smoothing_takes_the_trembling_away_and_nothing_else() {
     let at = folder.path();
     let body = Body::adult(1750.0).unwrap();
     body.save(&at.join("body.toml"), Overwrite::Refuse).unwrap();
-    let knee = body.dof_names().iter().position(|name| name == "left_knee.ry").unwrap();
+    let knee = body.dof_index("left_knee.ry").unwrap();
     let pose = |frame: usize, trembling: f64| {
         let phase = std::f64::consts::TAU * frame as f64 / 5.0;
         let mut pose = body.standing_pose();

@@ -520,7 +520,7 @@ fn wrong_inputs_are_one_sentence() {
     // A start pose outside its limits.
     let body = Body::load(&folder.path().join("body.toml")).unwrap();
     let good = fs::read(folder.path().join("start.csv")).unwrap();
-    let knee = body.dof_names().iter().position(|name| name == "left_knee.ry").unwrap();
+    let knee = body.dof_index("left_knee.ry").unwrap();
     let mut table = PoseTable::read(&folder.path().join("start.csv"), &body).unwrap();
     table.poses[0][knee] = 3.0;
     table.write(&folder.path().join("start.csv"), pantin::files::Overwrite::Replace, &body).unwrap();
