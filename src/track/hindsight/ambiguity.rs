@@ -2,7 +2,7 @@
 //! open, as far as another pose was come upon (METHOD A13).
 
 use super::refining::Settled;
-use super::scorer::Candidate;
+use super::scorer::{Candidate, most_worth};
 
 /// By how much less a pose is worth by itself that is e times less likely, and the path through it: front and back look alike in a single frame,
 /// and neighbours say which it is.
@@ -21,8 +21,7 @@ pub(super) fn ambiguities(
 ) -> Vec<Vec<f32>> {
     let frames = settled.iter().zip(candidates).zip(losses);
     let own: Vec<Vec<f64>> = frames.map(|((frame, found), losses)| mean_squares(frame, found, losses)).collect();
-    let most = |found: &Vec<Candidate>| found.iter().map(|it| it.worth).fold(f64::NEG_INFINITY, f64::max);
-    let worth: Vec<f64> = candidates.iter().map(most).collect();
+    let worth: Vec<f64> = candidates.iter().map(most_worth).collect();
     let around = |t: usize| {
         let near = t.saturating_sub(reach)..(t + reach + 1).min(own.len());
         let near: Vec<&Vec<f64>> = near.filter(|&at| worth[at] >= worth[t] - NOBODY).map(|at| &own[at]).collect();

@@ -5,9 +5,9 @@ use glam::DVec3;
 
 use super::ambiguity::ambiguities;
 use super::hypotheses::Limbs;
-use super::path::Ways;
+use super::path::{Costs, Ways};
 use super::refining::{self, Settled};
-use super::scorer::{Candidate, robust};
+use super::scorer::{Candidate, most_worth, robust};
 use super::section::{SECTION, Section, order, pieces};
 use super::team::Team;
 use super::tracks::{Ended, Track};
@@ -62,21 +62,20 @@ impl<'a> Mending<'a> {
         let sections = self.sections(given);
         let mut candidates = self.tracked(seen, given, &sections)?;
         self.retrace(seen, given, &sections, before, &mut candidates)?;
-        let path = |bolder: f64| -> Vec<Settled> {
-            let chosen = choose(&candidates, before, bolder);
+        let path = |chosen: Vec<usize>| -> Vec<Settled> {
             let of = |((seen, candidates), chosen): ((&&Seen, &Vec<Candidate>), usize)| {
                 let Candidate { pose, points, .. } = &candidates[chosen];
                 Settled { frame: seen.index, pose: pose.clone(), points: points.clone() }
             };
             before.iter().cloned().chain(seen.iter().zip(&candidates).zip(chosen).map(of)).collect()
         };
-        let mut poses = path(1.0);
-        let bolder = path(BOLDER);
+        let (chosen, losses) = over_paths(&candidates, before, 1.0, |ways| (ways.best(), ways.losses()));
+        let mut poses = path(chosen);
+        let bolder = path(choose(&candidates, before, BOLDER));
         let all: Vec<usize> = (0..seen.len()).collect();
         refining::refine(&mut self.team, seen, &all, &sections, &mut poses, [self.reach, refining::ROUNDS])?;
         self.weigh_bolder(seen, &sections, &bolder, &mut poses)?;
         poses.drain(..before.len());
-        let losses = over_paths(&candidates, before, 1.0, |ways| ways.losses());
         let ambiguities = ambiguities(&poses, &candidates, &losses, self.reach);
         Ok((poses, ambiguities))
     }
@@ -100,7 +99,7 @@ impl<'a> Mending<'a> {
             scorer.observe(&seen.observations)?;
             scorer.candidates(std::slice::from_ref(pose))
         })?;
-        let most = first.iter().flatten().map(|candidate| candidate.worth).fold(f64::NEG_INFINITY, f64::max);
+        let most = most_worth(first.iter().flatten());
         let found = team.share(sections.iter(), |scorer, section| {
             let seen = &seen[section.frames.clone()];
             let mut candidates = first[section.frames.clone()].to_vec();
@@ -154,24 +153,23 @@ pub(super) fn choose(candidates: &[Vec<Candidate>], before: &[Settled], bolder: 
     over_paths(candidates, before, bolder, |ways| ways.best())
 }
 
-/// What `work` says, a frame, of all these paths.
+/// What `work` says of all these paths.
 fn over_paths<T>(
     candidates: &[Vec<Candidate>],
     before: &[Settled],
     bolder: f64,
-    work: impl FnOnce(&Ways<'_>) -> Vec<T>,
-) -> Vec<T> {
-    let fixed = &before[before.len().saturating_sub(2)..];
-    let mut worth: Vec<Vec<f64>> = fixed.iter().map(|_| vec![0.0]).collect();
+    work: impl FnOnce(&Ways<'_>) -> T,
+) -> T {
+    let settled = &before[before.len().saturating_sub(2)..];
+    let mut worth: Vec<Vec<f64>> = settled.iter().map(|_| vec![0.0]).collect();
     worth.extend(candidates.iter().map(|found| found.iter().map(|candidate| candidate.worth).collect()));
     let points = |t: usize, k: usize| -> &[DVec3] {
-        if t < fixed.len() { &fixed[t].points } else { &candidates[t - fixed.len()][k].points }
+        if t < settled.len() { &settled[t].points } else { &candidates[t - settled.len()][k].points }
     };
     let first = |j: usize, k: usize| {
         let pairs = points(0, j).iter().zip(points(1, k));
         pairs.map(|(a, b)| robust(a.distance_squared(*b) / (FIRST * FIRST))).sum::<f64>()
     };
-    let cost = |t, i, j, k| jerk(points(t - 2, i), points(t - 1, j), points(t, k), bolder);
-    let mut said = work(&Ways { worth, first: &first, cost: &cost });
-    said.split_off(fixed.len())
+    let then = |t, i, j, k| jerk(points(t - 2, i), points(t - 1, j), points(t, k), bolder);
+    work(&Ways::new(worth, settled.len(), Costs { first: &first, then: &then }))
 }

@@ -66,6 +66,11 @@ pub(super) fn apart(one: &[DVec3], other: &[DVec3]) -> bool {
     one.iter().zip(other).any(|(a, b)| a.distance(*b) > APART)
 }
 
+/// What the best of candidates is worth by itself.
+pub(super) fn most_worth<'c>(candidates: impl IntoIterator<Item = &'c Candidate>) -> f64 {
+    candidates.into_iter().map(|candidate| candidate.worth).fold(f64::NEG_INFINITY, f64::max)
+}
+
 /// The index of the candidate that is worth most under a pull, or by itself; of equals the first.
 pub(super) fn most_under(candidates: &[Candidate], pull: Option<&Pull>) -> usize {
     let worth = |candidate: &Candidate| candidate.worth - pull.map_or(0.0, |pull| pull.cost(&candidate.points));

@@ -6,7 +6,7 @@ use std::ops::Range;
 use anyhow::Result;
 
 use super::hypotheses::Limbs;
-use super::scorer::{Candidate, Effort, Pull, Scorer, apart, most_under};
+use super::scorer::{Candidate, Effort, Pull, Scorer, apart, most_under, most_worth};
 use super::section::{Section, order};
 use super::window::Seen;
 use crate::features::SeenView;
@@ -203,7 +203,7 @@ impl<'a> Track<'a> {
         let along = self.limbs.facing.map_or(0.0, |facing| facing.along(self.given));
         let forwards = -2.0 * FORWARDS * along;
         let Some((t, turned)) = self.turned(scorer, seen, candidates, forwards)? else { return Ok(()) };
-        let most = candidates.iter().flatten().map(|known| known.worth).fold(f64::NEG_INFINITY, f64::max);
+        let most = most_worth(candidates.iter().flatten());
         for order in [order(t, true), (t + 1..seen.len()).collect()] {
             let mut last = [None, Some(turned.clone())];
             for t in order {

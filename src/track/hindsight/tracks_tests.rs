@@ -1,7 +1,7 @@
 //! Tracks through the sections of a window, on a person that is drawn.
 
 use super::hypotheses::Limbs;
-use super::scorer::{Candidate, Effort, Scorer, most_under};
+use super::scorer::{Candidate, Effort, Scorer, most_under, most_worth};
 use super::section::order;
 use super::shape::Shape;
 use super::tests::{FRAMES, Moving, dof, worst};
@@ -208,8 +208,7 @@ fn limbs_are_looked_for_once() {
                 scorer.observe(&seen.observations).unwrap();
                 candidates.push(scorer.candidates(std::slice::from_ref(pose)).unwrap());
             }
-            let given = candidates.iter().flatten().map(|candidate| candidate.worth);
-            let mut most = given.fold(f64::NEG_INFINITY, f64::max);
+            let mut most = most_worth(candidates.iter().flatten());
             let mut follow = |scorer: &mut Scorer<'_>, candidates: &mut [Vec<Candidate>], is_back| {
                 track(is_back).follow(scorer, &seen, &order(FRAMES, is_back), &mut most, candidates).unwrap();
             };
