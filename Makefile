@@ -54,10 +54,12 @@ TESTED := --locked --workspace --features rerun
 # crates once more, three minutes of two cores.
 test: export RUSTC_WORKSPACE_WRAPPER = clippy-driver
 test: export CLIPPY_ARGS = -Dwarnings
+# The library's tests that have a device take turns, and one that waits for its turn leaves a processor to the others.
 test: toolchain shaderc ffmpeg vulkan
 	$(CARGO) fmt --all --check
 	env $(FOR_PYTHON) $(CARGO) build $(TESTED) --lib --bins --tests --benches
-	env $(NEEDS_VULKAN) $(FOR_PYTHON) $(CARGO) test $(TESTED) --exclude pantin-python --lib --test '*' --bench '*'
+	env $(NEEDS_VULKAN) $(FOR_PYTHON) RUST_TEST_THREADS=$$(($$(nproc) + 1)) $(CARGO) test $(TESTED) --exclude pantin-python --lib
+	env $(NEEDS_VULKAN) $(FOR_PYTHON) $(CARGO) test $(TESTED) --exclude pantin-python --test '*' --bench '*'
 	env $(FOR_PYTHON) $(CARGO) test $(TESTED) --exclude pantin-python --doc
 	$(MAKE) --no-print-directory python-tests
 	@[ -d ../shared/data ] || echo "SKIPPED: the tests on real recordings; ../shared/data is absent"

@@ -21,6 +21,7 @@ use super::fixed_function::Drawing;
 use super::image::{Format, Image, ImageUse};
 use super::instance::Instance;
 use super::lanes::{BESIDE, LANES, Lanes, MAIN};
+use super::lock::loader;
 use super::marks::Marks;
 use super::memory::Memory;
 use super::pipeline::Pipeline;
@@ -153,6 +154,7 @@ impl Device {
             info = info.push_next(&mut executables);
         }
         let vulkan = &instance.shared.raw;
+        let _alone = loader();
         // SAFETY: the handle belongs to the instance; features and extensions asked for were found present.
         let raw = unsafe { vulkan.create_device(facts.handle, &info, None) }
             .map_err(|result| anyhow!("the Vulkan device {} cannot be opened ({result})", facts.name))?;

@@ -16,7 +16,7 @@ use crate::files::{Overwrite, write_atomically};
 use super::capability::{Capabilities, DeviceFacts};
 use super::instance::Instance;
 use super::lanes::{Lanes, LastUse};
-use super::lock::lock;
+use super::lock::{loader, lock};
 use super::loss::DeviceLost;
 use super::marks::Marks;
 #[cfg(test)]
@@ -347,6 +347,7 @@ impl Drop for DeviceShared {
             self.raw.destroy_pipeline_cache(self.pipelines, None);
             self.lanes.all().iter().for_each(|lane| self.raw.destroy_semaphore(lane.timeline, None));
             drop(lock(&self.allocator).take());
+            let _alone = loader();
             self.raw.destroy_device(None);
         }
     }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use anyhow::{Context as _, Result, anyhow, bail};
 use ash::{ext, khr, vk};
 
+use super::lock::loader;
 use super::validation::{Validation, ValidationLog};
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
@@ -38,6 +39,7 @@ impl Instance {
     /// When there is no Vulkan loader on this machine, it is older than 1.3, or the validation layer was asked for and is
     /// not installed.
     pub fn open(validation: Validation) -> Result<Self> {
+        let _alone = loader();
         // SAFETY: the loader is a system library whose initialisers are sound to run; it stays loaded as long as `entry`.
         let entry = unsafe { ash::Entry::load() }.map_err(|error| {
             anyhow!("there is no Vulkan on this machine ({error}): install a driver with its loader (libvulkan1)")
@@ -132,6 +134,7 @@ impl Instance {
 
 impl Drop for InstanceShared {
     fn drop(&mut self) {
+        let _alone = loader();
         // SAFETY: devices hold this struct, so none is left; the messenger belongs to the instance and goes first.
         unsafe {
             if let Some((functions, messenger)) = &self.messenger {

@@ -75,4 +75,6 @@ mod lanes_tests;
 #[cfg(test)]
 pub(crate) mod test_device;
 #[cfg(test)]
+mod test_turn;
+#[cfg(test)]
 mod tests;

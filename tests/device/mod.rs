@@ -6,9 +6,12 @@
     reason = "a test or benchmark stops at the first surprise, and prints"
 )]
 
+#[path = "../../src/gpu/test_turn.rs"]
+mod turn;
+
 use pantin::gpu::{Device, DeviceSettings, Instance, Validation, ValidationLog};
 
-/// A device under full validation, and its log; none where there is no Vulkan, which is a failure where PANTIN_NEEDS_VULKAN is set.
+/// A device under full validation, when no other test has one, and its log; none where there is no Vulkan, which is a failure where PANTIN_NEEDS_VULKAN is set.
 pub(crate) fn device(test: &str, settings: DeviceSettings) -> Option<(Device, ValidationLog)> {
     device_under(Validation::Synchronisation, test, settings)
 }
@@ -19,6 +22,7 @@ pub(crate) fn device_under(
     test: &str,
     settings: DeviceSettings,
 ) -> Option<(Device, ValidationLog)> {
+    turn::take();
     match Instance::open(validation) {
         Ok(instance) => Some((Device::open(&instance, settings).unwrap(), instance.validation_log())),
         Err(error) => {
