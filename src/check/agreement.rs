@@ -280,6 +280,20 @@ fn crossing(cameras: &[Camera], moment: &Moment) -> Option<DVec3> {
     (count >= 2 && point.is_finite()).then_some(point)
 }
 
+/// In which share of the moments a view shows the person, %, of those in which whoever the other views show is in its picture. Moments without anybody
+/// tell of a view only where there are no others.
+pub(super) fn percent_seen(cameras: &[Camera], moments: &[Moment], view: usize) -> f64 {
+    let anybody = moments.iter().any(|moment| moment.iter().any(Option::is_some));
+    let is_due = |moment: &&Moment| match crossing(cameras, moment) {
+        _ if moment[view].is_some() => true,
+        Some(middle) => cameras[view].sees(middle),
+        None => !anybody || moment.iter().any(Option::is_some),
+    };
+    let due: Vec<&Moment> = moments.iter().filter(is_due).collect();
+    let seen = due.iter().filter(|moment| moment[view].is_some()).count();
+    100.0 * seen as f64 / due.len().max(1) as f64
+}
+
 /// The share of rays that the other views explain, %.
 pub(super) fn percent_explained<'a>(rays: impl IntoIterator<Item = &'a Ray>) -> f64 {
     let (good, count) =

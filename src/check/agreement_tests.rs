@@ -51,6 +51,29 @@ fn right_cameras_agree_and_a_turned_one_does_not() {
     assert!(apart > 2.5 * right, "{apart} {right}");
 }
 
+/// Who leaves a camera's picture is not missed there; who is in it and not seen is.
+#[test]
+fn a_view_is_asked_for_those_who_are_in_its_picture() {
+    let (cameras, fields) = scene();
+    let mut away = cameras.clone();
+    away[1] = turned(&cameras[1], DVec3::new(0.0, 1.2, 0.0));
+    let moment = |seen: [bool; 4]| -> Moment<'_> {
+        fields.iter().zip(seen).map(|(field, seen)| seen.then_some(field)).collect()
+    };
+    let all = moment([true; 4]);
+    let [missed, alone, nobody] = [[true, false, true, true], [true, false, false, false], [false; 4]].map(moment);
+    let percent = |cameras: &[Camera], moments: &[&Moment]| -> f64 {
+        let moments: Vec<Moment> = moments.iter().map(|moment| (*moment).clone()).collect();
+        percent_seen(cameras, &moments, 1)
+    };
+    assert_eq!(percent(&cameras, &[&all, &missed]), 50.0);
+    assert_eq!(percent(&away, &[&all, &missed]), 100.0, "he is not in the second's picture");
+    assert_eq!(percent(&away, &[&missed, &missed]), 0.0, "he never is");
+    assert_eq!(percent(&cameras, &[&all, &nobody, &nobody]), 100.0, "nobody is there");
+    assert_eq!(percent(&cameras, &[&nobody, &nobody]), 0.0);
+    assert_eq!(percent(&away, &[&all, &alone]), 50.0, "one view does not tell where he is");
+}
+
 /// How a small turn of each camera changes what rays miss by, beside a search of each ray with that camera turned.
 #[test]
 fn small_turns_do_what_a_search_finds() {

@@ -29,7 +29,7 @@ use serde::Serialize;
 
 pub use finding::{Finding, Status};
 
-use agreement::{EXPLAINED, HARDLY_EXPLAINED, Ray, WELL_EXPLAINED, percent_explained, rays};
+use agreement::{EXPLAINED, HARDLY_EXPLAINED, Ray, WELL_EXPLAINED, percent_explained, percent_seen, rays};
 use beginnings::{Beginnings, beginnings};
 use faults::{Faults, Times};
 use orientations::Misplaced;
@@ -269,15 +269,12 @@ fn plates(sequence: &Sequence, plated: &Plated<'_>) -> Vec<Finding> {
     plated.learnt.iter().map(learnt).chain(stated).collect()
 }
 
-/// In how many of the frames looked at each camera sees somebody.
+/// In how many of the frames looked at each camera sees somebody who should be in its picture.
 fn seen(sequence: &Sequence, silhouettes: &Silhouettes) -> Vec<Finding> {
     let moments = silhouettes.moments();
-    let share = |view: usize| {
-        let seen = moments.iter().filter(|moment| moment[view].is_some()).count();
-        100.0 * seen as f64 / moments.len().max(1) as f64
-    };
     let finding = |(view, camera): (usize, &Camera)| {
-        Finding::number("silhouettes", "% of the frames", share(view), [60.0, 100.0]).of(&camera.name).or(
+        let share = percent_seen(&sequence.cameras, &moments, view);
+        Finding::number("silhouettes", "% of the frames", share, [60.0, 100.0]).of(&camera.name).or(
             "look at them with `pantin features`: a background picture of the same light helps, and frames with the person \
              in view",
         )

@@ -81,6 +81,13 @@ impl Camera {
         self.image_of(self.camera_from_world.transform_point3(point_in_world))
     }
 
+    /// Whether a point of the world (mm) lies in the picture.
+    pub fn sees(&self, point_in_world: DVec3) -> bool {
+        let [width, height] = self.size.map(f64::from);
+        let is_inside = |at: DVec2| (-0.5..width - 0.5).contains(&at.x) && (-0.5..height - 0.5).contains(&at.y);
+        self.project(point_in_world).is_some_and(is_inside)
+    }
+
     /// [`Self::project`] of a point that is in the camera's own axes (x right, y down, z ahead; mm).
     pub fn image_of(&self, point: DVec3) -> Option<DVec2> {
         if point.z.is_nan() || point.z <= 0.0 {

@@ -137,6 +137,12 @@ pub(super) fn others(
 }
 
 impl Figure {
+    /// How many views have all of it in their pictures.
+    pub(super) fn whole_in(&self, cameras: &[Camera]) -> usize {
+        let is_whole = |camera: &&Camera| self.voxels.iter().all(|voxel| camera.sees(*voxel));
+        cameras.iter().filter(is_whole).count()
+    }
+
     /// Cubic mm.
     fn volume(&self) -> f64 {
         self.voxels.len() as f64 * self.side.powi(3)
@@ -186,9 +192,7 @@ impl Block {
             cameras.iter().zip(&blobs).map(|(camera, blobs)| rays(camera, blobs)).collect();
         let is_seen = |at: &DVec3| {
             let mut seen = cameras.iter().zip(&blobs);
-            seen.all(|(camera, blobs)| {
-                is_outside(camera, *at) || blobs.iter().any(|blob| is_beside(camera, *blob, *at))
-            })
+            seen.all(|(camera, blobs)| !camera.sees(*at) || blobs.iter().any(|blob| is_beside(camera, *blob, *at)))
         };
         let mut corners: Option<[DVec3; 2]> = None;
         for (view, one) in rays.iter().enumerate() {
@@ -284,12 +288,6 @@ fn rays(camera: &Camera, blobs: &[Region]) -> Vec<(DVec3, DVec3)> {
     let middle = |low: u32, high: u32| 0.5 * f64::from(low + high - 1);
     let ray = |bounds: &Region| camera.ray(DVec2::new(middle(bounds.x0, bounds.x1), middle(bounds.y0, bounds.y1)));
     blobs.iter().filter_map(ray).collect()
-}
-
-/// Whether a place is not in the picture.
-fn is_outside(camera: &Camera, place: DVec3) -> bool {
-    let [width, height] = camera.size.map(f64::from);
-    !camera.project(place).is_some_and(|at| (0.0..width).contains(&at.x) && (0.0..height).contains(&at.y))
 }
 
 /// Whether a place is seen in a blob's box, or beside it by half of its size.
