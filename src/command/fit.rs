@@ -145,6 +145,10 @@ pub(super) fn summary(fit: &Fit) -> String {
         writeln!(text, "silhouettes: seen ones covered by the model, the model's on seen ones (first pose -> fitted)");
     let [before, after] = &fit.coverage;
     for ((view, before), after) in fit.views.iter().zip(before).zip(after) {
+        if after.is_of_nobody() {
+            let _ = writeln!(text, "  {view}: nobody is seen there, nor expected");
+            continue;
+        }
         let percent = [before.seen, after.seen, before.drawn, after.drawn].map(|share| 100.0 * share);
         let [seen, seen_after, drawn, drawn_after] = percent;
         let _ = writeln!(text, "  {view}: {seen:.1} -> {seen_after:.1} %, {drawn:.1} -> {drawn_after:.1} %");

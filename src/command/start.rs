@@ -15,7 +15,7 @@ use crate::track::{FirstPerson, FirstTry, FirstTrySettings, FirstView, FitSettin
 /// Makes all that a first track needs from your videos, their calibration and the person's height.
 ///
 /// Writes sequence.toml, plates/ (the empty scene, learnt from each whole video), body.toml and start.csv (the person measured in frame
-/// 0, where a T-pose shows most) and look/ (pictures of what is taken for the person, and of the body over it), and says what it saw and
+/// 0, where a T-pose shows most, or in the first in which somebody is seen) and look/ (pictures of what is taken for the person, and of the body over it), and says what it saw and
 /// what to do next. Videos are matched to cameras by name: cam01.mp4, or walk_cam01.mp4, is camera cam01's.
 #[derive(clap::Args, Debug)]
 pub(super) struct StartArgs {
@@ -53,9 +53,10 @@ pub(super) struct StartArgs {
     /// clockwise), mirrored. Once a camera; it is written into the manifest.
     #[arg(long, value_name = "CAMERA=HOW", value_delimiter = ',', value_parser = camera_orientation)]
     orientation: Vec<(String, Orientation)>,
-    /// Frames that the person is measured in: A..B without B, A.., or ..B; counted from 0.
-    #[arg(long, value_name = "A..B", default_value = "0..1")]
-    frames: FrameRange,
+    /// Frames that the person is measured in: A..B without B, A.., or ..B; counted from 0 [default: the first, or where nobody can be measured there,
+    /// the first in which somebody is seen].
+    #[arg(long, value_name = "A..B")]
+    frames: Option<FrameRange>,
     /// Where the person faces: degrees, 0 along x, 90 along y [default: tries all round].
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     heading: Option<f64>,
@@ -103,8 +104,8 @@ pub(super) fn run(args: &StartArgs) -> Result<()> {
         fps: args.fps,
         scale: args.scale,
         orientations: args.orientation.clone(),
+        frames: args.frames,
         fit: FitSettings {
-            frames: args.frames,
             at: args.at,
             heading: args.heading,
             particles: args.particles,
@@ -177,10 +178,10 @@ fn told(made: &FirstTry, args: &StartArgs) -> Result<()> {
              Are arms and legs apart in that frame? Else measure another one: {others}{heading}"
         );
     }
-    say!("then: pantin check {folder}");
     // The pose is where a track begins.
     let first = people.first().and_then(|person| person.fit.poses.frames.first().copied()).filter(|first| *first > 0);
     let first = first.map(|first| format!(" --frames {first}..")).unwrap_or_default();
+    say!("then: pantin check {folder}{first}");
     say!("      pantin track {folder} -o {folder}-track{first}");
     Ok(())
 }

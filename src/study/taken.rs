@@ -165,7 +165,7 @@ fn write(sequence: &Sequence, settings: &SequenceSettings, folder: &OutputFolder
         (None, Some(body)) if settings.reversed => {
             let unfitted = folder.file("unfitted.toml")?;
             folder.write("unfitted.toml", |out| Ok(out.write_all(write_manifest(None)?.as_bytes())?))?;
-            let first = FrameRange { start: Some(0), end: Some(1) };
+            let first = FrameRange::one(0);
             let once =
                 FitSettings { keep_body: true, frames: first, heading: settings.heading, ..FitSettings::default() };
             let found = fit(&Sequence::open(&unfitted)?, &once).context("the first pose of the reversed sequence")?;

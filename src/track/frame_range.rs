@@ -16,6 +16,11 @@ pub struct FrameRange {
 }
 
 impl FrameRange {
+    /// A single frame.
+    pub const fn one(frame: usize) -> Self {
+        Self { start: Some(frame), end: Some(frame + 1) }
+    }
+
     /// The frames of a sequence of `frame_count`; `name` stands for it in messages.
     ///
     /// # Errors

@@ -1,16 +1,18 @@
-//! A sequence that names no first pose, or no body: both are found from the silhouettes of its first second, and kept beside the
-//! results.
+//! A sequence that names no first pose, or no body: both are found from the silhouettes of its first second, or of the one in which somebody is
+//! first seen, and kept beside the results.
 
 use std::borrow::Cow;
+use std::ops::Range;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, ensure};
 
-use super::fit::{Fit, FitSettings, fit_with};
+use super::fit::{Fit, FitSettings, first_seen, fit_with};
 use super::progress::Progress;
 use super::{FrameRange, TrackSettings};
 use crate::body::DofAxis;
 use crate::files::{OutputFolder, Overwrite};
+use crate::observe::{Advance, with_plates};
 use crate::sequence::Sequence;
 
 /// What is found, beside the results.
@@ -51,7 +53,7 @@ pub(super) fn with_start<'a>(
         None
     } else {
         let found = search(sequence, settings, progress).with_context(|| {
-            format!("{name} names no start pose, and none was found in its first second; give one as `start` there or as --start")
+            format!("{name} names no start pose, and none was found in its first second, nor where somebody is first seen; give one as `start` there or as --start")
         })?;
         if sequence.needs_body() {
             output.write(BODY, |writer| Ok(writer.write_all(found.body.to_toml().as_bytes())?))?;
@@ -68,24 +70,36 @@ pub(super) fn with_start<'a>(
     Ok((Cow::Owned(with), note))
 }
 
-/// Finds the person in the first second.
+/// Finds the person in the first second, or where nobody can be measured there, in the one in which somebody is first seen.
 fn search(sequence: &Sequence, settings: &TrackSettings, progress: &mut dyn Progress) -> Result<Fit> {
     let range = settings.frames.within(sequence.frame_count, &sequence.path.display().to_string())?;
-    let second = range.start.saturating_add((sequence.fps.ceil() as usize).max(1));
-    let mut found = fit_with(
-        sequence,
-        &FitSettings {
+    let mut advance = |what: &'static str, done: usize, total: usize| progress.preparing(what, done, total);
+    let second_from = |frame: usize| frame..frame.saturating_add((sequence.fps.ceil() as usize).max(1)).min(range.end);
+    let measured = |sequence: &Sequence, frames: Range<usize>, advance: &mut Advance<'_>| {
+        let frames = FrameRange { start: Some(frames.start), end: Some(frames.end) };
+        let fit = FitSettings {
             height: sequence.height,
-            frames: FrameRange { start: Some(range.start), end: Some(second.min(range.end)) },
+            frames,
             samples: SAMPLES,
             keep_body: !sequence.needs_body(),
             follow: true,
             particles: settings.search.particles,
             seed: settings.search.seed,
             ..FitSettings::default()
-        },
-        &mut |what, done, total| progress.preparing(what, done, total),
-    )?;
+        };
+        fit_with(sequence, &fit, advance)
+    };
+    let first = second_from(range.start);
+    let rest = first.end..range.end;
+    let mut found = match measured(sequence, first, &mut advance) {
+        Ok(found) => found,
+        Err(error) => {
+            let plated = with_plates(sequence, &mut advance)?;
+            let sequence = plated.sequence.as_ref();
+            let Some(seen) = first_seen(sequence, 1, rest, &mut advance)? else { return Err(error) };
+            measured(sequence, second_from(seen), &mut advance)?
+        }
+    };
     // The frames after the first have told which pose it is; what a run starts from is the first alone.
     found.poses.frames.truncate(1);
     found.poses.poses.truncate(1);
@@ -101,8 +115,9 @@ fn told(found: &Fit) -> String {
         None => String::new(),
     };
     let others = found.others.iter().map(|others| format!(". {others}")).collect::<String>();
+    let frame = found.poses.frames.first().copied().unwrap_or_default();
     format!(
-        "the sequence names no start: {body}a first pose{heading} with a fitness of {:.3} was found, kept as {START}; `pantin fit` and --start \
+        "the sequence names no start: {body}a first pose{heading} with a fitness of {:.3} was found in frame {frame}, kept as {START}; `pantin fit` and --start \
          say otherwise{others}",
         found.fitness
     )

@@ -268,10 +268,64 @@ fn several_people_are_begun_together() {
         (
             "1700,1700,1700",
             ["--people", "3"],
-            "2 are seen apart in frame 0, expected a frame in which all stand by themselves: none of 8 that were looked at is one",
+            "2 are seen apart in frame 0, expected a frame in which all stand by themselves; in none of the frames that were looked at all are seen apart",
         ),
     ] {
         let (status, _, error) = begin(heights, &[&more[..], &["-o", "none", "--force"]].concat());
         assert!(status != 0 && error.contains(expected), "{error}");
     }
+}
+
+/// Who films first and walks in then is measured where he is first seen; who named a frame is told of it.
+#[test]
+fn an_empty_beginning_is_passed_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let scene = "name = \"late\"\nframes = 9\n[rig]\nsize = [240, 180]\n[[actor]]\nheight = 1750.0\nmotion = { gait = \"stand\" }\n";
+    fs::write(folder.join("scene.toml"), scene).unwrap();
+    let (status, _, error) = pantin_in(folder, &["synth", "scene.toml", "-o", "made"]);
+    assert_eq!(status, 0, "{error}");
+    let cameras = ["cam1", "cam2", "cam3", "cam4"];
+    let empty = |camera: &str, frames: std::ops::Range<usize>| {
+        for frame in frames {
+            let [plate, picture] = [format!("plates/{camera}.png"), format!("frames/{camera}_{frame:04}.png")]
+                .map(|name| folder.join("made").join(name));
+            fs::copy(plate, picture).unwrap();
+        }
+    };
+    cameras.iter().for_each(|camera| empty(camera, 0..4));
+    let begin = |more: &[&str]| {
+        let videos = cameras.map(|camera| format!("made/frames/{camera}_%04d.png"));
+        let mut arguments = vec!["start"];
+        arguments.extend(videos.iter().map(String::as_str));
+        arguments.extend([
+            "--cameras",
+            "made/cameras.toml",
+            "--plates",
+            "made/plates",
+            "--height",
+            "1750",
+            "--fps",
+            "10",
+        ]);
+        arguments.extend(["--particles", "60", "--iterations", "6", "-o", "late", "--force"]);
+        pantin_in(folder, &[&arguments[..], more].concat())
+    };
+    // Every second one is passed over: frames 1, 3, 5 are looked at.
+    let (status, said, error) = begin(&[]);
+    assert_eq!(status, 0, "{error}");
+    let expected = "frame 0: 0 of 4 cameras see a silhouette, expected at least 2: measured in frame 5 instead, where somebody is seen";
+    assert!(error.contains(expected), "{error}");
+    assert!(said.contains("frames 5, fitness 0."), "{said}");
+    assert!(said.ends_with("pantin track late -o late-track --frames 5..\n"), "{said}");
+    let (status, _, error) = begin(&["--frames", "2..4"]);
+    assert!(
+        status == 1
+            && error.contains("somebody is seen in frame 4: --frames 4..5, and --frames 4.. for `pantin track`"),
+        "{error}"
+    );
+    // Nobody at all: one camera is not enough.
+    cameras[1..].iter().for_each(|camera| empty(camera, 4..9));
+    let (status, _, error) = begin(&[]);
+    assert!(status == 1 && error.contains("in none of the frames that were looked at somebody is seen"), "{error}");
 }

@@ -18,8 +18,9 @@ use self::looked::look;
 use self::manifest::{BODY, ManifestText, ManifestView, START, person_file};
 use self::matching::match_cameras;
 use self::scale::{ChosenScale, choose_scale};
+use super::FrameRange;
 use super::filmed_plate::filmed_plate;
-use super::fit::{Coverage, Fit, FitSettings, PersonSeen, fit_with, people_in, sampled};
+use super::fit::{Coverage, Fit, FitSettings, PersonSeen, first_seen, fit_with, people_in};
 use crate::check::{Start, misplaced_pictures, started};
 use crate::features::LearntPlate;
 use crate::files::{OutputFolder, Overwrite, listed, write_atomically};
@@ -29,10 +30,6 @@ use crate::sequence::{Footage, Orientation, SAME_RATE, Sequence, check_fps, read
 
 /// A body that covers less of the silhouettes than this, or lies on them with less, does not fit.
 const FITS: f64 = 0.65;
-/// Frames of the recording in which people who overlap in the one that was asked for are looked for apart.
-const LOOKED_AT: usize = 12;
-/// They are among so many first frames: those between are read too.
-const AMONG: usize = 1000;
 
 /// What a first try is made from.
 #[derive(Clone, Debug)]
@@ -51,7 +48,9 @@ pub struct FirstTrySettings {
     pub scale: Option<f64>,
     /// How the pictures of cameras are turned, by name.
     pub orientations: Vec<(String, Orientation)>,
-    /// How the person is measured; the height is one of `heights`.
+    /// Which frames may be used; without, the first, or where nobody can be measured there, the first in which all are seen standing apart.
+    pub frames: Option<FrameRange>,
+    /// How the person is measured; the height is one of `heights`, the frames are `frames`.
     pub fit: FitSettings,
     /// How tall the people are who are tracked together, mm: one is measured alone, of several the tallest is who looks tallest, and so on.
     pub heights: Vec<f64>,
@@ -111,7 +110,7 @@ pub struct FirstTry {
 impl FirstTry {
     /// Whether the body lies on the silhouettes of every view.
     pub fn fits(&self) -> bool {
-        let fits = |coverage: &Coverage| coverage.seen >= FITS && coverage.drawn >= FITS;
+        let fits = |coverage: &Coverage| !coverage.falls_short_of(FITS);
         let covers = |person: &FirstPerson| person.fit.coverage[1].iter().all(fits);
         self.people.as_ref().is_ok_and(|people| people.iter().all(covers))
     }
@@ -232,8 +231,8 @@ pub fn first_try(settings: &FirstTrySettings, folder: &Path, progress: &mut Adva
     let sequence = Sequence::open_unfitted(&manifest)?;
     let frame_count = sequence.frame_count;
     remarks.extend(sequence.remarks_on_recordings());
-    let frame = settings.fit.frames.within(frame_count, &sequence.path.display().to_string())?.start;
-    let measured = measured(&sequence, settings, &people, frame, progress).map_err(|error| format!("{error:#}"));
+    let Measured { people: measured, frame } =
+        measured_somewhere(&sequence, settings, &people, &mut remarks, progress)?;
     let fits = measured.as_deref().unwrap_or_default();
     for FirstPerson { name, fit } in fits {
         let file = |file: &str| person_file(name.as_deref(), file);
@@ -277,6 +276,52 @@ fn names(count: usize) -> Vec<String> {
     if count > 1 { (1..=count).map(|nth| format!("person{nth}")).collect() } else { Vec::new() }
 }
 
+/// People as they were measured, or why they could not be, and the frame that was looked at.
+struct Measured {
+    people: Result<Vec<FirstPerson>, String>,
+    frame: usize,
+}
+
+/// As [`measured`], in the frames that were asked for; without any in the first, or where that fails, in the first in which all are seen.
+///
+/// # Errors
+/// When the frames are not the sequence's, or frames cannot be looked at.
+fn measured_somewhere(
+    sequence: &Sequence,
+    settings: &FirstTrySettings,
+    names: &[String],
+    remarks: &mut Vec<String>,
+    progress: &mut Advance<'_>,
+) -> Result<Measured> {
+    let count = sequence.frame_count;
+    let range = settings.frames.unwrap_or(FrameRange::one(0));
+    let frame = range.within(count, &sequence.path.display().to_string())?.start;
+    let measure = |frames: FrameRange, progress: &mut Advance<'_>| {
+        measured(sequence, settings, names, frames, progress).map_err(|error| format!("{error:#}"))
+    };
+    let why = match measure(range, progress) {
+        Err(why) if settings.fit.at.is_none() => why,
+        // Where somebody was said to stand he stands in the frame that was meant.
+        people => return Ok(Measured { people, frame }),
+    };
+    let who = if names.is_empty() { "somebody is seen" } else { "all are seen apart" };
+    let others = if settings.frames.is_some() { 0..count } else { 1..count };
+    let why = match (first_seen(sequence, settings.heights.len(), others, progress)?, settings.frames) {
+        (Some(other), None) => {
+            remarks.push(format!(
+                "{why}: measured in frame {other} instead, where {who}; what is before is not tracked from there"
+            ));
+            return Ok(Measured { people: measure(FrameRange::one(other), progress), frame: other });
+        }
+        (Some(other), Some(_)) => {
+            let frames = FrameRange::one(other);
+            format!("{why}; {who} in frame {other}: --frames {frames}, and --frames {other}.. for `pantin track`")
+        }
+        (None, _) => format!("{why}; in none of the frames that were looked at {who}"),
+    };
+    Ok(Measured { people: Err(why), frame })
+}
+
 /// Measures the person, or each of the people of these names: those who stand nearest to where the cameras look.
 ///
 /// # Errors
@@ -285,25 +330,26 @@ fn measured(
     sequence: &Sequence,
     settings: &FirstTrySettings,
     names: &[String],
-    frame: usize,
+    frames: FrameRange,
     progress: &mut Advance<'_>,
 ) -> Result<Vec<FirstPerson>> {
     let mut heights = settings.heights.clone();
+    let settings = FitSettings { frames, ..settings.fit.clone() };
     if names.is_empty() {
-        let fit = FitSettings { height: heights.pop(), ..settings.fit.clone() };
+        let fit = FitSettings { height: heights.pop(), ..settings };
         return Ok(vec![FirstPerson { name: None, fit: fit_with(sequence, &fit, progress)? }]);
     }
+    let frame = frames.start.unwrap_or(0);
     let mut seen = people_in(sequence, &[frame])?.pop().unwrap_or_default();
     ensure!(
         seen.len() >= names.len(),
-        "{} people are to be tracked and {} seen apart in frame {frame}, expected a frame in which all stand by themselves: {}",
+        "{} people are to be tracked and {} seen apart in frame {frame}, expected a frame in which all stand by themselves",
         names.len(),
         match seen.len() {
             0 => "none is".to_string(),
             1 => "one is".to_string(),
             count => format!("{count} are"),
-        },
-        where_apart(sequence, names.len())?
+        }
     );
     seen.truncate(names.len());
     seen.sort_by(|a, b| b.height.total_cmp(&a.height));
@@ -311,27 +357,11 @@ fn measured(
     let people = names.iter().zip(seen).zip(heights);
     people
         .map(|((name, PersonSeen { at, .. }), height)| {
-            let fit = FitSettings { at: Some(at), height: Some(height), ..settings.fit.clone() };
+            let fit = FitSettings { at: Some(at), height: Some(height), ..settings.clone() };
             let fit = fit_with(sequence, &fit, &mut *progress).with_context(|| name.clone())?;
             Ok(FirstPerson { name: Some(name.clone()), fit })
         })
         .collect()
-}
-
-/// Says in which frame, of some that are looked at, so many people are seen apart.
-fn where_apart(sequence: &Sequence, people: usize) -> Result<String> {
-    let frames = sampled(0..sequence.frame_count.min(AMONG), LOOKED_AT);
-    let seen = people_in(sequence, &frames)?;
-    let apart = frames.iter().zip(&seen).find(|(_, seen)| seen.len() >= people);
-    Ok(apart.map_or_else(
-        || format!("none of {} that were looked at is one; another one with --frames", frames.len()),
-        |(frame, _)| {
-            format!(
-                "frame {frame} is one, with --frames {frame}..{}, and --frames {frame}.. for `pantin track`",
-                frame + 1
-            )
-        },
-    ))
 }
 
 /// The plate that was learnt for a camera.

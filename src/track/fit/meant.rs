@@ -92,6 +92,8 @@ pub struct PersonSeen {
     pub at: [f64; 2],
     /// Of the visual hull, mm.
     pub height: f64,
+    /// How many views have all of the visual hull in their pictures.
+    pub views: usize,
 }
 
 /// The people who are seen in each of some frames, which rise: those first who stand nearest to where the cameras look.
@@ -103,8 +105,12 @@ pub fn people_in(sequence: &Sequence, frames: &[usize]) -> Result<Vec<Vec<Person
     let sequence = plated.sequence.as_ref();
     let mut people = Vec::new();
     Seen::look(sequence, frames, false, &mut |_, views| {
-        let figures = figures(&sequence.cameras, views).into_iter();
-        people.push(figures.map(|figure| PersonSeen { at: figure.place.into(), height: figure.height }).collect());
+        let seen = |figure: Figure| PersonSeen {
+            at: figure.place.into(),
+            height: figure.height,
+            views: figure.whole_in(&sequence.cameras),
+        };
+        people.push(figures(&sequence.cameras, views).into_iter().map(seen).collect());
         Ok(Vec::new())
     })?;
     Ok(people)

@@ -5,6 +5,7 @@
 //! for another objective.
 
 mod again;
+mod appearing;
 mod fitter;
 mod following;
 mod meant;
@@ -17,6 +18,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 
 pub(super) use self::again::{TrackedPoses, measure_again};
+pub(super) use self::appearing::first_seen;
 pub(super) use self::following::Following;
 pub use self::meant::{PersonSeen, people_in};
 pub use self::scorer::Coverage;
@@ -71,7 +73,7 @@ impl Default for FitSettings {
     fn default() -> Self {
         Self {
             height: None,
-            frames: FrameRange { start: Some(0), end: Some(1) },
+            frames: FrameRange::one(0),
             samples: 6,
             start: None,
             at: None,

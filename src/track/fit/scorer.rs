@@ -21,13 +21,25 @@ const PRIOR: f64 = 2e-4;
 /// are white before a white floor from ending where they were last seen.
 const STATURE: f64 = 0.01;
 
-/// How well the drawn and the seen silhouettes of a view cover each other, over all frames used.
+/// How well the drawn and the seen silhouettes of a view cover each other, over all frames used; not a number where there is none to cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Coverage {
     /// Share of the seen silhouette that the model covers.
     pub seen: f64,
     /// Share of the drawn model that lies on the seen silhouette.
     pub drawn: f64,
+}
+
+impl Coverage {
+    /// Whether nobody is seen in the view, and nobody drawn.
+    pub fn is_of_nobody(&self) -> bool {
+        self.seen.is_nan() && self.drawn.is_nan()
+    }
+
+    /// Whether either share is less than `least`.
+    pub fn falls_short_of(&self, least: f64) -> bool {
+        self.seen < least || self.drawn < least
+    }
 }
 
 /// Scores poses, and bodies with their poses, against all frames used.
@@ -192,8 +204,7 @@ impl Scorer {
                     }
                 }
             }
-            let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
-            Ok(sums.into_iter().map(|[o, s, d]| Coverage { seen: share(o, s), drawn: share(o, d) }).collect())
+            Ok(sums.into_iter().map(|[o, s, d]| Coverage { seen: o / s, drawn: o / d }).collect())
         })
     }
 
