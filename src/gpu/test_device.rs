@@ -8,7 +8,7 @@
 
 use super::{Device, DeviceSettings, Instance, Validation, ValidationLog, test_turn};
 
-/// A device under full validation, when no other test has one, and its log; none where there is no Vulkan, which is a failure where PANTIN_NEEDS_VULKAN is set.
+/// A device under full validation, when no other test has such a one, and its log; none where there is no Vulkan, which is a failure where PANTIN_NEEDS_VULKAN is set.
 /// PANTIN_TEST_VALIDATION=off does without the layer, for machines that do not have it.
 pub(crate) fn device(test: &str, settings: DeviceSettings) -> Option<(Device, ValidationLog)> {
     device_under(Validation::Synchronisation, test, settings)
@@ -20,9 +20,12 @@ pub(crate) fn device_under(
     test: &str,
     settings: DeviceSettings,
 ) -> Option<(Device, ValidationLog)> {
-    test_turn::take();
     let without = std::env::var_os("PANTIN_TEST_VALIDATION").is_some_and(|value| value == "off");
-    match Instance::open(if without { Validation::Off } else { validation }) {
+    let validation = if without { Validation::Off } else { validation };
+    if validation != Validation::Off {
+        test_turn::take();
+    }
+    match Instance::open(validation) {
         Ok(instance) => Some((Device::open(&instance, settings).unwrap(), instance.validation_log())),
         Err(error) => {
             assert!(std::env::var_os("PANTIN_NEEDS_VULKAN").is_none(), "{error:#}");
