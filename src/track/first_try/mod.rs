@@ -308,10 +308,13 @@ fn measured_somewhere(
     let others = if settings.frames.is_some() { 0..count } else { 1..count };
     let why = match (first_seen(sequence, settings.heights.len(), others, progress)?, settings.frames) {
         (Some(other), None) => {
-            remarks.push(format!(
-                "{why}: measured in frame {other} instead, where {who}; what is before is not tracked from there"
-            ));
-            return Ok(Measured { people: measure(FrameRange::one(other), progress), frame: other });
+            let people = measure(FrameRange::one(other), progress);
+            if people.is_ok() {
+                remarks.push(format!(
+                    "{why}: measured in frame {other} instead, where {who}; what is before is not tracked from there"
+                ));
+            }
+            return Ok(Measured { people, frame: other });
         }
         (Some(other), Some(_)) => {
             let frames = FrameRange::one(other);
