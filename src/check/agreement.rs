@@ -284,11 +284,11 @@ fn crossing(cameras: &[Camera], moment: &Moment) -> Option<DVec3> {
 /// tell of a view only where there are no others.
 pub(super) fn percent_seen(cameras: &[Camera], moments: &[Moment], view: usize) -> f64 {
     let anybody = moments.iter().any(|moment| moment.iter().any(Option::is_some));
-    let is_due = |moment: &&Moment| match crossing(cameras, moment) {
-        _ if moment[view].is_some() => true,
+    let is_in_picture = |moment: &Moment| match crossing(cameras, moment) {
         Some(middle) => cameras[view].sees(middle),
         None => !anybody || moment.iter().any(Option::is_some),
     };
+    let is_due = |moment: &&Moment| moment[view].is_some() || is_in_picture(moment);
     let due: Vec<&Moment> = moments.iter().filter(is_due).collect();
     let seen = due.iter().filter(|moment| moment[view].is_some()).count();
     100.0 * seen as f64 / due.len().max(1) as f64

@@ -89,16 +89,17 @@ fn search(sequence: &Sequence, settings: &TrackSettings, progress: &mut dyn Prog
         };
         fit_with(sequence, &fit, advance)
     };
+    // Learnt once: who is not found at first is looked for with the same.
+    let plated = with_plates(sequence, &mut advance)?;
+    let sequence = plated.sequence.as_ref();
     let first = second_from(range.start);
     let rest = first.end..range.end;
     let mut found = match measured(sequence, first, &mut advance) {
         Ok(found) => found,
-        Err(error) => {
-            let plated = with_plates(sequence, &mut advance)?;
-            let sequence = plated.sequence.as_ref();
-            let Some(seen) = first_seen(sequence, 1, rest, &mut advance)? else { return Err(error) };
-            measured(sequence, second_from(seen), &mut advance)?
-        }
+        Err(error) => match first_seen(sequence, 1, rest, &mut advance)? {
+            Some(seen) => measured(sequence, second_from(seen), &mut advance)?,
+            None => return Err(error),
+        },
     };
     // The frames after the first have told which pose it is; what a run starts from is the first alone.
     found.poses.frames.truncate(1);
