@@ -67,13 +67,17 @@ const FARTHEST: f64 = 60.0;
 /// well where its joint is; silhouettes tell widths.
 const LIMBS: f64 = 0.5;
 const OTHERS: f64 = 0.25;
-
-/// The proportions that say where joints of limbs are.
-const OF_LIMBS: [&str; 5] = ["hip width", "upper arm", "forearm", "thigh", "calf"];
+/// Of thighs and calves: cones come nearer to clothed hips by legs that are too long, and trunks too short for it (METHOD A3).
+const LEGS: f64 = 0.125;
 
 /// Standard deviation of a proportion of a body that was measured, as a fraction.
 fn doubt(known: &Proportion) -> f64 {
-    known.deviation * if OF_LIMBS.contains(&known.name) { LIMBS } else { OTHERS }
+    let share = match known.name {
+        "hip width" | "upper arm" | "forearm" => LIMBS,
+        "thigh" | "calf" => LEGS,
+        _ => OTHERS,
+    };
+    known.deviation * share
 }
 
 /// Proportions and offsets of a person.
