@@ -16,9 +16,13 @@ const KINDS: [&str; 12] =
     ["pelvis", "hip", "knee", "ankle", "axis", "thorax", "clavicle", "shoulder", "elbow", "wrist", "head", "head_top"];
 /// What else the logarithm of the error is a sum of.
 const TERMS: [&str; 6] = ["LOOSENESS", "SUPPORT", "FITNESS", "SEEN", "SPREAD", "ONCE"];
-/// The terms, and last the factor of the ambiguity.
-const COUNT: usize = KINDS.len() + TERMS.len() + 1;
+/// Kinds and terms, in the logarithm of what a frame leaves open; then the logarithms of what bodies are off by, a kind each, mm; and last the
+/// factor of the ambiguity.
+const COUNT: usize = BODY + KINDS.len() + 1;
+const BODY: usize = KINDS.len() + TERMS.len();
 const AMBIGUITY: usize = COUNT - 1;
+/// Parts that the scenes are dealt into: each is judged by constants fitted on the others.
+const PARTS: usize = 8;
 /// Share of the joints that are to be within their expected error.
 const SHARE: f64 = 0.6827;
 /// A frame off by more than this on average is far off, and its joints should expect more than that, mm.
@@ -38,14 +42,26 @@ struct Joint {
     /// Which of [`RUNS`].
     run: usize,
     frame: usize,
-    terms: [f64; AMBIGUITY],
+    /// Index in [`KINDS`].
+    kind: usize,
+    terms: [f64; TERMS.len()],
     /// mm.
     ambiguity: f64,
     /// Logarithm of its distance from the truth, mm.
     error: f64,
 }
 
-/// The constants of [`Joint::terms`] and of the ambiguity, and of the logit of a wrong pose.
+impl Joint {
+    /// The squares that its expected error is the root of the sum of, mm: what the frame leaves open, the body, the ambiguity. `means` is
+    /// what [`TERMS`] are taken from.
+    fn squares(&self, weights: &[f64; COUNT], means: &[f64; TERMS.len()]) -> [f64; 3] {
+        let terms = self.terms.iter().zip(means).zip(&weights[KINDS.len()..]);
+        let open: f64 = weights[self.kind] + terms.map(|((term, mean), weight)| (term - mean) * weight).sum::<f64>();
+        [(2.0 * open).exp(), (2.0 * weights[BODY + self.kind]).exp(), (weights[AMBIGUITY] * self.ambiguity).powi(2)]
+    }
+}
+
+/// The constants of a joint's kind and terms, of its kind's body and of the ambiguity; and of the logit of a wrong pose.
 struct Fitted {
     weights: [f64; COUNT],
     wrong: [f64; 2],
@@ -72,14 +88,9 @@ fn descend<const N: usize>(
     at
 }
 
+/// The logarithm of a joint's expected error, mm.
 fn expected(joint: &Joint, weights: &[f64; COUNT]) -> f64 {
-    let terms: f64 = joint.terms.iter().zip(weights).map(|(term, weight)| term * weight).sum();
-    with_ambiguity(terms, weights[AMBIGUITY] * joint.ambiguity)
-}
-
-/// The logarithm of an expected error of that logarithm with so much ambiguity, mm.
-fn with_ambiguity(logarithm: f64, ambiguity: f64) -> f64 {
-    logarithm.exp().hypot(ambiguity).ln()
+    0.5 * joint.squares(weights, &[0.0; TERMS.len()]).iter().sum::<f64>().ln()
 }
 
 /// Expected errors against errors of the joints of a frame, mm.
@@ -123,32 +134,35 @@ fn area(said: &[(f64, bool)]) -> f64 {
 
 fn fit(joints: &[&Joint]) -> Fitted {
     let count = joints.len() as f64;
-    let mut means = [0.0; COUNT];
+    let mut means = [0.0; TERMS.len()];
     for joint in joints {
-        (KINDS.len()..AMBIGUITY).for_each(|i| means[i] += joint.terms[i] / count);
+        means.iter_mut().zip(joint.terms).for_each(|(mean, term)| *mean += term / count);
     }
-    let mut start = [0.0; COUNT];
-    start[AMBIGUITY] = 1.0;
     let mut errors: Vec<f64> = joints.iter().map(|joint| joint.error).collect();
     errors.sort_by(f64::total_cmp);
-    start[..KINDS.len()].fill(errors[(SHARE * count) as usize]);
-    let mut weights = descend(start, 0.03, 2500, |weights| {
+    let usual = errors[(SHARE * count) as usize];
+    let mut start = [0.0; COUNT];
+    start[..KINDS.len()].fill(usual);
+    // Half of it.
+    start[BODY..AMBIGUITY].fill(usual - 2.0_f64.ln());
+    start[AMBIGUITY] = 1.0;
+    let mut weights = descend(start, 0.03, 1500, |weights| {
         let mut slope = [0.0; COUNT];
         for joint in joints {
-            let centred = |i: usize| joint.terms[i] - means[i];
-            let terms = (0..AMBIGUITY).map(|i| centred(i) * weights[i]).sum::<f64>();
-            let ambiguity = weights[AMBIGUITY] * joint.ambiguity;
-            let missing = joint.error - with_ambiguity(terms, ambiguity);
-            let share = if missing > 0.0 { SHARE } else { SHARE - 1.0 };
-            // Of the sum of both squares, how much the terms are, and the ambiguity.
-            let of_terms = 1.0 / (1.0 + (ambiguity * (-terms).exp()).powi(2));
-            (0..AMBIGUITY).for_each(|i| slope[i] -= share * of_terms * centred(i) / count);
-            slope[AMBIGUITY] -= share * (1.0 - of_terms) / weights[AMBIGUITY].max(1e-3) / count;
+            let squares = joint.squares(weights, &means);
+            let sum: f64 = squares.iter().sum();
+            let missing = joint.error - 0.5 * sum.ln();
+            let share = (if missing > 0.0 { SHARE } else { SHARE - 1.0 }) / count;
+            let [open, body, ambiguity] = squares.map(|square| share * square / sum);
+            slope[joint.kind] -= open;
+            (0..TERMS.len()).for_each(|i| slope[KINDS.len() + i] -= open * (joint.terms[i] - means[i]));
+            slope[BODY + joint.kind] -= body;
+            slope[AMBIGUITY] -= ambiguity / weights[AMBIGUITY].max(1e-3);
         }
-        (KINDS.len()..AMBIGUITY).for_each(|i| slope[i] += 1e-3 * weights[i]);
+        (KINDS.len()..BODY).for_each(|i| slope[i] += 1e-3 * weights[i]);
         slope
     });
-    let offset: f64 = (KINDS.len()..AMBIGUITY).map(|i| means[i] * weights[i]).sum();
+    let offset: f64 = means.iter().zip(&weights[KINDS.len()..]).map(|(mean, weight)| mean * weight).sum();
     weights[..KINDS.len()].iter_mut().for_each(|constant| *constant -= offset);
     let frames = frames(joints, &weights);
     let judged: Vec<(f64, bool)> = frames.iter().map(|frame| (frame.square[0].ln(), is_wrong(frame))).collect();
@@ -181,22 +195,21 @@ fn read(track: &Path, truth: &Path, [scene, run]: [usize; 2], frame: usize, join
                 continue;
             };
             let kind = name.strip_prefix("left_").or_else(|| name.strip_prefix("right_")).unwrap_or(name);
-            let mut terms = [0.0; AMBIGUITY];
-            terms[KINDS.iter().position(|known| *known == kind).unwrap()] = 1.0;
+            let kind = KINDS.iter().position(|known| *known == kind).unwrap();
             let of = |what: &str| value(&format!("{name}.{what}")).unwrap();
             // Only who goes over the frames twice knows it.
             let ambiguity = value(&format!("{name}.ambiguity"));
-            terms[KINDS.len()..].copy_from_slice(&[
+            let terms = [
                 (of("looseness") + 5.0).ln(),
                 (1.0 - of("support")) * ((of("looseness") + 5.0) / 30.0).max(1.0).ln(),
                 1.0 - value("fitness").unwrap(),
                 1.0 - of("seen"),
                 (of("spread") + 1.0).ln(),
                 f64::from(u8::from(ambiguity.is_none())),
-            ]);
+            ];
             let error = found.distance(real).max(1.0).ln();
             let ambiguity = ambiguity.unwrap_or(0.0);
-            joints.push(Joint { scene, run, frame: frame + at, terms, ambiguity, error });
+            joints.push(Joint { scene, run, frame: frame + at, kind, terms, ambiguity, error });
         }
     }
     frame + rows.len()
@@ -230,11 +243,12 @@ fn expected_errors_hold_on_scenes_left_out() {
         }
         println!("{}: {frame} frames so far", scene.display());
     }
-    // Each scene by what the others say.
+    // Each by what the scenes of the other parts say.
     let (mut held, mut judged) = (Vec::new(), Vec::new());
-    for left_out in 0..scenes.len() {
-        let [tried, others] = [true, false]
-            .map(|is_it| -> Vec<&Joint> { joints.iter().filter(|joint| (joint.scene == left_out) == is_it).collect() });
+    for part in 0..PARTS.min(scenes.len()) {
+        let [tried, others] = [true, false].map(|is_it| -> Vec<&Joint> {
+            joints.iter().filter(|joint| (joint.scene % PARTS == part) == is_it).collect()
+        });
         let fitted = fit(&others);
         held.extend(tried.iter().map(|joint| (expected(joint, &fitted.weights), joint.error, joint.run)));
         let [constant, slope] = fitted.wrong;
@@ -270,8 +284,11 @@ fn expected_errors_hold_on_scenes_left_out() {
     draw(&folder.join("reliability.svg"), &points);
     let Fitted { weights, wrong } = fit(&joints.iter().collect::<Vec<_>>());
     println!("\nOn all scenes, for src/track/confidence/calibration.rs:");
-    KINDS.iter().zip(weights).for_each(|(kind, weight)| println!("    (\"{kind}\", {weight:.3}),"));
-    println!("OTHER_JOINT {:.3}", weights[..KINDS.len()].iter().sum::<f64>() / KINDS.len() as f64);
+    let [open, body] = [&weights[..KINDS.len()], &weights[BODY..AMBIGUITY]];
+    let line = |kind: &str, open: f64, body: f64| println!("    (\"{kind}\", {open:.3}, {:.1}),", body.exp());
+    KINDS.iter().zip(open.iter().zip(body)).for_each(|(kind, (open, body))| line(kind, *open, *body));
+    let mean = |weights: &[f64]| weights.iter().sum::<f64>() / weights.len() as f64;
+    line("another", mean(open), mean(body));
     TERMS.iter().zip(&weights[KINDS.len()..]).for_each(|(term, weight)| println!("{term} {weight:.3}"));
     println!("AMBIGUITY {:.3}", weights[AMBIGUITY]);
     println!("WRONG_AT [{:.3}, {:.3}]", wrong[0], wrong[1]);
