@@ -143,7 +143,7 @@ fn fit(joints: &[&Joint]) -> Fitted {
     let usual = errors[(SHARE * count) as usize];
     let mut start = [0.0; COUNT];
     start[..KINDS.len()].fill(usual);
-    // Half of it.
+    // Half of that for the body.
     start[BODY..AMBIGUITY].fill(usual - 2.0_f64.ln());
     start[AMBIGUITY] = 1.0;
     let mut weights = descend(start, 0.03, 1500, |weights| {
