@@ -106,7 +106,7 @@ mod tests {
         for (kind, constant, body) in JOINTS {
             let sure = expected_error(kind, &SURE, 1.0, 0.9);
             let open = constant.exp() * left_open(&SURE, 1.0, 0.9);
-            assert!((sure - open.hypot(body)).abs() < 1e-9 && (5.0..50.0).contains(&sure), "{kind}: {sure}");
+            assert!((sure - open.hypot(body)).abs() < 1e-9 && (5.0..40.0).contains(&sure), "{kind}: {sure}");
         }
         let sure = expected_error("left_elbow", &SURE, 1.0, 0.9);
         assert_eq!(sure, expected_error("right_elbow", &SURE, 1.0, 0.9));
@@ -117,6 +117,11 @@ mod tests {
         assert!((ambiguous - sure.hypot(100.0 * AMBIGUITY)).abs() < 1e-9, "{ambiguous}");
         let once = expected_error("left_elbow", &JointHints { ambiguity: None, ..SURE }, 1.0, 0.9);
         assert!(once > sure, "{once} {sure}");
+        assert_eq!(sure, expected_error("left_elbow", &JointHints { support: -0.5, ..SURE }, 1.0, 0.9), "held");
+        assert!(sure <= expected_error("left_elbow", &JointHints { seen: 0.0, ..SURE }, 1.0, 0.9));
+        for worse in [expected_error("left_elbow", &SURE, 60.0, 0.9), expected_error("left_elbow", &SURE, 1.0, 0.6)] {
+            assert!(worse > 1.05 * sure, "{worse} {sure}");
+        }
         let unknown = expected_error("tail", &SURE, 1.0, 0.9);
         assert!((5.0..100.0).contains(&unknown), "{unknown}");
         let nothing =
