@@ -9,15 +9,18 @@ use std::hint::black_box;
 
 use image::{Rgb, RgbImage};
 use pantin::bench::medians;
+use pantin::body::Body;
 use pantin::features::blobs::Components;
 use pantin::features::edges::EdgeDetector;
 use pantin::features::mixture::Mixture;
 use pantin::features::morphology::{Element, Morphology};
 use pantin::features::plate::Plate;
 use pantin::features::{
-    BitImage, DistanceMap, EdgeSettings, Extractor, FeatureSettings, Metric, Operator, Shape, ViewFeatures, ViewSource,
+    BitImage, DistanceMap, EdgeSettings, Extractor, FeatureSettings, Metric, Operator, SeenView, Shape, ViewFeatures,
+    ViewSource,
 };
 use pantin::gpu::{Device, DeviceSettings, Instance, Validation, by_name};
+use pantin::observe::{Appearance, Lesson, SeenColours};
 use table::{Table, in_a_line, is_wanted};
 
 const WIDTH: u32 = 640;
@@ -145,6 +148,12 @@ fn whole_frames() {
     let views = |count, size, plate| Views { count, size, plate, device: None };
     let mut table = Table::new("whole frames", "view");
     views(4, small, true).row(&mut table, "four views, plate", usual());
+    views(4, small, true).row(
+        &mut table,
+        "four views, plate, likelihoods",
+        FeatureSettings { likelihoods: true, ..usual() },
+    );
+    evidence(&mut table);
     views(4, small, false).row(&mut table, "four views, mixture", usual());
     let dear = with(Operator::Canny, Metric::Euclidean);
     views(4, small, true).row(&mut table, "four views, plate, canny, euclidean", dear);
@@ -172,6 +181,36 @@ fn whole_frames() {
         Err(error) => println!("SKIPPED frames on a device: {error:#}"),
     }
     table.run();
+}
+
+/// A row of the evidence of four views, of a person whose parts have eight colours.
+fn evidence(table: &mut Table<'_>) {
+    let id = "four views, evidence";
+    if !is_wanted(id) {
+        return;
+    }
+    let part = |y: u32| y * 8 / HEIGHT;
+    let mut seen = room(WIDTH, HEIGHT);
+    let mut drawn = vec![0; (WIDTH * HEIGHT) as usize];
+    for ((x, y, pixel), drawn) in seen.enumerate_pixels_mut().zip(&mut drawn) {
+        if person(x, y, WIDTH, HEIGHT) {
+            *pixel = Rgb([200, 40, 90 + 10 * part(y)].map(|channel| (channel ^ (part(y) * 0x50)) as u8));
+            *drawn = 1 + part(y) as u8;
+        }
+    }
+    let settings = FeatureSettings { likelihoods: true, ..FeatureSettings::default() };
+    let plate = Some(room(WIDTH, HEIGHT));
+    let mut extractor = Extractor::new(settings, vec![ViewSource { width: WIDTH, height: HEIGHT, plate }; 4]).unwrap();
+    let features = extractor.extract(&vec![seen; 4], &vec![None; 4]).unwrap();
+    let (mut observations, likelihoods): (Vec<_>, Vec<_>) =
+        features.into_iter().map(|view| (view.observation, view.likelihood.unwrap())).unzip();
+    let mut appearance = Appearance::new(&Body::adult(1750.0).unwrap());
+    let views = SeenView::all(&observations);
+    let lesson = Lesson { drawn: &drawn, seen: views[0], colours: SeenColours::Likely(&likelihoods[0]) };
+    appearance.learn(&[lesson], 1.0).unwrap();
+    println!("{id}: {} classes of parts", appearance.classes().count());
+    drop(views);
+    table.row(id, 4, move || appearance.give(black_box(&likelihoods), &mut observations).unwrap());
 }
 
 /// The median of each pass on the device, milliseconds.

@@ -58,6 +58,8 @@ pub(crate) struct BackgroundColours {
 pub(super) struct PictureLight {
     /// What to multiply the picture's channels with to have them in the background's light.
     dim: [f32; 3],
+    /// As it was measured, a standard deviation a channel.
+    noise: [f32; 3],
     light: Light,
 }
 
@@ -95,39 +97,36 @@ impl BackgroundColours {
         self.is_grey && pixels.all(|pixel| Luminance::of(pixel.map(f32::from)).is_grey())
     }
 
-    /// The light of a picture that is `gain` times as bright as the background, by [`Self::is_grey`]: its noise, and how much of what looks
-    /// like background is in shadow in `near`, where the person may be.
-    pub(super) fn light(
-        &self,
-        picture: &RgbImage,
-        gain: [f32; 3],
-        is_grey: bool,
-        near: Option<Region>,
-    ) -> PictureLight {
+    /// The light of a picture that is `gain` times as bright as the background, by [`Self::is_grey`]: its noise, and as many shadows as are usual.
+    pub(super) fn light(&self, picture: &RgbImage, gain: [f32; 3], is_grey: bool) -> PictureLight {
         let dim = dim(gain);
         let noise = self.noise(picture, dim);
-        let rows = || picture.as_raw().chunks_exact(self.width * 3).enumerate();
+        PictureLight { dim, noise, light: Light::new(noise, shadow_share(0, 0), is_grey) }
+    }
+
+    /// The light of a picture with how much of what looks like background is in shadow in `near`, where the person may be.
+    pub(super) fn shaded(&self, picture: &RgbImage, light: PictureLight, near: Region) -> PictureLight {
+        let PictureLight { dim, noise, light: Light { is_grey, .. } } = light;
+        let widths = widths(noise, SHADOWED, is_grey);
+        let (columns, lines) = (near.x0 as usize..near.x1 as usize, near.y0 as usize..near.y1 as usize);
+        let rows = picture.as_raw().chunks_exact(self.width * 3).enumerate();
         let (mut in_shadow, mut all) = (0, 0);
-        if let Some(near) = near {
-            let widths = widths(noise, SHADOWED, is_grey);
-            let (columns, lines) = (near.x0 as usize..near.x1 as usize, near.y0 as usize..near.y1 as usize);
-            for (y, row) in rows().take(lines.end).skip(lines.start).step_by(GRID / 2) {
-                for x in columns.clone().step_by(GRID / 2) {
-                    let at = y * self.width + x;
-                    let seen = lit(row.as_chunks::<3>().0[x], dim);
-                    let known = [self.y[at], self.b[at], self.r[at], self.inverse[at], self.log[at]];
-                    let [lit, shadow] = hypotheses(seen, known, widths[usize::from(self.slopes[at])]);
-                    if lit.max(shadow) > 0.0 {
-                        all += 1;
-                        in_shadow += u32::from(shadow > lit);
-                    }
+        for (y, row) in rows.take(lines.end).skip(lines.start).step_by(GRID / 2) {
+            for x in columns.clone().step_by(GRID / 2) {
+                let at = y * self.width + x;
+                let seen = lit(row.as_chunks::<3>().0[x], dim);
+                let known = [self.y[at], self.b[at], self.r[at], self.inverse[at], self.log[at]];
+                let [lit, shadow] = hypotheses(seen, known, widths[usize::from(self.slopes[at])]);
+                if lit.max(shadow) > 0.0 {
+                    all += 1;
+                    in_shadow += u32::from(shadow > lit);
                 }
             }
         }
-        PictureLight { dim, light: Light::new(noise, shadow_share(in_shadow, all), is_grey) }
+        PictureLight { dim, noise, light: Light::new(noise, shadow_share(in_shadow, all), is_grey) }
     }
 
-    /// [`Self::light`] for a device that counts the shadows itself.
+    /// The light of a picture for a device that counts the shadows itself.
     pub(super) fn light_tables(&self, picture: &RgbImage, gain: [f32; 3]) -> LightTables {
         let dim = dim(gain);
         LightTables::new(dim, self.noise(picture, dim), self.is_grey(picture))
@@ -163,53 +162,52 @@ impl BackgroundColours {
     pub(super) fn judge(
         &self,
         picture: &RgbImage,
-        PictureLight { dim, light }: PictureLight,
+        PictureLight { dim, light, .. }: PictureLight,
         region: Region,
         densities: &mut [i16],
     ) {
         let widths = widths(light.noise, light.shadowed, light.is_grey);
+        // A table a number, each of which stays near the processor.
+        let of_slopes = [
+            widths.each_ref().map(|widths| widths.y),
+            widths.each_ref().map(|widths| widths.c),
+            widths.each_ref().map(|widths| widths.lit),
+            widths.each_ref().map(|widths| widths.shadow),
+        ];
         let columns = region.x0 as usize..region.x1 as usize;
         let rows = picture.as_raw().chunks_exact(self.width * 3).enumerate();
         let mut channels = [const { Vec::new() }; 3];
-        let mut of_slopes = [const { Vec::new() }; 4];
         for (y, rgb) in rows.take(region.y1 as usize).skip(region.y0 as usize) {
-            split_row(&rgb[3 * columns.start..3 * columns.end], &mut channels);
+            let rgb = &rgb[3 * columns.start..3 * columns.end];
             let at = y * self.width + columns.start..y * self.width + columns.end;
-            split_widths(&widths, &self.slopes[at.clone()], &mut of_slopes);
             let known = [&self.y, &self.b, &self.r, &self.inverse, &self.log].map(|plane| &plane[at.clone()]);
-            judge_row(&channels, dim, known, &of_slopes, &mut densities[at]);
+            let slopes = &self.slopes[at.clone()];
+            judge_row(rgb, dim, (known, slopes), &of_slopes, &mut channels, &mut densities[at]);
         }
     }
 }
 
-/// The [`Widths`] of a row of slopes, a plane a number. A row's stay near the processor, where those of a picture would not.
-fn split_widths(widths: &[Widths; SLOPES], slopes: &[u8], planes: &mut [Vec<f32>; 4]) {
-    let numbers = widths.each_ref().map(|widths| [widths.y, widths.c, widths.lit, widths.shadow]);
-    for (number, plane) in planes.iter_mut().enumerate() {
-        let of_slope = numbers.each_ref().map(|numbers| numbers[number]);
-        plane.clear();
-        plane.extend(slopes.iter().map(|&slope| of_slope[usize::from(slope) % SLOPES]));
-    }
-}
-
-/// The log densities of some pixels of a row. Compiled for the wider vectors too: no operation is fused, so that every version gives
-/// the same numbers.
+/// The log densities of some pixels of a row; `channels` is room for the picture's. Compiled for the wider vectors too: no operation is fused,
+/// so that every version gives the same numbers.
 #[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
 fn judge_row(
-    channels: &[Vec<f32>; 3],
+    rgb: &[u8],
     dim: [f32; 3],
-    known: [&[f32]; 5],
-    of_slopes: &[Vec<f32>; 4],
+    (known, slopes): ([&[f32]; 5], &[u8]),
+    [wy, wc, lit, shadow]: &[[f32; SLOPES]; 4],
+    channels: &mut [Vec<f32>; 3],
     densities: &mut [i16],
 ) {
+    split_row(rgb, channels);
     let count = densities.len();
     let [red, green, blue] = channels.each_ref().map(|plane| &plane[..count]);
     let [y, b, r, inverse, log] = known.map(|plane| &plane[..count]);
-    let [wy, wc, lit, shadow] = of_slopes.each_ref().map(|plane| &plane[..count]);
+    let slopes = &slopes[..count];
     let outlier = OUTLIERS.ln();
     for at in 0..count {
         let seen = Luminance::of([red[at] * dim[0], green[at] * dim[1], blue[at] * dim[2]]);
-        let widths = Widths { y: wy[at], c: wc[at], lit: lit[at], shadow: shadow[at] };
+        let slope = usize::from(slopes[at]) % SLOPES;
+        let widths = Widths { y: wy[slope], c: wc[slope], lit: lit[slope], shadow: shadow[slope] };
         let [lit, shadow] = hypotheses(seen, [y[at], b[at], r[at], inverse[at], log[at]], widths);
         densities[at] = (lit.max(shadow).max(outlier) * LOG_STEPS) as i32 as i16;
     }
@@ -250,7 +248,7 @@ mod tests {
 
     fn judged(picture: &RgbImage) -> Vec<i16> {
         let colours = BackgroundColours::new(&plate());
-        let light = colours.light(picture, [1.0; 3], colours.is_grey(picture), None);
+        let light = colours.light(picture, [1.0; 3], colours.is_grey(picture));
         let mut densities = vec![0; 64 * 48];
         colours.judge(picture, light, Region::whole(64, 48), &mut densities);
         densities
@@ -278,7 +276,7 @@ mod tests {
         picture.put_pixel(40, 20, grey(112));
         let judged = |picture: &RgbImage| {
             let colours = BackgroundColours::new(&plate);
-            let light = colours.light(picture, [1.0; 3], colours.is_grey(picture), None);
+            let light = colours.light(picture, [1.0; 3], colours.is_grey(picture));
             let mut densities = vec![0; 64 * 48];
             colours.judge(picture, light, Region::whole(64, 48), &mut densities);
             (
@@ -304,7 +302,7 @@ mod tests {
         });
         let plate = plate();
         let colours = BackgroundColours::new(&plate);
-        let light = colours.light(&picture, [1.0; 3], colours.is_grey(&picture), None).light;
+        let light = colours.light(&picture, [1.0; 3], colours.is_grey(&picture)).light;
         let densities = judged(&picture);
         let luminance = |p: [u8; 3]| {
             let [r, g, b] = p.map(f64::from);

@@ -34,6 +34,13 @@ impl ColourBin {
     }
 }
 
+/// The bins of pixels of three bytes, compiled for the wider vectors too.
+#[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+pub(super) fn find_bins(rgb: &[u8], bins: &mut Vec<ColourBin>) {
+    bins.clear();
+    bins.extend(rgb.as_chunks::<3>().0.iter().map(|&pixel| ColourBin::of(pixel)));
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -44,6 +51,10 @@ mod tests {
         assert_eq!(ColourBin::of([15, 15, 15]).index(), 0);
         assert_eq!(ColourBin::of([16, 0, 0]).index(), 256);
         assert_eq!(ColourBin::of([0, 32, 48]).index(), 2 * 16 + 3);
+        let pixels: Vec<u8> = (0..3 * 301).map(|at| (at * 37 % 256) as u8).collect();
+        let mut bins = vec![ColourBin(9); 5];
+        find_bins(&pixels, &mut bins);
+        assert_eq!(bins, pixels.chunks(3).map(|p| ColourBin::of([p[0], p[1], p[2]])).collect::<Vec<_>>());
         assert_eq!([[0; 3], [100; 3], [255; 3], [0, 255, 0]].map(|pixel| ColourBin::of(pixel).luma()), [0, 6, 15, 9]);
         assert!(ColourBin::all().enumerate().all(|(at, bin)| bin.index() == at));
     }

@@ -8,8 +8,9 @@ use super::super::light::gains;
 use super::super::morphology::Morphology;
 use super::super::{BitImage, FeatureSettings, Region};
 use super::background::BackgroundColours;
+use super::colour::find_bins;
 use super::smooth::smooth_rows;
-use super::{ColourBin, LightTables, Likelihood, MOST_RATIO};
+use super::{LightTables, Likelihood, MOST_RATIO};
 use crate::features::shaders::LIKELIHOOD_FOREGROUND;
 
 /// Where a view's background comes from.
@@ -97,12 +98,10 @@ impl LikelySilhouette {
     ) {
         let (gain, motion) = (settings.plate.gain, settings.silhouette.motion);
         let (width, height) = picture.dimensions();
-        let pixels = picture.as_raw().as_chunks::<3>().0;
         (likelihood.width, likelihood.height, likelihood.is_masked) = (width, height, mask.is_some());
         likelihood.is_grey = false;
-        likelihood.colours.clear();
-        likelihood.colours.extend(pixels.iter().map(|&pixel| ColourBin::of(pixel)));
-        likelihood.background.resize(pixels.len(), 0);
+        find_bins(picture.as_raw(), &mut likelihood.colours);
+        likelihood.background.resize(likelihood.colours.len(), 0);
         self.foreground.resize(width, height);
         if let Some(mask) = mask {
             for (density, pixel) in likelihood.background.iter_mut().zip(mask.as_raw()) {
@@ -129,7 +128,7 @@ impl LikelySilhouette {
             let gain = if gain { gains(picture, image) } else { [1.0; 3] };
             // First as if shadows were as frequent everywhere, then round the person with those counted there.
             likelihood.is_grey = colours.is_grey(picture);
-            let mut light = colours.light(picture, gain, likelihood.is_grey, None);
+            let mut light = colours.light(picture, gain, likelihood.is_grey);
             let mut region = Region::whole(width, height);
             for pass in 0..2 {
                 colours.judge(picture, light, region, &mut likelihood.background);
@@ -138,7 +137,7 @@ impl LikelySilhouette {
                 clean(&mut self.silhouette, settings, &mut self.morphology, &mut self.components);
                 let Some(bounds) = self.silhouette.bounds().filter(|_| pass == 0) else { break };
                 region = bounds.enlarged(motion, width, height);
-                light = colours.light(picture, gain, likelihood.is_grey, Some(region));
+                light = colours.shaded(picture, light, region);
             }
         }
         let bounds = self.silhouette.bounds();
@@ -160,15 +159,23 @@ impl LikelySilhouette {
 fn threshold(likelihood: &Likelihood, flags: &mut Vec<u8>, foreground: &mut BitImage) {
     let width = likelihood.width as usize;
     flags.resize(width, 0);
-    let most = MOST_RATIO as i16;
-    let ratio = |y: usize, row: &mut [i16]| {
-        let densities = &likelihood.background[y * width..][..width];
-        row.iter_mut().zip(densities).for_each(|(ratio, &density)| *ratio = (-density).clamp(-most, most));
-    };
-    // Smoothed sums are sixteen times the ratio.
-    let least = 16 * LIKELIHOOD_FOREGROUND as i16;
+    let ratio = |y: usize, row: &mut [i16]| unlikely(&likelihood.background[y * width..][..width], row);
     smooth_rows(width, likelihood.height as usize, ratio, |y, sums| {
-        flags.iter_mut().zip(sums).for_each(|(flag, &sum)| *flag = u8::from(sum > least));
+        flag(sums, flags);
         foreground.pack_row(y, flags);
     });
+}
+
+/// By how much pixels are likelier to be of any colour than background, compiled for the wider vectors too.
+#[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn unlikely(densities: &[i16], ratios: &mut [i16]) {
+    let most = MOST_RATIO as i16;
+    ratios.iter_mut().zip(densities).for_each(|(ratio, &density)| *ratio = (-density).clamp(-most, most));
+}
+
+/// Which of the smoothed sums, sixteen times the ratio, are large enough, likewise.
+#[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn flag(sums: &[i16], flags: &mut [u8]) {
+    let least = 16 * LIKELIHOOD_FOREGROUND as i16;
+    flags.iter_mut().zip(sums).for_each(|(flag, &sum)| *flag = u8::from(sum > least));
 }

@@ -16,12 +16,7 @@ pub(crate) fn smooth_rows(
     let mut sums = vec![0_i16; width];
     let mut fill = |y: usize, row: &mut [i16]| {
         make(y, &mut raw);
-        let last = width - 1;
-        row[0] = 3 * raw[0] + raw[1.min(last)];
-        for (sum, three) in row[1..].iter_mut().zip(raw.windows(3)) {
-            *sum = three[0] + 2 * three[1] + three[2];
-        }
-        row[last] = raw[last.saturating_sub(1)] + 3 * raw[last];
+        sum_across(&raw, row);
     };
     fill(0, &mut across[1]);
     let (first, second) = across.split_at_mut(1);
@@ -34,11 +29,28 @@ pub(crate) fn smooth_rows(
             below[0].copy_from_slice(&above[1]);
         }
         let [above, here, below] = &across;
-        for (((sum, above), here), below) in sums.iter_mut().zip(above).zip(here).zip(below) {
-            *sum = above + 2 * here + below;
-        }
+        sum_down([above, here, below], &mut sums);
         take(y, &sums);
         across.rotate_left(1);
+    }
+}
+
+/// Sums of three of a row that is not empty, compiled for the wider vectors too.
+#[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn sum_across(row: &[i16], sums: &mut [i16]) {
+    let last = row.len() - 1;
+    sums[0] = 3 * row[0] + row[1.min(last)];
+    for (sum, three) in sums[1..].iter_mut().zip(row.windows(3)) {
+        *sum = three[0] + 2 * three[1] + three[2];
+    }
+    sums[last] = row[last.saturating_sub(1)] + 3 * row[last];
+}
+
+/// Sums of three rows, likewise.
+#[multiversion::multiversion(targets("x86_64+avx2+avx512f+avx512bw+avx512dq+avx512vl", "x86_64+avx2"))]
+fn sum_down([above, here, below]: [&[i16]; 3], sums: &mut [i16]) {
+    for (((sum, above), here), below) in sums.iter_mut().zip(above).zip(here).zip(below) {
+        *sum = above + 2 * here + below;
     }
 }
 

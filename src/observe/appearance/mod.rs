@@ -2,6 +2,7 @@
 
 mod classes;
 mod colours;
+mod rows;
 
 use std::sync::Arc;
 
@@ -12,7 +13,7 @@ use rayon::prelude::*;
 use self::classes::{Groups, grouped};
 use self::colours::{Colours, LogTable};
 use crate::body::Body;
-use crate::features::likelihood::{ColourBin, LOG_STEPS, MOST_RATIO as MOST, smooth_rows};
+use crate::features::likelihood::{ColourBin, MOST_RATIO as MOST, smooth_rows};
 use crate::features::{BitImage, ColourTables, Evidence, Likelihood, Observation, PartClasses, SeenView};
 
 /// The uniform share of the person's colours as a whole, and of a class's.
@@ -143,34 +144,24 @@ impl Appearance {
     fn view_evidence(&self, view: &Likelihood, ignored: Option<&BitImage>) -> Result<Evidence> {
         let (width, region) = (view.width as usize, view.region);
         let all_classes = (0..self.classes.count()).fold(0_u32, |word, class| word | 1 << (Evidence::BITS * class));
-        // Away from what may be the person nothing speaks for her, and colours are not looked up.
-        let least = LOG_STEPS as i32;
-        let far: Vec<u32> = (least..=MOST).map(|density| all_classes * code(-16 * density)).collect();
-        let far_word = |density: i16| far[(i32::from(density).clamp(least, MOST) - least) as usize];
         let columns = region.x0 as usize..region.x1 as usize;
         let mut words = vec![0; view.background.len()];
+        // Away from what may be the person colours are not looked up.
         let rows = words.chunks_exact_mut(width.max(1)).zip(view.background.chunks_exact(width.max(1)));
         for (y, (words, densities)) in rows.enumerate() {
             let inside = if (region.y0..region.y1).contains(&(y as u32)) { columns.clone() } else { width..width };
             for outside in [0..inside.start, inside.end..width] {
-                let pixels = words[outside.clone()].iter_mut().zip(&densities[outside]);
-                pixels.for_each(|(word, &density)| *word = far_word(density));
+                rows::far(&densities[outside.clone()], all_classes, &mut words[outside]);
             }
         }
-        let codes: Vec<u32> = (-16 * MOST..=16 * MOST).map(code).collect();
-        let person = self.person.values(view.is_grey);
+        let known = view.is_masked.then(|| self.person.values(view.is_grey));
         for (class, table) in self.tables.iter().enumerate() {
             let table = table.values(view.is_grey);
             let make = |y: usize, row: &mut [i16]| {
                 let at = (y + region.y0 as usize) * width;
                 let densities = &view.background[at..][..width][columns.clone()];
                 let colours = &view.colours[at..][..width][columns.clone()];
-                for ((ratio, &background), &colour) in row.iter_mut().zip(densities).zip(colours) {
-                    // Inside of a ready mask it is the person's, and only which part is asked.
-                    let known = if view.is_masked && background < 0 { i32::from(person[colour.index()]) } else { 0 };
-                    *ratio =
-                        (i32::from(table[colour.index()]) - known - i32::from(background)).clamp(-MOST, MOST) as i16;
-                }
+                rows::ratios(densities, colours, table, known, row);
                 if let Some(ignored) = ignored {
                     for (x, ratio) in (region.x0..).zip(row) {
                         if ignored.get(x, y as u32 + region.y0) {
@@ -181,9 +172,7 @@ impl Appearance {
             };
             let take = |y: usize, sums: &[i16]| {
                 let at = (y + region.y0 as usize) * width;
-                for (word, &sum) in words[at..][..width][columns.clone()].iter_mut().zip(sums) {
-                    *word |= codes[(i32::from(sum) + 16 * MOST) as usize] << (Evidence::BITS * class);
-                }
+                rows::put(sums, class, &mut words[at..][..width][columns.clone()]);
             };
             smooth_rows(region.width() as usize, region.height() as usize, make, take);
         }
@@ -194,25 +183,10 @@ impl Appearance {
     }
 }
 
-/// The code of sixteen times a ratio in steps.
-#[inline]
-fn code(sum: i32) -> u32 {
-    // 7 codes for 5 units, of 16 LOG_STEPS each.
-    (((sum * 7 + 8 * MOST) >> 4).div_euclid(MOST) + Evidence::NEUTRAL as i32).clamp(0, Evidence::MOST as i32) as u32
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::features::{Region, evidence};
-
-    #[test]
-    fn codes_are_rounded_ratios() {
-        for ratio in -330..=330_i32 {
-            let expected = (f64::from(ratio) / 64.0 * 1.4 + 7.0 + 0.5).floor().clamp(0.0, 14.0) as u32;
-            assert_eq!(code(16 * ratio), expected, "{ratio}");
-        }
-    }
 
     /// A picture of 12 x 8 pixels: red left, blue right, both unlike the background, which shows in the last two rows.
     fn seen() -> Likelihood {
