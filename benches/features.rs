@@ -205,11 +205,10 @@ fn evidence(table: &mut Table<'_>) {
     let (mut observations, likelihoods): (Vec<_>, Vec<_>) =
         features.into_iter().map(|view| (view.observation, view.likelihood.unwrap())).unzip();
     let mut appearance = Appearance::new(&Body::adult(1750.0).unwrap());
-    let views = SeenView::all(&observations);
-    let lesson = Lesson { drawn: &drawn, seen: views[0], colours: SeenColours::Likely(&likelihoods[0]) };
+    let seen = SeenView::all(&observations)[0];
+    let lesson = Lesson { drawn: &drawn, seen, colours: SeenColours::Likely(&likelihoods[0]) };
     appearance.learn(&[lesson], 1.0).unwrap();
     println!("{id}: {} classes of parts", appearance.classes().count());
-    drop(views);
     table.row(id, 4, move || appearance.give(black_box(&likelihoods), &mut observations).unwrap());
 }
 
