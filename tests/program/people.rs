@@ -139,9 +139,10 @@ fn two_people_are_followed_past_each_other() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     write(folder, 12, Body::clone);
-    // One seed says little: the six of them gave 1.15 to 1.49 times the error where each was followed alone.
+    // One seed says little: twelve of them gave 0.95 to 1.51 times the error where each was followed alone, 1.21 on average with a standard error
+    // of 0.05; nothing gained would be 1.
     let mut sums = [0.0; 2];
-    for seed in 1..=6 {
+    for seed in 1..=12 {
         let with = ["--seed", &seed.to_string()];
         let together = errors(&track(folder, "sequence.toml", &format!("together_{seed}"), &with));
         // Where they go wrong alone they would be called lost, and what is lost counts in no error.
@@ -154,7 +155,7 @@ fn two_people_are_followed_past_each_other() {
         sums = [sums[0] + alone.iter().sum::<f64>(), sums[1] + together.iter().sum::<f64>()];
     }
     let [alone, together] = sums;
-    assert!(alone > 1.2 * together, "{alone} alone, {together} together");
+    assert!(alone > 1.1 * together, "{alone} alone, {together} together");
 
     let run = "together_1";
     // A folder each, with everything; gone on with, the same bytes, whoever was further.
