@@ -4,6 +4,7 @@ use anyhow::{Result, ensure};
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
+use super::sight::pixel;
 use crate::features::SeenView;
 use crate::geometry::Camera;
 
@@ -72,16 +73,7 @@ impl Hull {
 pub(super) fn is_person(cameras: &[Camera], views: &[SeenView<'_>], at: DVec3) -> bool {
     let mut seen = 0;
     for (camera, view) in cameras.iter().zip(views) {
-        let Some(pixel) = camera.project(at) else { continue };
-        let [width, height] = view.size();
-        let (x, y) = (pixel.x.round(), pixel.y.round());
-        if x < 0.0 || y < 0.0 || x >= f64::from(width) || y >= f64::from(height) {
-            continue;
-        }
-        let place = y as usize * width as usize + x as usize;
-        if view.ignores(place) {
-            continue;
-        }
+        let Some((_, place)) = pixel(camera, *view, at) else { continue };
         if !view.is_person(place) {
             return false;
         }

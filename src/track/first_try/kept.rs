@@ -65,7 +65,7 @@ impl Kept {
             keys.retain(|key, _| !OWN_OF_VIEW.contains(&key));
             kept.views.push(KeptView { camera, keys, plate });
         }
-        table.retain(|key, _| !OWN.contains(&key));
+        table.retain(|key, value| !OWN.contains(&key) && !is_usual(key, value));
         kept.whole = table;
         Ok(kept)
     }
@@ -156,7 +156,45 @@ impl Kept {
     }
 }
 
+/// Whether a key says what is written where it is missing.
+fn is_usual(key: &str, value: &Value) -> bool {
+    key == "measure_again" && value.as_bool() == Some(true)
+}
+
 /// The name of a camera's plate that is learnt, seen from the manifest.
 pub(super) fn learnt_plate(camera: &str) -> String {
     format!("plates/{}.png", file_stem(camera))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is said of a manifest's `whole` keys and those of its only `view`, whose camera is there.
+    fn remark(whole: &str, view: &str) -> Option<String> {
+        let folder = tempfile::tempdir().unwrap();
+        let manifest = folder.path().join("sequence.toml");
+        let own = "name = \"walk\"\nfps = 25.0\ncameras = \"cameras.toml\"\nbody = \"body.toml\"\nheight = 1750";
+        let seen = "camera = \"c1\"\nsource = \"c1.mp4\"\nbackground = \"plates/c1.png\"\nbackground_doubtful = 2.0";
+        std::fs::write(&manifest, format!("{own}\n{whole}\n[[view]]\n{seen}\n{view}\n")).unwrap();
+        let camera = Camera { name: "c1".to_string(), ..crate::track::fit_tests::cameras_around().remove(0) };
+        Kept::read(&manifest, 1).unwrap().remark(&[camera], &[])
+    }
+
+    #[test]
+    fn what_is_written_anyway_is_not_said_to_be_kept() {
+        assert_eq!(remark("", ""), None);
+        assert_eq!(remark("measure_again = true", ""), None);
+    }
+
+    #[test]
+    fn what_a_user_wrote_is_named() {
+        let said = remark(
+            "measure_again = false\ntimestamps = \"ignore\"\n[features.shadow]\nchroma = 5",
+            "ignore = \"desk.png\"",
+        );
+        let said = said.unwrap();
+        assert!(said.contains("`measure_again`") && said.contains("`timestamps`"), "{said}");
+        assert!(said.contains("[features]") && said.contains("`ignore` of camera \"c1\""), "{said}");
+    }
 }
