@@ -24,6 +24,8 @@ const GLIMPSE: usize = 8;
 /// and not starts: a person turned by half fits nearly as well at first, and only when settled worse.
 const SURVIVORS: usize = 4;
 const NARROWING: [f32; 3] = [3.0, 2.0, 1.0];
+/// How far from where somebody of her size is the hull may hold her, mm: whoever is farther off is somebody else, however well he fits.
+const NEAR: f32 = 500.0;
 /// While the person stays lost, the hull is searched at a distance of 1, 2, 4, … frames, at most this.
 const LONGEST_WAIT: usize = 16;
 
@@ -85,7 +87,8 @@ impl Recovery {
 
     /// Searches wider; replaces `found` by what fits better, if anything does. `is_sure` says whether what was found would
     /// count as a find: that is always compared with what else the hull holds, since a person turned by half agrees nearly
-    /// as well.
+    /// as well. `is_there` says whether somebody of her size is where she was found: then the hull is searched for how she is held, not for
+    /// others.
     ///
     /// # Errors
     /// When the evaluator or `is_sure` fails.
@@ -94,6 +97,7 @@ impl Recovery {
         mut frame: LostFrame<'_>,
         found: &mut Searched,
         is_sure: &dyn Fn(&mut dyn Evaluator, &Searched) -> Result<bool>,
+        is_there: &dyn Fn(&Searched) -> bool,
     ) -> Result<()> {
         let mut searches = 0;
         if let Some(sure) = &self.sure {
@@ -109,6 +113,7 @@ impl Recovery {
         let Some(hull) = is_turn.then(|| Hull::carve_coarsely(&self.cameras, frame.views).ok()).flatten() else {
             return Ok(());
         };
+        let place = is_there(found).then(|| found.estimate.pose.clone());
         let steps = self.space.spread(1.0 / 25.0)?;
         let scaled = |factor: f32| -> Vec<f32> { steps.iter().map(|step| step * factor).collect() };
         let mut starts = Vec::with_capacity(HEADINGS);
@@ -132,9 +137,19 @@ impl Recovery {
                 let next = self.around(&mut frame, &centre, &spread, iterations, &mut searches)?;
                 start = Estimate { evaluations: start.evaluations + next.evaluations, ..next };
             }
+            if place.as_ref().is_some_and(|place| self.distance(place, &start.pose) >= NEAR) {
+                found.estimate.evaluations += start.evaluations;
+                continue;
+            }
             self.keep_better(&mut frame, found, start)?;
         }
         Ok(())
+    }
+
+    /// How far apart two poses stand, mm.
+    fn distance(&self, one: &[f32], other: &[f32]) -> f32 {
+        let [x, y] = [0, 1].map(|axis| self.root[axis].map_or(0.0, |place| one[place] - other[place]));
+        x.hypot(y)
     }
 
     /// A swarm around a pose. Each search of a frame has random numbers of its own.

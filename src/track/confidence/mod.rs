@@ -1,5 +1,6 @@
 //! How far a frame's pose and each of its joints can be trusted, and whether the person is lost.
 
+mod alone;
 mod calibration;
 mod hints;
 mod levers;
@@ -9,6 +10,7 @@ use self::levers::Levers;
 use super::FrameResult;
 use crate::body::Body;
 
+pub(super) use self::alone::terms_alone;
 pub use self::calibration::WRONG;
 pub use self::hints::JointHints;
 pub(super) use self::hints::JointProbe;
@@ -138,7 +140,7 @@ impl Confidence {
         let mean = f1().sum::<f64>() / result.views.len().max(1) as f64;
         let balance = if mean > 0.0 { (f1().fold(f64::INFINITY, f64::min) / mean).clamp(0.0, 1.0).sqrt() } else { 0.0 };
         let position_spread = root_mean_square(&result.spread, &self.root);
-        let agreement = self.agreement(result);
+        let agreement = self.agreement(&result.views);
         let spreads = self.spreads(result);
         let (sigmas, wrong) = self.expected(result, &spreads, agreement);
         let joints = spreads.into_iter().zip(&result.joints).zip(sigmas);
@@ -177,9 +179,14 @@ impl Confidence {
 
     /// Whether the next frame would be a loss with this result, without taking note of it.
     pub(super) fn is_loss_at(&self, result: &FrameResult) -> bool {
-        let agreement = self.agreement(result);
+        let agreement = self.agreement(&result.views);
         let (_, wrong) = self.expected(result, &self.spreads(result), agreement);
         self.is_loss(agreement, wrong)
+    }
+
+    /// Whether somebody of her size is where the next frame would be with these terms, one pair a view, however she is held.
+    pub(super) fn is_there(&self, views: &[[f32; 2]]) -> bool {
+        self.agreement(views) >= self.rule.lost_below
     }
 
     fn is_loss(&self, agreement: f64, wrong: f64) -> bool {
@@ -204,12 +211,12 @@ impl Confidence {
         }
     }
 
-    fn agreement(&self, result: &FrameResult) -> f64 {
+    fn agreement(&self, views: &[[f32; 2]]) -> f64 {
         if self.sure_frames == 0 {
             // Nothing to compare with: any match at all is a beginning.
-            return if result.views.iter().any(|view| view_term(view) > 0.0) { 1.0 } else { 0.0 };
+            return if views.iter().any(|view| view_term(view) > 0.0) { 1.0 } else { 0.0 };
         }
-        let views = result.views.iter().zip(&self.references).filter(|(_, reference)| **reference > 0.0);
+        let views = views.iter().zip(&self.references).filter(|(_, reference)| **reference > 0.0);
         let mut ratios: Vec<f64> = views.map(|(view, reference)| (view_term(view) / reference).min(1.0)).collect();
         ratios.sort_by(f64::total_cmp);
         let counted = &ratios[usize::from(ratios.len() >= SPARE_VIEWS)..];
@@ -306,6 +313,7 @@ mod tests {
         assert!(judged(&[0.0; 4]), "nobody there");
         assert!(judged(&[0.5, 0.45, 0.5, 0.45]), "not yet sure again");
         assert!(!judged(&[0.9, 0.8, 0.9, 0.8]), "back");
+        assert!(confidence.is_there(&[[0.8, 0.5]; 4]) && !confidence.is_there(&[[0.3, 0.5]; 4]));
         // Half the fitness is the normal of another track: only the change counts.
         let mut poor = self::confidence();
         for _ in 0..10 {

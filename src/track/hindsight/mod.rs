@@ -34,7 +34,7 @@ use self::team::{Team, side_by_side};
 use self::watch::{Stopped, Watch};
 use self::window::{Seen, Windows};
 use super::appearance::RunAppearance;
-use super::confidence::JointProbe;
+use super::confidence::{JointProbe, terms_alone};
 use super::feed::Frames;
 use super::journal::FrameResult;
 use super::plan::Plan;
@@ -149,7 +149,7 @@ fn result(
     Ok(FrameResult {
         frame: settled.frame,
         fitness: fitness[0],
-        views: views.iter().map(|view| objective.view_terms(view)).collect(),
+        views: terms_alone(objective, &views),
         joints: probe.ask(evaluator, objective, &SeenView::all(observations), &settled.pose)?,
         pose: settled.pose.clone(),
         // Searches from neighbours on are narrow whatever the pictures say: how sure they are the first one tells.

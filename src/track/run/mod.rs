@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, anyhow};
 
 use super::appearance::RunAppearance;
-use super::confidence::{Confidence, FrameConfidence, JointProbe, LossRule};
+use super::confidence::{Confidence, FrameConfidence, JointProbe, LossRule, terms_alone};
 use super::feed::{Frames, Prepared};
 use super::hindsight::{Delayed, LimbSearch, SearchedFrame, TimeLeft};
 use super::journal::{FrameResult, Journal};
@@ -414,7 +414,7 @@ impl<'a> Run<'a> {
                 frame,
                 fitness: searched.estimate.fitness,
                 spread: searched.estimate.spread.clone(),
-                views: searched.views.iter().map(|view| objective.view_terms(view)).collect(),
+                views: terms_alone(objective, &searched.views),
                 joints: probe.ask(evaluator, objective, &views, &pose)?,
                 pose,
             })
@@ -428,9 +428,10 @@ impl<'a> Run<'a> {
             let is_sure = |evaluator: &mut dyn Evaluator, searched: &Searched| -> Result<bool> {
                 Ok(!self.confidence.is_loss_at(&result(evaluator, searched)?))
             };
+            let is_there = |searched: &Searched| self.confidence.is_there(&terms_alone(objective, &searched.views));
             let lost =
                 LostFrame { evaluator: &mut *evaluator, objective, views: &views, number: counter, spread: &steps };
-            recovery.search(lost, &mut searched, &is_sure).with_context(in_frame)?;
+            recovery.search(lost, &mut searched, &is_sure, &is_there).with_context(in_frame)?;
             searched.evaluations.push(Span::since(begin));
             found = result(evaluator, &searched).with_context(in_frame)?;
             searched.passes.extend(evaluator.device_passes());
