@@ -36,7 +36,7 @@ mod tests {
 
     #[test]
     fn who_comes_by_changes_little_and_who_is_gone_is_gone() {
-        let objective = Objective::default();
+        let objective = Objective::of(ObjectiveKind::Evidence);
         let term = |components, evidence| terms_alone(&objective, &[ViewCounts { components, evidence }])[0];
         let by_herself = term(HERS, evidence(6000, 7700));
         assert_eq!(by_herself, objective.view_terms(&ViewCounts { components: HERS, evidence: evidence(6000, 7700) }));
