@@ -1,4 +1,4 @@
-//! What views would say of somebody who is alone in them: whoever comes by is no reason to take her for lost (METHOD A13).
+//! What views would say of somebody who is alone in them: whoever comes by is no reason to take her for lost (METHOD A8).
 
 use crate::evaluate::{EvidenceSum, Objective, ViewCounts};
 
@@ -57,7 +57,7 @@ mod tests {
         let term = |components| terms_alone(&objective, &[ViewCounts { components, evidence: None }])[0][0];
         let (by_herself, beside) = (term(HERS), term(Components { area_obs: 2400, ..HERS }));
         assert!((0.9..1.0).contains(&(beside / by_herself)), "{beside} and {by_herself}");
-        // Of somebody drawn much too small most is missed.
+        // Who is drawn much too small matches worse than who is drawn as large as she is.
         let crouching = term(Components { area_model: 400, overlap: 400, ..HERS });
         assert!(crouching < term(Components { area_model: 1000, overlap: 1000, ..HERS }), "{crouching}");
         assert_eq!(term(Components::default()), 0.0);
