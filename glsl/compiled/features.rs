@@ -599,7 +599,7 @@ pub mod difference_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "features/difference.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<2089, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<2106, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/features/difference.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 36,
@@ -904,7 +904,7 @@ pub mod likely_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "features/likely.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<3141, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<3199, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/features/likely.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 16,
@@ -1400,7 +1400,7 @@ pub mod shadowed_comp {
     pub static SHADER: crate::gpu::Shader = crate::gpu::Shader {
         name: "features/shadowed.comp",
         kind: crate::gpu::ShaderKind::Compute,
-        spirv: &crate::gpu::words::<2513, _>(include_bytes!(concat!(
+        spirv: &crate::gpu::words::<2571, _>(include_bytes!(concat!(
             env!("CARGO_MANIFEST_DIR"), "/glsl/compiled/features/shadowed.comp.spv"))),
         workgroup_size: [64, 1, 1],
         push_size: 16,

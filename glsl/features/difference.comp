@@ -47,7 +47,9 @@ void main() {
         uint at = 3u * (y * push.width + x);
         vec3 seen = vec3(float(colour_byte(at)), float(colour_byte(at + 1u)), float(colour_byte(at + 2u)));
         vec3 gain = vec3(float(gains[0]), float(gains[1]), float(gains[2])) * 0.0078125;
-        precise vec3 background = vec3(float(plate_byte(at)), float(plate_byte(at + 1u)), float(plate_byte(at + 2u))) * gain;
+        precise vec3 lit = vec3(float(plate_byte(at)), float(plate_byte(at + 1u)), float(plate_byte(at + 2u))) * gain;
+        // What would be brighter than white is white.
+        vec3 background = min(lit, vec3(255.0));
         precise vec3 apart = seen - background;
         float distance_squared = product(apart, apart);
         bool differs = push.suppress == 0u || !covers(seen, background, push.darkest, push.brightest, push.chroma_squared);

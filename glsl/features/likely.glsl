@@ -70,7 +70,10 @@ uint slope_of(uint pixel) {
 vec2 hypotheses(uvec3 colour, uint pixel, Widths widths) {
     precise vec3 dimmed = vec3(colour) * vec3(light.dim[0], light.dim[1], light.dim[2]);
     vec3 seen = luminance(dimmed);
-    vec3 known = luminance(vec3(plate_byte(3u * pixel), plate_byte(3u * pixel + 1u), plate_byte(3u * pixel + 2u)));
+    vec3 behind = vec3(plate_byte(3u * pixel), plate_byte(3u * pixel + 1u), plate_byte(3u * pixel + 2u));
+    // What would be brighter than white is white in the picture.
+    precise vec3 most = 255.0 * vec3(light.dim[0], light.dim[1], light.dim[2]);
+    vec3 known = luminance(min(behind, most));
     float inverse = quotient(1.0, max(known.x, 4.0));
     precise vec3 off = seen - known;
     precise float lit = widths.lit - 0.5 * (off.x * off.x * widths.y + (off.y * off.y + off.z * off.z) * widths.c);

@@ -115,7 +115,8 @@ fn flag_row(
     let [least_weak, least_strong, least_faint] =
         [settings.weak, settings.strong, settings.faint].map(|distance| distance * distance);
     for ((((&pr, &pg), &pb), ((&r, &g), &b)), ((weak, strong), faint)) in plate.zip(seen).zip(flags) {
-        let background = [pr * gain[0], pg * gain[1], pb * gain[2]];
+        // What would be brighter than white is white.
+        let background = [(pr * gain[0]).min(255.0), (pg * gain[1]).min(255.0), (pb * gain[2]).min(255.0)];
         let (dr, dg, db) = (r - background[0], g - background[1], b - background[2]);
         let distance = dr * dr + dg * dg + db * db;
         let differs = !shadow.covers([r, g, b], background);
@@ -206,6 +207,10 @@ mod tests {
         let covered = |flags: &[u8]| flags.iter().map(|&flag| usize::from(flag)).sum::<usize>();
         assert_eq!(covered(&flags(&mut plate, &picture, found).0), 26 * 60);
         assert!(covered(&flags(&mut plate, &picture, [1.0; 3]).0) > 26 * 60, "the gain was needed");
+        // Brighter than white is white.
+        let mut wall = Plate::new(RgbImage::from_pixel(4, 4, Rgb([220, 200, 90])));
+        let white = RgbImage::from_pixel(4, 4, Rgb([255, 255, 171]));
+        assert_eq!(covered(&flags(&mut wall, &white, [1.9; 3]).0), 0);
     }
 
     #[test]

@@ -40,15 +40,21 @@ enum What {
     Bystander,
     /// They show the same as all frames at the end of the walk shifted by as many: a cut, after which the person is elsewhere.
     Cut(usize),
+    /// They show what they showed in the first of these frames: the camera stands still.
+    Stopped,
+    /// They are so many times as bright: somebody turned the light up, or the camera did.
+    Brighter(f32),
 }
 
-const SCRIPTS: [Script; 6] = [
+const SCRIPTS: [Script; 8] = [
     Script { name: "undisturbed", frames: 0..0, cameras: &[], what: What::Empty },
     Script { name: "leaves and returns", frames: 30..50, cameras: &CAMERAS, what: What::Empty },
     Script { name: "camera off", frames: 30..60, cameras: &["cam2"], what: What::Black },
     Script { name: "three cameras off", frames: 30..50, cameras: &["cam1", "cam2", "cam3"], what: What::Empty },
     Script { name: "bystander", frames: 20..70, cameras: &CAMERAS, what: What::Bystander },
     Script { name: "cut", frames: 40..65, cameras: &CAMERAS, what: What::Cut(25) },
+    Script { name: "camera stopped", frames: 30..60, cameras: &["cam2"], what: What::Stopped },
+    Script { name: "light turned up", frames: 30..90, cameras: &CAMERAS, what: What::Brighter(1.4) },
 ];
 
 fn pantin(arguments: &[&str]) {
@@ -80,11 +86,18 @@ fn play(script: &Script, walk: &Path, together: &Path, folder: &Path, frames: us
         for frame in 0..frames {
             let picture = |frame: usize| format!("frames/{camera}_{frame:04}.png");
             let is_hit = script.frames.contains(&frame) && script.cameras.contains(&camera);
+            if let (What::Brighter(gain), true) = (&script.what, is_hit) {
+                let mut seen = image::open(walk.join(picture(frame))).unwrap().to_rgb8();
+                seen.iter_mut().for_each(|value| *value = (f32::from(*value) * gain).round() as u8);
+                seen.save(folder.join(picture(frame))).unwrap();
+                continue;
+            }
             let from = match &script.what {
                 What::Empty if is_hit => walk.join(&plate),
                 What::Black if is_hit => black.clone(),
                 What::Bystander if is_hit => together.join(picture(frame)),
                 What::Cut(shift) if is_hit => walk.join(picture(frame + shift)),
+                What::Stopped if is_hit => walk.join(picture(script.frames.start)),
                 _ => walk.join(picture(frame)),
             };
             fs::copy(from, folder.join(picture(frame))).unwrap();
@@ -216,6 +229,24 @@ fn who_comes_by_is_neither_a_loss_nor_taken_for_her() {
         assert_eq!(state, "sure", "frame {frame}");
         let off = off_by(&joints, frame, &truth, frame).unwrap();
         assert!(off < OFF, "frame {frame} is {off} mm off");
+    }
+}
+
+/// The light is turned up from one frame to the next, so far that half of the room is white in the pictures.
+#[test]
+fn who_is_seen_in_another_light_is_not_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let [walk, played, output] = ["walk", "played", "track"].map(|name| folder.path().join(name));
+    make(&walk, 16, "");
+    let script = Script { name: "", frames: 8..16, cameras: &CAMERAS, what: What::Brighter(1.4) };
+    play(&script, &walk, &walk, &played, 16);
+    track(&played, &output, 1, ["100", "8"], "yes");
+    let truth = read_points(&walk.join("truth.trc")).unwrap();
+    let joints = read_points(&output.join("joints.csv")).unwrap();
+    for (frame, state) in column(&output, "state").iter().enumerate() {
+        assert_eq!(state, "sure", "frame {frame}");
+        let off = off_by(&joints, frame, &truth, frame).unwrap();
+        assert!(off < 60.0, "frame {frame} is {off} mm off");
     }
 }
 

@@ -1,5 +1,7 @@
 //! The density of a pixel's colour as background: lit as it is known, in shadow or a reflection, or neither (METHOD A12).
 
+use std::sync::Arc;
+
 use image::RgbImage;
 
 use super::super::Region;
@@ -37,6 +39,9 @@ const LEAST_NOISE: [f32; 3] = [1.5, 1.0, 1.0];
 const DEVIATION: f32 = 1.4826;
 /// A camera sees in grey where no pixel's differences are larger than this, grey levels.
 const GREY: f32 = 2.5;
+/// The largest value of a channel.
+const WHITE: f32 = 255.0;
+
 /// The background's colours in one view, a plane a number.
 #[derive(Clone, Debug)]
 pub(crate) struct BackgroundColours {
@@ -46,9 +51,9 @@ pub(crate) struct BackgroundColours {
     r: Vec<f32>,
     /// 1 / luma and its logarithm, luma at least 4.
     inverse: Vec<f32>,
-    log: Vec<f32>,
+    log: Arc<[f32]>,
     /// The change of luma to the neighbours, grey levels.
-    slopes: Vec<u8>,
+    slopes: Arc<[u8]>,
     /// Whether there is no colour in it.
     is_grey: bool,
 }
@@ -86,9 +91,32 @@ impl BackgroundColours {
             r: colours.iter().map(|colour| colour.r).collect(),
             inverse: bright().map(|bright| 1.0 / bright).collect(),
             log: bright().map(f32::ln).collect(),
-            slopes,
+            slopes: slopes.into(),
             is_grey: colours.iter().all(Luminance::is_grey),
         }
+    }
+
+    /// The colours that a camera can tell in a picture which is `gain` times as bright as this background of `plate`: what would be brighter than
+    /// white is white there. None where that is nothing.
+    pub(super) fn overexposed(&self, plate: &RgbImage, gain: [f32; 3]) -> Option<Self> {
+        let most = dim(gain).map(|dim| WHITE * dim);
+        let pixels = || plate.as_raw().as_chunks::<3>().0.iter().map(|pixel| pixel.map(f32::from));
+        let is_over = |pixel: [f32; 3]| pixel.iter().zip(most).any(|(value, most)| *value > most);
+        if most.iter().all(|most| *most >= WHITE) || !pixels().any(is_over) {
+            return None;
+        }
+        let colours: Vec<Luminance> =
+            pixels().map(|pixel| Luminance::of([0, 1, 2].map(|channel| pixel[channel].min(most[channel])))).collect();
+        Some(Self {
+            width: self.width,
+            y: colours.iter().map(|colour| colour.y).collect(),
+            b: colours.iter().map(|colour| colour.b).collect(),
+            r: colours.iter().map(|colour| colour.r).collect(),
+            inverse: colours.iter().map(|colour| 1.0 / colour.y.max(4.0)).collect(),
+            log: Arc::clone(&self.log),
+            slopes: Arc::clone(&self.slopes),
+            is_grey: self.is_grey,
+        })
     }
 
     /// Whether there is no colour in a picture and the background.
@@ -180,7 +208,7 @@ impl BackgroundColours {
         for (y, rgb) in rows.take(region.y1 as usize).skip(region.y0 as usize) {
             let rgb = &rgb[3 * columns.start..3 * columns.end];
             let at = y * self.width + columns.start..y * self.width + columns.end;
-            let known = [&self.y, &self.b, &self.r, &self.inverse, &self.log].map(|plane| &plane[at.clone()]);
+            let known = [&*self.y, &self.b, &self.r, &self.inverse, &self.log].map(|plane: &[f32]| &plane[at.clone()]);
             let slopes = &self.slopes[at.clone()];
             judge_row(rgb, dim, (known, slopes), &of_slopes, &mut channels, &mut densities[at]);
         }
@@ -265,6 +293,33 @@ mod tests {
         assert!((11.0..13.0).contains(&at(5, 5)), "{}", at(5, 5));
         assert!(at(40, 30) > 4.0, "a shadow: {}", at(40, 30));
         assert!((at(20, 20) - OUTLIERS.ln()).abs() < 0.05, "neither: {}", at(20, 20));
+    }
+
+    /// A wall that turns white where the light is turned up is the wall, and a dark thing before it is not.
+    #[test]
+    fn an_overexposed_background_is_background() {
+        let wall = |x: u32, y: u32| if x < 20 { [230, 200, 190] } else { [(100 + x) as u8, (100 + y) as u8, 90] };
+        let plate = RgbImage::from_fn(64, 48, |x, y| image::Rgb(wall(x, y)));
+        let mut picture = plate.clone();
+        picture.put_pixel(40, 20, image::Rgb([90, 60, 50]));
+        picture.iter_mut().for_each(|value| *value = (f32::from(*value) * 1.5).round() as u8);
+        assert_eq!(picture.pixels().filter(|pixel| pixel.0 == [255; 3]).count(), 20 * 48);
+        let known = BackgroundColours::new(&plate);
+        let judged = |colours: &BackgroundColours| {
+            let light = colours.light(&picture, [1.5; 3], false);
+            let mut densities = vec![0; 64 * 48];
+            colours.judge(&picture, light, Region::whole(64, 48), &mut densities);
+            let surely_not = densities.iter().filter(|density| **density < 0).count();
+            (f32::from(densities[20 * 64 + 40]) / LOG_STEPS, surely_not)
+        };
+        let colours = known.overexposed(&plate, [1.5; 3]).unwrap();
+        let (thing, others) = judged(&colours);
+        assert!(thing < -5.0 && others == 1, "{thing}, {others}");
+        assert!(judged(&known).1 > 19 * 48, "the white wall is another colour by the plate as it is");
+        // Nothing turns white in the light of the plate, in less, or where all is dark.
+        assert!([1.0, 0.7].iter().all(|gain| known.overexposed(&plate, [*gain; 3]).is_none()));
+        let dark = RgbImage::from_pixel(64, 48, image::Rgb([100; 3]));
+        assert!(BackgroundColours::new(&dark).overexposed(&dark, [2.0; 3]).is_none());
     }
 
     #[test]

@@ -78,7 +78,7 @@ impl LikelySilhouette {
     pub(crate) fn lit(&self, picture: &RgbImage, learnt: Option<&RgbImage>, settings: &FeatureSettings) -> Option<Lit> {
         let tables = |image: &RgbImage, colours: &BackgroundColours| {
             let gain = if settings.plate.gain { gains(picture, image) } else { [1.0; 3] };
-            colours.light_tables(picture, gain)
+            colours.overexposed(image, gain).as_ref().unwrap_or(colours).light_tables(picture, gain)
         };
         if let Known::Plate { image, colours } = &self.known {
             return Some(Lit { tables: tables(image, colours), learnt: None });
@@ -126,6 +126,8 @@ impl LikelySilhouette {
                 }
             };
             let gain = if gain { gains(picture, image) } else { [1.0; 3] };
+            let overexposed = colours.overexposed(image, gain);
+            let colours = overexposed.as_ref().unwrap_or(colours);
             // First as if shadows were as frequent everywhere, then round the person with those counted there.
             likelihood.is_grey = colours.is_grey(picture);
             let mut light = colours.light(picture, gain, likelihood.is_grey);
