@@ -143,6 +143,18 @@ fn track(sequence: &Path, output: &Path, seed: usize, budget: [&str; 2], recover
     pantin(&[&["track", sequence, "-o", output], &search[..], &rest[..]].concat());
 }
 
+/// That a track is sure of every frame of the walk, and off by less than that in it, mm.
+#[track_caller]
+fn assert_followed(output: &Path, walk: &Path, most: f64) {
+    let truth = read_points(&walk.join("truth.trc")).unwrap();
+    let joints = read_points(&output.join("joints.csv")).unwrap();
+    for (frame, state) in column(output, "state").iter().enumerate() {
+        assert_eq!(state, "sure", "frame {frame}");
+        let off = off_by(&joints, frame, &truth, frame).unwrap();
+        assert!(off < most, "frame {frame} is {off} mm off");
+    }
+}
+
 fn scratch(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
 }
@@ -223,13 +235,7 @@ fn who_comes_by_is_neither_a_loss_nor_taken_for_her() {
     let script = Script { name: "", frames: 6..14, cameras: &CAMERAS, what: What::Bystander };
     play(&script, &walk, &together, &played, 16);
     track(&played, &output, 1, ["100", "8"], "yes");
-    let truth = read_points(&walk.join("truth.trc")).unwrap();
-    let joints = read_points(&output.join("joints.csv")).unwrap();
-    for (frame, state) in column(&output, "state").iter().enumerate() {
-        assert_eq!(state, "sure", "frame {frame}");
-        let off = off_by(&joints, frame, &truth, frame).unwrap();
-        assert!(off < OFF, "frame {frame} is {off} mm off");
-    }
+    assert_followed(&output, &walk, OFF);
 }
 
 /// The light is turned up from one frame to the next, so far that half of the room is white in the pictures.
@@ -241,13 +247,7 @@ fn who_is_seen_in_another_light_is_not_lost() {
     let script = Script { name: "", frames: 8..16, cameras: &CAMERAS, what: What::Brighter(1.4) };
     play(&script, &walk, &walk, &played, 16);
     track(&played, &output, 1, ["100", "8"], "yes");
-    let truth = read_points(&walk.join("truth.trc")).unwrap();
-    let joints = read_points(&output.join("joints.csv")).unwrap();
-    for (frame, state) in column(&output, "state").iter().enumerate() {
-        assert_eq!(state, "sure", "frame {frame}");
-        let off = off_by(&joints, frame, &truth, frame).unwrap();
-        assert!(off < 60.0, "frame {frame} is {off} mm off");
-    }
+    assert_followed(&output, &walk, 60.0);
 }
 
 /// The numbers and the plot of docs/CONFIDENCE.md, in `target/tmp/losses`:

@@ -28,6 +28,11 @@ impl Luminance {
         Self { y, b: b - y, r: r - y }
     }
 
+    /// Luma, so much that one can divide by it.
+    fn bright(&self) -> f32 {
+        self.y.max(4.0)
+    }
+
     fn is_grey(&self) -> bool {
         self.b.abs() <= GREY && self.r.abs() <= GREY
     }
@@ -83,14 +88,14 @@ impl BackgroundColours {
                 slopes.push((0.5 * across.hypot(down)).round().min(SLOPES as f32 - 1.0) as u8);
             }
         }
-        let bright = || colours.iter().map(|colour| colour.y.max(4.0));
+        let [y, b, r, inverse] = planes(&colours);
         Self {
             width,
-            y: colours.iter().map(|colour| colour.y).collect(),
-            b: colours.iter().map(|colour| colour.b).collect(),
-            r: colours.iter().map(|colour| colour.r).collect(),
-            inverse: bright().map(|bright| 1.0 / bright).collect(),
-            log: bright().map(f32::ln).collect(),
+            y,
+            b,
+            r,
+            inverse,
+            log: colours.iter().map(|colour| colour.bright().ln()).collect(),
             slopes: slopes.into(),
             is_grey: colours.iter().all(Luminance::is_grey),
         }
@@ -107,16 +112,9 @@ impl BackgroundColours {
         }
         let colours: Vec<Luminance> =
             pixels().map(|pixel| Luminance::of([0, 1, 2].map(|channel| pixel[channel].min(most[channel])))).collect();
-        Some(Self {
-            width: self.width,
-            y: colours.iter().map(|colour| colour.y).collect(),
-            b: colours.iter().map(|colour| colour.b).collect(),
-            r: colours.iter().map(|colour| colour.r).collect(),
-            inverse: colours.iter().map(|colour| 1.0 / colour.y.max(4.0)).collect(),
-            log: Arc::clone(&self.log),
-            slopes: Arc::clone(&self.slopes),
-            is_grey: self.is_grey,
-        })
+        let [y, b, r, inverse] = planes(&colours);
+        let (log, slopes) = (Arc::clone(&self.log), Arc::clone(&self.slopes));
+        Some(Self { width: self.width, y, b, r, inverse, log, slopes, is_grey: self.is_grey })
     }
 
     /// Whether there is no colour in a picture and the background.
@@ -239,6 +237,17 @@ fn judge_row(
         let [lit, shadow] = hypotheses(seen, [y[at], b[at], r[at], inverse[at], log[at]], widths);
         densities[at] = (lit.max(shadow).max(outlier) * LOG_STEPS) as i32 as i16;
     }
+}
+
+/// Luma, the two differences and 1 / luma of colours, a plane each.
+fn planes(colours: &[Luminance]) -> [Vec<f32>; 4] {
+    let plane = |of: fn(&Luminance) -> f32| colours.iter().map(of).collect();
+    [
+        plane(|colour| colour.y),
+        plane(|colour| colour.b),
+        plane(|colour| colour.r),
+        plane(|colour| 1.0 / colour.bright()),
+    ]
 }
 
 /// What to multiply a picture's channels with that is `gain` times as bright as the background.
