@@ -45,6 +45,7 @@ pub fn track(
     progress.start(&run.start(done.len(), &warnings));
     run.take_over(done)?;
     let searched = run.search_all(progress).and_then(|()| {
+        run.find_dissent(progress)?;
         warnings.extend(run.measure_again(None, progress)?);
         run.look_back(progress)
     });

@@ -22,7 +22,7 @@ pub struct FrameResult {
     pub fitness: f32,
     /// Standard deviation of the candidates behind it, one a degree of freedom: mm, radians.
     pub spread: Vec<f32>,
-    /// f1 and f2 (METHOD A7) of each view.
+    /// f1 and f2 (METHOD A7) of each view, [`Self::LEFT_OUT`] of one that a second pass left out.
     pub views: Vec<[f32; 2]>,
     /// What the frame says of each joint.
     pub joints: Vec<JointHints>,
@@ -43,6 +43,19 @@ impl Extent {
 }
 
 impl FrameResult {
+    /// The terms of a view that was left out since it dissents: no numbers.
+    pub const LEFT_OUT: [f32; 2] = [f32::NAN; 2];
+
+    /// The views that were not left out, and their terms.
+    pub fn counted_views(&self) -> impl Iterator<Item = (usize, &[f32; 2])> {
+        self.views.iter().enumerate().filter(|(_, terms)| is_counted(terms))
+    }
+
+    /// The views that were left out.
+    pub fn left_out(&self) -> impl Iterator<Item = usize> + '_ {
+        self.views.iter().enumerate().filter(|(_, terms)| !is_counted(terms)).map(|(view, _)| view)
+    }
+
     /// A line of the journal: the frame, the bits of every number in hexadecimal, a checksum of all that. It is of first passes, which leave
     /// ambiguity to the second.
     fn to_line(&self) -> String {
@@ -86,6 +99,11 @@ impl FrameResult {
                 .collect(),
         })
     }
+}
+
+/// Whether a view of these terms was not left out.
+pub(super) fn is_counted(terms: &[f32; 2]) -> bool {
+    terms.iter().all(|term| !term.is_nan())
 }
 
 /// FNV-1a, 64 bits: enough to tell a line that was written whole from one that was not.

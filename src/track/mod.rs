@@ -11,6 +11,7 @@ mod backend;
 mod begin;
 mod confidence;
 mod crowd;
+mod dissent;
 mod drawing;
 mod driver;
 mod features_made;

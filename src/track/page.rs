@@ -123,7 +123,8 @@ fn fitness_curves(confidences: &[FrameConfidence], frames: &[FrameResult]) -> Ve
         is_band: false,
     };
     let mean_f1 = |result: &FrameResult| {
-        result.views.iter().map(|view| f64::from(view[0])).sum::<f64>() / result.views.len().max(1) as f64
+        let counted = || result.counted_views().map(|(_, terms)| f64::from(terms[0]));
+        counted().sum::<f64>() / counted().count().max(1) as f64
     };
     vec![
         curve("fitness", BLUE, frames.iter().map(|result| f64::from(result.fitness)).collect()),

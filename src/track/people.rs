@@ -107,10 +107,16 @@ pub fn track_people(
     }
     search_all(sequence, settings, &crowd, &mut people, progress)?;
     if people.iter().all(|person| person.run.looks_back()) {
+        see_again(sequence, settings, &crowd, &mut people, &mut |run, again| {
+            run.find_dissent_in(|run, from| Ok(Box::new(again.shares(run, from)?)), progress)
+        })?;
         measure_again(&crowd, &mut people, progress)?;
         let bodies: Vec<&Body> = people.iter().map(|person| &person.run.plan.body).collect();
         let crowd = Crowd::new(&bodies, &sequence.cameras, &people[0].run.plan.features)?;
-        look_back(sequence, settings, &crowd, &mut people, progress)?;
+        // A person after the other, now that what comes after each frame is known.
+        see_again(sequence, settings, &crowd, &mut people, &mut |run, again| {
+            run.look_back_over(&mut again.shares(run, run.plan.range.start)?, progress)
+        })?;
     }
     let named = people.into_iter().zip(&sequence.people);
     let finish = |(Tracked { run, record, warnings }, person): (Tracked<'_>, &crate::sequence::Person)| {
@@ -176,22 +182,37 @@ fn measure_again(crowd: &Crowd, people: &mut [Tracked<'_>], progress: &mut dyn P
     Ok(())
 }
 
-/// Goes over all frames again, a person after the other, now that what comes after each is known: each beside where the first pass found
-/// the others.
-fn look_back(
+/// What each person is shown again, by where the first pass found the others.
+struct Again<'a> {
+    sequence: &'a Sequence,
+    settings: &'a TrackSettings,
+    crowd: &'a Crowd,
+    found: Found,
+    person: usize,
+}
+
+impl Again<'_> {
+    /// The frames that are left to the person whose run this is, from the one of number `from` on.
+    fn shares(&self, run: &Run<'_>, from: usize) -> Result<Shares<'_>> {
+        let (range, features) = (run.plan.range.clone(), run.plan.features.clone());
+        let first = range.start;
+        let feed = Feed::start(self.sequence, features, range, from, self.settings.stall_timeout, &Keeps::Features)?;
+        Ok(Shares { feed, crowd: self.crowd, found: &self.found, first, person: self.person })
+    }
+}
+
+/// Has one run after the other see its person's frames again.
+fn see_again(
     sequence: &Sequence,
     settings: &TrackSettings,
     crowd: &Crowd,
     people: &mut [Tracked<'_>],
-    progress: &mut dyn Progress,
+    see: &mut dyn FnMut(&mut Run<'_>, &Again<'_>) -> Result<()>,
 ) -> Result<()> {
-    let found = found(people);
+    let mut again = Again { sequence, settings, crowd, found: found(people), person: 0 };
     for (at, person) in people.iter_mut().enumerate() {
-        let (range, features) = (person.run.plan.range.clone(), person.run.plan.features.clone());
-        let feed =
-            Feed::start(sequence, features, range.clone(), range.start, settings.stall_timeout, &Keeps::Features)?;
-        let mut shares = Shares { feed, crowd, found: &found, first: range.start, person: at };
-        person.run.look_back_over(&mut shares, progress)?;
+        again.person = at;
+        see(&mut person.run, &again)?;
     }
     Ok(())
 }

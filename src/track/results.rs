@@ -82,7 +82,9 @@ fn write_confidence(
     writer.write_record(header.chain(whole).chain(joints))?;
     for (result, frame) in results.iter().zip(confidences) {
         let mut cells = vec![result.frame.to_string(), result.fitness.to_string()];
-        cells.extend(result.views.as_flattened().iter().map(f32::to_string));
+        // Nothing of a view that was left out.
+        let shown = |term: &f32| if term.is_nan() { String::new() } else { term.to_string() };
+        cells.extend(result.views.as_flattened().iter().map(shown));
         let last = [frame.position_spread, frame.angle_spread, frame.confidence, frame.agreement, frame.wrong];
         cells.extend(last.map(|value| format!("{value:.6}")));
         cells.push(if frame.is_lost { "lost" } else { "sure" }.to_string());

@@ -98,7 +98,7 @@ impl Searcher {
         timing: Timing,
     ) -> Result<Self> {
         if evaluator.on_device().is_none_or(|there| !settings.kind.fits(there.device())) {
-            return Ok(Self::Host(settings.build(space)?));
+            return Self::on_host(settings, space);
         }
         settings.check_room(space)?;
         Ok(Self::Device(Box::new(OnDevice {
@@ -110,6 +110,14 @@ impl Searcher {
             refinement: Refinement::new(settings.refine, space),
             estimated: [Vec::new(), Vec::new()],
         })))
+    }
+
+    /// The search of these settings, driven by the host.
+    ///
+    /// # Errors
+    /// As [`SearchSettings::build`].
+    pub(super) fn on_host(settings: &SearchSettings, space: &SearchSpace) -> Result<Self> {
+        Ok(Self::Host(settings.build(space)?))
     }
 
     /// Searches a frame in which this was seen.

@@ -4,9 +4,11 @@ use std::cmp::Reverse;
 
 use super::TimingSummary;
 use super::confidence::FrameConfidence;
+use super::dissent::Dissent;
 use super::held::{Held, runs_of};
 use super::journal::FrameResult;
 use super::realtime::RealtimeSummary;
+use crate::geometry::Camera;
 use crate::motion::TrajectoryError;
 
 /// An expected error from which on a joint is one to look at, mm.
@@ -92,6 +94,23 @@ pub(super) fn doubtful_sentence(names: &[String], held: &Held, confidences: &[Fr
             told.join("; ")
         )
     })
+}
+
+/// What the user should know about each camera that does not fit what the others show, in these frames by their places in the run.
+pub(super) fn dissent_sentences(cameras: &[Camera], dissent: &Dissent, frames: &[FrameResult]) -> Vec<String> {
+    let of_view = |(view, camera): (usize, &Camera)| {
+        let runs: Vec<[usize; 2]> =
+            dissent.runs(view).into_iter().map(|run| run.map(|place| frames[place].frame)).collect();
+        (!runs.is_empty()).then(|| {
+            let shown = shown(&runs, 5);
+            format!(
+                "camera {:?} does not fit what the others show in frames {shown}, which are tracked without it: see whether it stopped, was moved, lost frames, has \
+                 something before it, or sees the person before her own colours",
+                camera.name
+            )
+        })
+    };
+    cameras.iter().enumerate().filter_map(of_view).collect()
 }
 
 /// The first so many of runs of frames.

@@ -133,14 +133,16 @@ fn column(track: &Path, name: &str) -> Vec<String> {
     reader.records().map(|record| record.unwrap()[place].to_string()).collect()
 }
 
-/// Tracks a sequence.
-fn track(sequence: &Path, output: &Path, seed: usize, budget: [&str; 2], recover: &str) {
+/// Tracks a sequence. What the program said.
+fn track(sequence: &Path, output: &Path, seed: usize, budget: [&str; 2], recover: &str) -> String {
     let [sequence, output] = [sequence, output].map(|path| path.to_str().unwrap());
     let seed = seed.to_string();
     let [particles, iterations] = budget;
     let search = ["--particles", particles, "--iterations", iterations, "--seed", &seed];
     let rest = ["--backend", "cpu", "--overlay-every", "0", "--recover", recover, "--force"];
-    pantin(&[&["track", sequence, "-o", output], &search[..], &rest[..]].concat());
+    let done = support::pantin(&[&["track", sequence, "-o", output], &search[..], &rest[..]].concat());
+    succeeded(&done);
+    support::stderr(&done)
 }
 
 /// That a track is sure of every frame of the walk, and off by less than that in it, mm.
@@ -236,6 +238,23 @@ fn who_comes_by_is_neither_a_loss_nor_taken_for_her() {
     play(&script, &walk, &together, &played, 16);
     track(&played, &output, 1, ["100", "8"], "yes");
     assert_followed(&output, &walk, OFF);
+}
+
+/// A camera stands still while she walks on: it is named, left out where it does not fit the others, and does not draw her aside.
+#[test]
+fn a_camera_that_stops_is_left_out_and_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let [walk, played, output] = ["walk", "played", "track"].map(|name| folder.path().join(name));
+    make(&walk, 26, "");
+    let script = Script { name: "", frames: 4..20, cameras: &["cam2"], what: What::Stopped };
+    play(&script, &walk, &walk, &played, 26);
+    let said = track(&played, &output, 1, ["100", "8"], "yes");
+    assert!(said.contains("camera \"cam2\" does not fit what the others show in frames"), "{said}");
+    assert!(!["cam1", "cam3", "cam4"].iter().any(|camera| said.contains(&format!("camera {camera:?}"))), "{said}");
+    let left_out: Vec<bool> = column(&output, "cam2.f1").iter().map(String::is_empty).collect();
+    assert!(left_out[10..20].iter().all(|left_out| *left_out), "{left_out:?}");
+    assert!(!left_out[..4].iter().chain(&left_out[23..]).any(|left_out| *left_out), "{left_out:?}");
+    assert_followed(&output, &walk, 60.0);
 }
 
 /// The light is turned up from one frame to the next, so far that half of the room is white in the pictures.

@@ -11,7 +11,7 @@ use pantin::files::Overwrite;
 use pantin::motion::write_points;
 use pantin::sequence::write_cameras_toml;
 
-use super::support::{pantin, refused, stdout, succeeded};
+use super::support::{pantin, refused, stderr, stdout, succeeded};
 use super::walk;
 
 const NAMES: [&str; 2] = ["anna", "ben"];
@@ -132,6 +132,32 @@ fn people_made_otherwise_are_measured_beside_each_other() {
         assert!(after.is_file(), "{name} was not believed to be made otherwise");
     }
     assert!(found.iter().zip(&given).all(|(found, given)| *found < 0.9 * given), "{given:?} -> {found:?} mm");
+}
+
+/// A camera stands still while they walk on: it is left out for both, and named for both.
+#[test]
+fn a_camera_that_stops_is_left_out_for_both() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    write(folder, 14, Body::clone);
+    let camera = &walk::cameras()[0].name;
+    for frame in 4..14 {
+        for kind in ["", "mask_"] {
+            let picture = |frame: usize| folder.join(format!("frames/{camera}_{kind}{frame:04}.png"));
+            fs::copy(picture(3), picture(frame)).unwrap();
+        }
+    }
+    let run = track_so(folder, "sequence.toml", "stopped", &[]);
+    let off = errors(&run);
+    println!("{off:?} mm\n{}", stderr(&run));
+    assert!(off.iter().all(|off| *off < 40.0), "{off:?} mm");
+    assert_eq!(stderr(&run).matches(&format!("camera {camera:?} does not fit what the others show")).count(), 2);
+    for name in NAMES {
+        let table = fs::read_to_string(folder.join("stopped").join(name).join("confidence.csv")).unwrap();
+        let left_out: Vec<bool> =
+            table.lines().skip(1).map(|line| line.split(',').nth(2).unwrap().is_empty()).collect();
+        assert!(!left_out[..4].contains(&true) && left_out[9..].iter().all(|left_out| *left_out), "{left_out:?}");
+    }
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod levers;
 use self::calibration::{expected_error, wrong_probability};
 use self::levers::Levers;
 use super::FrameResult;
+use super::journal::is_counted;
 use crate::body::Body;
 
 pub(super) use self::alone::terms_alone;
@@ -136,8 +137,8 @@ impl Confidence {
         let fitness = f64::from(result.fitness).clamp(0.0, 1.0);
         self.best_fitness = self.best_fitness.max(fitness);
         let relative = if self.best_fitness > 0.0 { fitness / self.best_fitness } else { 0.0 };
-        let f1 = || result.views.iter().map(|view| f64::from(view[0]));
-        let mean = f1().sum::<f64>() / result.views.len().max(1) as f64;
+        let f1 = || result.counted_views().map(|(_, view)| f64::from(view[0]));
+        let mean = f1().sum::<f64>() / f1().count().max(1) as f64;
         let balance = if mean > 0.0 { (f1().fold(f64::INFINITY, f64::min) / mean).clamp(0.0, 1.0).sqrt() } else { 0.0 };
         let position_spread = root_mean_square(&result.spread, &self.root);
         let agreement = self.agreement(&result.views);
@@ -205,8 +206,9 @@ impl Confidence {
             self.sure_frames += 1;
             let share = 1.0 / (self.sure_frames as f64).min(MEMORY);
             self.references.resize(result.views.len(), 0.0);
-            for (reference, view) in self.references.iter_mut().zip(&result.views) {
-                *reference += share * (view_term(view) - *reference);
+            for (view, terms) in result.counted_views() {
+                let reference = &mut self.references[view];
+                *reference += share * (view_term(terms) - *reference);
             }
         }
     }
@@ -216,7 +218,8 @@ impl Confidence {
             // Nothing to compare with: any match at all is a beginning.
             return if views.iter().any(|view| view_term(view) > 0.0) { 1.0 } else { 0.0 };
         }
-        let views = views.iter().zip(&self.references).filter(|(_, reference)| **reference > 0.0);
+        let views = views.iter().zip(&self.references);
+        let views = views.filter(|(view, reference)| is_counted(view) && **reference > 0.0);
         let mut ratios: Vec<f64> = views.map(|(view, reference)| (view_term(view) / reference).min(1.0)).collect();
         ratios.sort_by(f64::total_cmp);
         let counted = &ratios[usize::from(ratios.len() >= SPARE_VIEWS)..];

@@ -92,17 +92,21 @@ impl Run<'_> {
         )))
     }
 
-    /// Frames that tell of the body: evenly spread over those that are not lost, without the quarter that fits worst.
+    /// Frames that tell of the body: evenly spread over those that are not lost, without the quarter that fits worst; where enough are left,
+    /// without those in which a view dissents.
     fn telling(&self) -> Vec<usize> {
         let first = &self.frames[..self.frames.len().min(AMONG)];
         let mut fitness: Vec<f32> = first.iter().map(|result| result.fitness).collect();
         fitness.sort_by(f32::total_cmp);
         let Some(least) = fitness.get(fitness.len() / 4).copied() else { return Vec::new() };
-        let good = first
-            .iter()
-            .enumerate()
-            .filter(|(_, result)| result.fitness >= least && !self.lost.contains(&result.frame));
-        let good: Vec<usize> = good.map(|(at, _)| at).collect();
+        let mut good: Vec<usize> = (0..first.len())
+            .filter(|&at| first[at].fitness >= least && !self.lost.contains(&first[at].frame))
+            .collect();
+        let agreed: Vec<usize> =
+            good.iter().copied().filter(|&at| self.dissent.views_at(at).next().is_none()).collect();
+        if agreed.len() >= FEWEST {
+            good = agreed;
+        }
         let count = good.len().min(FRAMES);
         (0..count).map(|i| good[i * (good.len() - 1) / (count - 1).max(1)]).collect()
     }

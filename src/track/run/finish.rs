@@ -5,6 +5,7 @@ use serde_json::json;
 
 use super::Run;
 use crate::track::confidence::{Confidence, LossRule};
+use crate::track::dissent::Dissent;
 use crate::track::held::Held;
 use crate::track::journal::{Extent, Journal};
 use crate::track::labels;
@@ -13,7 +14,7 @@ use crate::track::progress::Progress;
 use crate::track::results;
 use crate::track::run_record::RunRecord;
 use crate::track::smoothed;
-use crate::track::summary::{TrackSummary, doubtful_sentence, lost_sentence, mean};
+use crate::track::summary::{TrackSummary, dissent_sentences, doubtful_sentence, lost_sentence, mean};
 
 impl Run<'_> {
     /// Writes the results, unless the run was stopped.
@@ -55,7 +56,7 @@ impl Run<'_> {
             summary.warnings.push(format!("the trace holds no device passes: {name} ({variant}) told of none"));
         }
         // Per frame: waiting for the features, searching, writing; the rest runs beside it.
-        let busy: f64 = ["wait", "evaluate", "search", "output", "measure", "hindsight"]
+        let busy: f64 = ["wait", "evaluate", "search", "output", "dissent", "measure", "hindsight"]
             .iter()
             .filter_map(|name| summary.timings.iter().find(|timing| timing.name == *name))
             .map(|timing| timing.total)
@@ -67,6 +68,11 @@ impl Run<'_> {
             return Ok(summary);
         }
         summary.warnings.extend(lost_sentence(&held.runs(), summary.frames.len()));
+        summary.warnings.extend(dissent_sentences(
+            &sequence.cameras,
+            &Dissent::left_out(&summary.frames),
+            &summary.frames,
+        ));
         summary.warnings.extend(doubtful_sentence(&body.joint_names(), &held, &confidences));
         if !summary.frames.is_empty() {
             let warning =

@@ -2,6 +2,7 @@
 
 mod again;
 mod delayed;
+mod dissent;
 mod finish;
 mod look_back;
 
@@ -13,6 +14,7 @@ use anyhow::{Context, Result, anyhow};
 
 use super::appearance::RunAppearance;
 use super::confidence::{Confidence, FrameConfidence, JointProbe, LossRule, terms_alone};
+use super::dissent::Dissent;
 use super::feed::{Frames, Prepared};
 use super::hindsight::{Delayed, LimbSearch, SearchedFrame, TimeLeft};
 use super::journal::{FrameResult, Journal};
@@ -64,6 +66,8 @@ pub(super) struct Run<'a> {
     motion: LearntMotion,
     /// The frames that wait for those after them, where there is a delay.
     delayed: Option<Delayed>,
+    /// The views that are wrong, once that is found out.
+    dissent: Dissent,
 }
 
 impl<'a> Run<'a> {
@@ -112,6 +116,7 @@ impl<'a> Run<'a> {
             pace,
             lost: Vec::new(),
             is_cut: false,
+            dissent: Dissent::default(),
         })
     }
 
