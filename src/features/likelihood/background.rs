@@ -104,14 +104,14 @@ impl BackgroundColours {
     /// The colours that a camera can tell in a picture which is `gain` times as bright as this background of `plate`: what would be brighter than
     /// white is white there. None where that is nothing.
     pub(super) fn overexposed(&self, plate: &RgbImage, gain: [f32; 3]) -> Option<Self> {
-        let most = dim(gain).map(|dim| WHITE * dim);
+        let most = most(dim(gain));
         let pixels = || plate.as_raw().as_chunks::<3>().0.iter().map(|pixel| pixel.map(f32::from));
         let is_over = |pixel: [f32; 3]| pixel.iter().zip(most).any(|(value, most)| *value > most);
         if most.iter().all(|most| *most >= WHITE) || !pixels().any(is_over) {
             return None;
         }
         let colours: Vec<Luminance> =
-            pixels().map(|pixel| Luminance::of([0, 1, 2].map(|channel| pixel[channel].min(most[channel])))).collect();
+            plate.as_raw().as_chunks::<3>().0.iter().map(|pixel| below(*pixel, most)).collect();
         let [y, b, r, inverse] = planes(&colours);
         let (log, slopes) = (Arc::clone(&self.log), Arc::clone(&self.slopes));
         Some(Self { width: self.width, y, b, r, inverse, log, slopes, is_grey: self.is_grey })
@@ -123,10 +123,11 @@ impl BackgroundColours {
         self.is_grey && pixels.all(|pixel| Luminance::of(pixel.map(f32::from)).is_grey())
     }
 
-    /// The light of a picture that is `gain` times as bright as the background, by [`Self::is_grey`]: its noise, and as many shadows as are usual.
-    pub(super) fn light(&self, picture: &RgbImage, gain: [f32; 3], is_grey: bool) -> PictureLight {
+    /// The light of a picture that is `gain` times as bright as the background of `plate`, by [`Self::is_grey`]: its noise, and as many shadows as
+    /// are usual.
+    pub(super) fn light(picture: &RgbImage, plate: &RgbImage, gain: [f32; 3], is_grey: bool) -> PictureLight {
         let dim = dim(gain);
-        let noise = self.noise(picture, dim);
+        let noise = noise(picture, plate, dim);
         PictureLight { dim, noise, light: Light::new(noise, shadow_share(0, 0), is_grey) }
     }
 
@@ -153,35 +154,14 @@ impl BackgroundColours {
     }
 
     /// The light of a picture for a device that counts the shadows itself.
-    pub(super) fn light_tables(&self, picture: &RgbImage, gain: [f32; 3]) -> LightTables {
+    pub(super) fn light_tables(&self, picture: &RgbImage, plate: &RgbImage, gain: [f32; 3]) -> LightTables {
         let dim = dim(gain);
-        LightTables::new(dim, self.noise(picture, dim), self.is_grey(picture))
+        LightTables::new(dim, noise(picture, plate, dim), self.is_grey(picture))
     }
 
     /// Of each pixel the logarithm of its luma, at least 4, and the change of luma to its neighbours, below [`SLOPES`].
     pub(crate) fn planes(&self) -> (&[f32], &[u8]) {
         (&self.log, &self.slopes)
-    }
-
-    /// The noise of a picture whose channels are multiplied with `dim`, a standard deviation a channel.
-    fn noise(&self, picture: &RgbImage, dim: [f32; 3]) -> [f32; 3] {
-        let mut deviations = [const { Vec::new() }; 3];
-        for (y, row) in picture.as_raw().chunks_exact(self.width * 3).enumerate().step_by(GRID) {
-            for (x, seen) in row.as_chunks::<3>().0.iter().enumerate().step_by(GRID) {
-                let (colour, at) = (lit(*seen, dim), y * self.width + x);
-                let off = [colour.y - self.y[at], colour.b - self.b[at], colour.r - self.r[at]];
-                deviations.iter_mut().zip(off).for_each(|(list, value)| list.push(value.abs()));
-            }
-        }
-        let mut noise = LEAST_NOISE;
-        for (noise, list) in noise.iter_mut().zip(&mut deviations) {
-            let middle = list.len() / 2;
-            if middle < list.len() {
-                let (_, median, _) = list.select_nth_unstable_by(middle, f32::total_cmp);
-                *noise = noise.max(DEVIATION * *median);
-            }
-        }
-        noise
     }
 
     /// The log densities of the pixels of `region` of a picture as background.
@@ -255,6 +235,41 @@ fn dim(gain: [f32; 3]) -> [f32; 3] {
     gain.map(|gain| 1.0 / gain.max(1e-3))
 }
 
+/// The most that a background's channels can be where the picture's are white, in the background's light.
+fn most(dim: [f32; 3]) -> [f32; 3] {
+    dim.map(|dim| WHITE * dim)
+}
+
+/// A background's colour with channels of no more than that.
+#[inline]
+fn below(pixel: [u8; 3], most: [f32; 3]) -> Luminance {
+    Luminance::of([0, 1, 2].map(|channel| f32::from(pixel[channel]).min(most[channel])))
+}
+
+/// The noise of a picture whose channels are multiplied with `dim` to be in the light of the plate, a standard deviation a channel.
+fn noise(picture: &RgbImage, plate: &RgbImage, dim: [f32; 3]) -> [f32; 3] {
+    let most = most(dim);
+    let [seen, known] = [picture, plate].map(|image| image.as_raw().chunks_exact(image.width() as usize * 3));
+    let mut deviations = [const { Vec::new() }; 3];
+    for (seen, known) in seen.zip(known).step_by(GRID) {
+        let pixels = seen.as_chunks::<3>().0.iter().zip(known.as_chunks::<3>().0).step_by(GRID);
+        for (seen, known) in pixels {
+            let (seen, known) = (lit(*seen, dim), below(*known, most));
+            let off = [seen.y - known.y, seen.b - known.b, seen.r - known.r];
+            deviations.iter_mut().zip(off).for_each(|(list, value)| list.push(value.abs()));
+        }
+    }
+    let mut noise = LEAST_NOISE;
+    for (noise, list) in noise.iter_mut().zip(&mut deviations) {
+        let middle = list.len() / 2;
+        if middle < list.len() {
+            let (_, median, _) = list.select_nth_unstable_by(middle, f32::total_cmp);
+            *noise = noise.max(DEVIATION * *median);
+        }
+    }
+    noise
+}
+
 #[inline]
 fn lit(seen: [u8; 3], dim: [f32; 3]) -> Luminance {
     Luminance::of([f32::from(seen[0]) * dim[0], f32::from(seen[1]) * dim[1], f32::from(seen[2]) * dim[2]])
@@ -285,7 +300,7 @@ mod tests {
 
     fn judged(picture: &RgbImage) -> Vec<i16> {
         let colours = BackgroundColours::new(&plate());
-        let light = colours.light(picture, [1.0; 3], colours.is_grey(picture));
+        let light = BackgroundColours::light(picture, &plate(), [1.0; 3], colours.is_grey(picture));
         let mut densities = vec![0; 64 * 48];
         colours.judge(picture, light, Region::whole(64, 48), &mut densities);
         densities
@@ -315,7 +330,7 @@ mod tests {
         assert_eq!(picture.pixels().filter(|pixel| pixel.0 == [255; 3]).count(), 20 * 48);
         let known = BackgroundColours::new(&plate);
         let judged = |colours: &BackgroundColours| {
-            let light = colours.light(&picture, [1.5; 3], false);
+            let light = BackgroundColours::light(&picture, &plate, [1.5; 3], false);
             let mut densities = vec![0; 64 * 48];
             colours.judge(&picture, light, Region::whole(64, 48), &mut densities);
             let surely_not = densities.iter().filter(|density| **density < 0).count();
@@ -340,7 +355,7 @@ mod tests {
         picture.put_pixel(40, 20, grey(112));
         let judged = |picture: &RgbImage| {
             let colours = BackgroundColours::new(&plate);
-            let light = colours.light(picture, [1.0; 3], colours.is_grey(picture));
+            let light = BackgroundColours::light(picture, &plate, [1.0; 3], colours.is_grey(picture));
             let mut densities = vec![0; 64 * 48];
             colours.judge(picture, light, Region::whole(64, 48), &mut densities);
             (
@@ -366,7 +381,7 @@ mod tests {
         });
         let plate = plate();
         let colours = BackgroundColours::new(&plate);
-        let light = colours.light(&picture, [1.0; 3], colours.is_grey(&picture)).light;
+        let light = BackgroundColours::light(&picture, &plate, [1.0; 3], colours.is_grey(&picture)).light;
         let densities = judged(&picture);
         let luminance = |p: [u8; 3]| {
             let [r, g, b] = p.map(f64::from);

@@ -78,7 +78,7 @@ impl LikelySilhouette {
     pub(crate) fn lit(&self, picture: &RgbImage, learnt: Option<&RgbImage>, settings: &FeatureSettings) -> Option<Lit> {
         let tables = |image: &RgbImage, colours: &BackgroundColours| {
             let gain = if settings.plate.gain { gains(picture, image) } else { [1.0; 3] };
-            colours.overexposed(image, gain).as_ref().unwrap_or(colours).light_tables(picture, gain)
+            colours.light_tables(picture, image, gain)
         };
         if let Known::Plate { image, colours } = &self.known {
             return Some(Lit { tables: tables(image, colours), learnt: None });
@@ -130,7 +130,7 @@ impl LikelySilhouette {
             let colours = overexposed.as_ref().unwrap_or(colours);
             // First as if shadows were as frequent everywhere, then round the person with those counted there.
             likelihood.is_grey = colours.is_grey(picture);
-            let mut light = colours.light(picture, gain, likelihood.is_grey);
+            let mut light = BackgroundColours::light(picture, image, gain, likelihood.is_grey);
             let mut region = Region::whole(width, height);
             for pass in 0..2 {
                 colours.judge(picture, light, region, &mut likelihood.background);
