@@ -8,7 +8,8 @@ use serde::Serialize;
 pub enum Status {
     /// Within its limit.
     Ok,
-    /// Beyond its limit, where silhouettes that lose parts of the person would do as much: look at it, nothing is held against the sequence.
+    /// Beyond its limit, where something harmless, or silhouettes that lose parts of the person, would do as much: look at it, nothing is held against the
+    /// sequence.
     Doubtful,
     /// Beyond its limit.
     Failed,

@@ -1,6 +1,6 @@
 //! Is a sequence sane? Every check is a number, its limit, what was found and what to do (docs/CALIBRATION.md).
 //!
-//! `view` looks at the calibration alone; `silhouettes` reads what the cameras saw; `agreement` measures how well they
+//! `view` looks at the calibration alone; `silhouettes` reads what the cameras saw, of which `repeats` asks whether it goes on; `agreement` measures how well they
 //! agree, without any model of the person; `beginnings` puts cameras together that were started at different moments; `exchanges` asks whether two cameras or left and right are exchanged, `orientations` whether a
 //! camera's picture is turned or mirrored, `faults` which cameras' `turns` and delays (`timing`) make them agree better, and by how much (`betterment`); `person` looks at the surface that they agree on.
 
@@ -13,6 +13,7 @@ mod finding;
 mod orientations;
 mod partners;
 mod person;
+mod repeats;
 mod signed_distance;
 mod silhouettes;
 mod surely_far;
@@ -123,6 +124,7 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
     let opened_sequence = plated.sequence.as_ref();
     let sequence = opened_sequence;
     let silhouettes = Silhouettes::read(sequence, first..end, settings.samples, progress)?;
+    let repeats = silhouettes.repeats.findings(sequence);
     let reach = far_reach(sequence.fps);
     let begun = beginnings(sequence, &silhouettes, &(first..end), settings.samples, reach, progress)?;
     let (sequence, silhouettes, begun) = match begun {
@@ -141,6 +143,7 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
     checks.extend(
         opened_sequence.remarks_on_recordings().iter().map(|remark| Finding::not_measured("recordings", remark)),
     );
+    checks.extend(repeats);
     checks.extend(view::lenses(&sequence.cameras));
     checks.push(view::up_axis(&sequence.cameras));
     checks.extend(plates(sequence, &plated));

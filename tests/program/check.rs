@@ -242,6 +242,22 @@ fn a_camera_a_frame_late_is_caught_and_named() {
     assert!(status == 0 && self::failed(&report).is_empty(), "{error}");
 }
 
+#[test]
+fn a_camera_that_stops_is_doubted_and_named() {
+    let folder = sequence(&cameras(), Some("c2"));
+    for frame in 8..16 {
+        fs::copy(masks().join("c2_007.png"), folder.path().join(format!("c2_{frame:03}.png"))).unwrap();
+    }
+    let (_, report, _) = check(folder.path());
+    for camera in cameras() {
+        let status = &finding(&report, "repeated pictures", &camera.name)["status"];
+        assert_eq!(status, if camera.name == "c2" { "doubtful" } else { "ok" }, "{}", camera.name);
+    }
+    let found = finding(&report, "repeated pictures", "c2")["found"].as_str().unwrap();
+    // Where a late camera begins it shows its first picture twice.
+    assert!(found.starts_with("8 of 19 are the one before again, those of frames 9 to 15 on end"), "{found}");
+}
+
 /// A sequence in which the pictures of c2 lack so many frames of the beginning; of the others they do, where that is below zero.
 fn cut(by: isize) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
@@ -355,7 +371,7 @@ fn what_failed_comes_first_and_what_is_well_is_a_line() {
     assert!(lines[1].starts_with("FAILED timing c2: ") && lines[1].contains("frames early"), "{out}");
     let last = lines[lines.len() - 1];
     assert!(
-        last.starts_with("ok     files, distortion (5), field of view (5)") && last.contains("timing (4)"),
+        last.starts_with("ok     files, repeated pictures (5), distortion (5)") && last.contains("timing (4)"),
         "{out}"
     );
     assert!(lines.len() < 8 && out.matches("\nok ").count() == 1, "{out}");
