@@ -16,8 +16,10 @@ const CAMERAS: [&str; 4] = ["cam1", "cam2", "cam3", "cam4"];
 const OFF: f64 = 150.0;
 /// A curve each: poses with exchanged limbs or headings are off by less than the last, whatever else is farther off.
 const BOUNDS: [f64; 3] = [OFF, 250.0, 400.0];
-/// Thresholds that stand beside the curves.
-const MARKED: [f64; 5] = [0.1, 0.3, 0.5, 0.8, 0.95];
+/// Per cent: from `wrong` of so much on a frame is lost, in the table and at the marks of the curves.
+const MARKED: [u32; 7] = [95, 80, 50, 30, 20, 10, 5];
+/// Those that are written beside the first curve, where they do not stand on each other.
+const NAMED: [u32; 4] = [80, 20, 10, 5];
 
 /// Who stands near the way of the walk.
 const BYSTANDER: &str = "[[actor]]\nheight = 1850.0\n[actor.motion]\ngait = \"stand\"\nat = [900.0, 700.0]\n";
@@ -49,11 +51,11 @@ enum What {
 const SCRIPTS: [Script; 8] = [
     Script { name: "undisturbed", frames: 0..0, cameras: &[], what: What::Empty },
     Script { name: "leaves and returns", frames: 30..50, cameras: &CAMERAS, what: What::Empty },
-    Script { name: "camera off", frames: 30..60, cameras: &["cam2"], what: What::Black },
+    Script { name: "one camera off", frames: 30..60, cameras: &["cam2"], what: What::Black },
     Script { name: "three cameras off", frames: 30..50, cameras: &["cam1", "cam2", "cam3"], what: What::Empty },
     Script { name: "bystander", frames: 20..70, cameras: &CAMERAS, what: What::Bystander },
     Script { name: "cut", frames: 40..65, cameras: &CAMERAS, what: What::Cut(25) },
-    Script { name: "camera stopped", frames: 30..60, cameras: &["cam2"], what: What::Stopped },
+    Script { name: "one camera stops", frames: 30..60, cameras: &["cam2"], what: What::Stopped },
     Script { name: "light turned up", frames: 30..90, cameras: &CAMERAS, what: What::Brighter(1.4) },
 ];
 
@@ -279,9 +281,11 @@ fn misses_against_false_alarms() {
     make(&walk, frames, "");
     make(&together, frames, BYSTANDER);
     let truth = read_points(&walk.join("truth.trc")).unwrap();
-    // The probability that the pose is right, and how far the frame is off: without end where there is nobody.
+    // The probability that the pose is wrong, and how far the frame is off: without end where there is nobody.
     let mut judged: Vec<(f64, f64)> = Vec::new();
-    println!("| script | budget | off | said lost | with recovery: lost | error of the sure, mm | off but sure |");
+    println!(
+        "| script | N x K | off by > {OFF} mm or nobody, `--recover no` | said lost | with recovery: gaps | error of the rest, mm | off by > {OFF} mm and not a gap |"
+    );
     println!("|---|---|---|---|---|---|---|");
     for script in &SCRIPTS {
         let played = folder.join("played").join(script.name);
@@ -300,7 +304,7 @@ fn misses_against_false_alarms() {
                         let is_off = off.is_none_or(|off| off > OFF);
                         let is_lost = states[frame] == "lost";
                         if recover == "no" {
-                            judged.push((1.0 - wrong[frame].parse::<f64>().unwrap(), off.unwrap_or(f64::INFINITY)));
+                            judged.push((wrong[frame].parse().unwrap(), off.unwrap_or(f64::INFINITY)));
                             counts[0] += usize::from(is_off);
                             counts[1] += usize::from(is_lost);
                         } else {
@@ -317,45 +321,57 @@ fn misses_against_false_alarms() {
             let [off, said, lost, missed] = counts;
             let (name, [particles, iterations]) = (script.name, budget);
             let mean = sum / f64::from(sure.max(1));
-            println!("| {name} | {particles} x {iterations} | {off} | {said} | {lost} | {mean:.1} | {missed} |");
+            let without = seeds.clone().count() * (0..frames).filter(|frame| shown(script, *frame).is_none()).count();
+            let without = if without > 0 { format!(" ({without} without)") } else { String::new() };
+            println!(
+                "| {name}{without} | {particles} x {iterations} | {off} | {said} | {lost} | {mean:.1} | {missed} |"
+            );
         }
     }
     let curves = BOUNDS.map(|bound| (bound, rates(&judged, bound)));
-    let mut text = "off_by_mm,threshold,misses,false_alarms\n".to_string();
+    let mut text = "off_by_mm,wrong,misses,false_alarms\n".to_string();
     for (bound, rates) in &curves {
-        println!(
-            "\nOff by more than {bound} mm, or nobody there:\n| threshold | misses | false alarms |\n|---|---|---|"
-        );
-        for [threshold, misses, alarms] in rates {
-            writeln!(text, "{bound},{threshold},{misses:.4},{alarms:.4}").unwrap();
-            if (threshold * 100.0).round() % 5.0 == 0.0 {
-                println!("| {threshold:.2} | {:.1} % | {:.1} % |", misses * 100.0, alarms * 100.0);
-            }
+        for (percent, [misses, alarms]) in rates.iter().enumerate() {
+            writeln!(text, "{bound},{},{misses:.4},{alarms:.4}", percent as f64 / 100.0).unwrap();
         }
     }
     fs::write(folder.join("roc.csv"), text).unwrap();
+    let farthest_first = || curves.iter().rev();
+    let columns = farthest_first().map(|(bound, _)| format!(" misses, off by > {bound} mm | false alarms |"));
+    println!(
+        "\n| lost from this `wrong` on |{}\n|---|{}",
+        columns.collect::<String>(),
+        "---|---|".repeat(BOUNDS.len())
+    );
+    for percent in MARKED {
+        let cells = farthest_first().map(|(_, rates)| {
+            let [misses, alarms] = rates[percent as usize].map(|rate| rate * 100.0);
+            format!(" {misses:.1} % | {alarms:.1} % |")
+        });
+        println!("| {:.2} |{}", f64::from(percent) / 100.0, cells.collect::<String>());
+    }
     draw(&folder.join("roc.svg"), &curves);
     let (_, farthest) = &curves[BOUNDS.len() - 1];
-    let best = farthest.iter().map(|[_, misses, alarms]| misses + alarms).fold(2.0, f64::min);
+    let best = farthest.iter().map(|[misses, alarms]| misses + alarms).fold(2.0, f64::min);
     assert!(best < 0.3, "misses and false alarms add up to {best} at best");
 }
 
-/// Over thresholds from 0 to 1: the share of frames off by more than `bound` that pass for sure, and of the others that count
-/// as lost.
-fn rates(judged: &[(f64, f64)], bound: f64) -> Vec<[f64; 3]> {
-    let rate = |step| {
-        let threshold = f64::from(step) / 100.0;
-        let share = |is_off: bool, is_wrong: &dyn Fn(f64) -> bool| {
+/// Where frames count as lost from a `wrong` of 0 to 100 % on: the share of those off by more than `bound` that pass for sure, and of the others that
+/// count as lost.
+fn rates(judged: &[(f64, f64)], bound: f64) -> Vec<[f64; 2]> {
+    let rate = |percent| {
+        let least = f64::from(percent) / 100.0;
+        let share = |is_off: bool| {
             let all = judged.iter().filter(|(_, off)| (*off > bound) == is_off);
-            let wrong = all.clone().filter(|(right, _)| is_wrong(*right)).count();
-            wrong as f64 / all.count().max(1) as f64
+            let lost = all.clone().filter(|(wrong, _)| *wrong >= least).count();
+            lost as f64 / all.count().max(1) as f64
         };
-        [threshold, share(true, &|right| right >= threshold), share(false, &|right| right < threshold)]
+        [1.0 - share(true), share(false)]
     };
     (0..=100).map(rate).collect()
 }
 
-fn draw(path: &Path, curves: &[(f64, Vec<[f64; 3]>)]) {
+fn draw(path: &Path, curves: &[(f64, Vec<[f64; 2]>)]) {
     let root = SVGBackend::new(path, (520, 440)).into_drawing_area();
     root.fill(&WHITE).unwrap();
     let mut chart = ChartBuilder::on(&root)
@@ -364,18 +380,20 @@ fn draw(path: &Path, curves: &[(f64, Vec<[f64; 3]>)]) {
         .y_label_area_size(50)
         .build_cartesian_2d(0.0..1.0, 0.0..1.0)
         .unwrap();
-    chart.configure_mesh().x_desc("false alarms").y_desc("misses").draw().unwrap();
+    chart.configure_mesh().light_line_style(WHITE).x_desc("false alarms").y_desc("misses").draw().unwrap();
     for ((bound, rates), colour) in curves.iter().zip([BLUE, RED, BLACK]) {
         chart
-            .draw_series(LineSeries::new(rates.iter().map(|[_, misses, alarms]| (*alarms, *misses)), colour))
+            .draw_series(LineSeries::new(rates.iter().map(|[misses, alarms]| (*alarms, *misses)), colour))
             .unwrap()
             .label(format!("off by more than {bound} mm"))
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour));
-        let marks = rates.iter().filter(|[threshold, ..]| MARKED.iter().any(|mark| (mark - threshold).abs() < 1e-6));
-        let marks = marks.map(|[threshold, misses, alarms]| {
-            EmptyElement::at((*alarms, *misses))
+        let marks = MARKED.map(|percent| {
+            let [misses, alarms] = rates[percent as usize];
+            let is_named = *bound == OFF && NAMED.contains(&percent);
+            let name = if is_named { format!("{:.2}", f64::from(percent) / 100.0) } else { String::new() };
+            EmptyElement::at((alarms, misses))
                 + Circle::new((0, 0), 3, colour.filled())
-                + Text::new(format!("{threshold}"), (6, -12), ("sans-serif", 12))
+                + Text::new(name, (6, -12), ("sans-serif", 12))
         });
         chart.draw_series(marks).unwrap();
     }
