@@ -34,11 +34,12 @@ use agreement::{EXPLAINED, HARDLY_EXPLAINED, Ray, WELL_EXPLAINED, percent_explai
 use beginnings::{Beginnings, beginnings};
 use faults::{Faults, Times};
 use orientations::Misplaced;
+use repeats::Repeats;
 use silhouettes::Silhouettes;
 
 use crate::geometry::Camera;
 use crate::observe::{Advance, Plated, ViewPlate, with_plates};
-use crate::sequence::{DOUBTFUL, Sequence};
+use crate::sequence::{DOUBTFUL, FrameSet, Sequence};
 
 /// Frames looked at unless the user says which: a short stretch says as much as a long one.
 const FRAMES: usize = 100;
@@ -123,8 +124,9 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
     let plated = with_plates(&sequence, progress)?;
     let opened_sequence = plated.sequence.as_ref();
     let sequence = opened_sequence;
-    let silhouettes = Silhouettes::read(sequence, first..end, settings.samples, progress)?;
-    let repeats = silhouettes.repeats.findings(sequence);
+    let mut repeats = Repeats::default();
+    let mut note = |frame: &FrameSet| repeats.note(frame);
+    let silhouettes = Silhouettes::read_and_show(sequence, first..end, settings.samples, &mut note, progress)?;
     let reach = far_reach(sequence.fps);
     let begun = beginnings(sequence, &silhouettes, &(first..end), settings.samples, reach, progress)?;
     let (sequence, silhouettes, begun) = match begun {
@@ -143,7 +145,7 @@ pub fn check_with(path: &Path, settings: &CheckSettings, progress: &mut Advance<
     checks.extend(
         opened_sequence.remarks_on_recordings().iter().map(|remark| Finding::not_measured("recordings", remark)),
     );
-    checks.extend(repeats);
+    checks.extend(repeats.findings(opened_sequence));
     checks.extend(view::lenses(&sequence.cameras));
     checks.push(view::up_axis(&sequence.cameras));
     checks.extend(plates(sequence, &plated));

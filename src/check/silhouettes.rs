@@ -6,11 +6,10 @@ use std::ops::{Range, RangeInclusive};
 use anyhow::Result;
 
 use super::agreement::Moment;
-use super::repeats::Repeats;
 use super::signed_distance::SignedDistance;
 use crate::features::ViewFeatures;
 use crate::observe::{Advance, Observer, check_background, silhouette_settings};
-use crate::sequence::{Sequence, View};
+use crate::sequence::{FrameSet, Sequence, View};
 
 /// Frames by which a camera may be early or late.
 pub(super) const SHIFTS: RangeInclusive<isize> = -3..=3;
@@ -25,8 +24,6 @@ pub(super) struct Silhouettes {
     pub(super) samples: Vec<usize>,
     /// Frames by which a view can be moved; [`SHIFTS`] unless widened.
     pub(super) reach: usize,
-    /// The pictures that are the one before again.
-    pub(super) repeats: Repeats,
     /// A row a frame, a silhouette a view; empty rows where a frame is neither sample nor neighbour.
     fields: Vec<Vec<Option<SignedDistance>>>,
 }
@@ -43,12 +40,23 @@ impl Silhouettes {
         count: usize,
         progress: &mut Advance<'_>,
     ) -> Result<Self> {
+        Self::read_and_show(sequence, frames, count, &mut |_| {}, progress)
+    }
+
+    /// [`Self::read`], and shows `see` every frame of the range.
+    pub(super) fn read_and_show(
+        sequence: &Sequence,
+        frames: Range<usize>,
+        count: usize,
+        see: &mut dyn FnMut(&FrameSet),
+        progress: &mut Advance<'_>,
+    ) -> Result<Self> {
         check_background(sequence, &frames)?;
         let samples = spread(&frames, count);
         let reach = SHIFTS.end().unsigned_abs();
         let is_kept = |frame: usize, _: usize| is_near(&samples, frame, reach);
-        let (fields, repeats) = fields(sequence, frames.clone(), is_kept, progress)?;
-        Ok(Self { frames, samples, reach, repeats, fields })
+        let fields = fields(sequence, frames.clone(), is_kept, see, progress)?;
+        Ok(Self { frames, samples, reach, fields })
     }
 
     /// The same samples with more neighbours of the views `wide`, by which these can be moved by `reach` frames, beyond the range too.
@@ -70,8 +78,8 @@ impl Silhouettes {
         let is_kept = |frame: usize, view: usize| {
             is_near(&self.samples, frame, if wide.contains(&view) { reach + near } else { near })
         };
-        let (fields, repeats) = fields(sequence, frames.clone(), is_kept, progress)?;
-        Ok(Self { frames, samples: self.samples.clone(), reach, repeats, fields })
+        let fields = fields(sequence, frames.clone(), is_kept, &mut |_| {}, progress)?;
+        Ok(Self { frames, samples: self.samples.clone(), reach, fields })
     }
 
     /// A sample as the views saw it, with each view's frame moved by `shift(view)`; None where a neighbour is not in
@@ -96,21 +104,21 @@ fn is_near(samples: &[usize], frame: usize, reach: usize) -> bool {
     samples.iter().any(|&sample| sample.abs_diff(frame) <= reach)
 }
 
-/// The silhouettes of the frames and views that are kept, and the pictures of all that are the one before again.
+/// The silhouettes of the frames and views that are kept; all frames are shown to `see`.
 fn fields(
     sequence: &Sequence,
     frames: Range<usize>,
     is_kept: impl Fn(usize, usize) -> bool,
+    see: &mut dyn FnMut(&FrameSet),
     progress: &mut Advance<'_>,
-) -> Result<(Vec<Vec<Option<SignedDistance>>>, Repeats)> {
+) -> Result<Vec<Vec<Option<SignedDistance>>>> {
     let views = 0..sequence.views.len();
     let mut observer = Observer::new(sequence, silhouette_settings(sequence)?, frames.clone(), frames.start)?;
     let mut fields = vec![Vec::new(); frames.len()];
-    let mut repeats = Repeats::default();
     while let Some(frame) = observer.read()? {
         progress("reading", frame.index.saturating_sub(frames.start), frames.len());
         if frames.contains(&frame.index) {
-            repeats.note(&frame);
+            see(&frame);
         }
         let is_wanted = views.clone().any(|view| is_kept(frame.index, view));
         if let Some(features) = observer.features(&frame, is_wanted)? {
@@ -122,7 +130,7 @@ fn fields(
             fields[frame.index - frames.start] = features.iter().enumerate().map(field).collect();
         }
     }
-    Ok((fields, repeats))
+    Ok(fields)
 }
 
 /// `count` frames evenly spread, away from the ends where there is room for their neighbours.

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use anyhow::Result;
 
 use super::confidence::FrameConfidence;
-use super::held::runs_of;
 use super::journal::FrameResult;
 use crate::features::{BitImage, Observation};
 
@@ -51,53 +50,13 @@ pub(super) fn stretches(results: &[FrameResult], confidences: &[FrameConfidence]
     let mut found: Vec<Stretch> = (0..views).flat_map(|view| of_view(&shares(view))).collect();
     found.sort_by_key(|stretch| stretch.first);
     found.dedup_by(|next, before| {
-        let is_same = next.first <= before.last + 1;
-        before.last = if is_same { before.last.max(next.last) } else { before.last };
-        is_same
+        let goes_on = next.first <= before.last + 1;
+        if goes_on {
+            before.last = before.last.max(next.last);
+        }
+        goes_on
     });
     found
-}
-
-/// Which views of which frames of a run are wrong.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Dissent {
-    /// A row a frame, empty where none is.
-    rows: Vec<Vec<bool>>,
-}
-
-impl Dissent {
-    /// Of so many views and frames.
-    pub(super) fn new(views: usize, frames: usize, wrong: impl Iterator<Item = (usize, Stretch)>) -> Self {
-        let mut rows = vec![Vec::new(); frames];
-        for (view, Stretch { first, last }) in wrong {
-            for row in &mut rows[first..=last] {
-                row.resize(views, false);
-                row[view] = true;
-            }
-        }
-        Self { rows }
-    }
-
-    /// Those that a second pass left out.
-    pub(super) fn left_out(results: &[FrameResult]) -> Self {
-        let row = |result: &FrameResult| {
-            let mut row = vec![false; result.views.len()];
-            result.left_out().for_each(|view| row[view] = true);
-            if row.contains(&true) { row } else { Vec::new() }
-        };
-        Self { rows: results.iter().map(row).collect() }
-    }
-
-    /// The views that dissent in the frame at this place in the run.
-    pub(super) fn views_at(&self, at: usize) -> impl Iterator<Item = usize> + '_ {
-        let row = self.rows.get(at).map_or(&[][..], Vec::as_slice);
-        row.iter().enumerate().filter(|(_, dissents)| **dissents).map(|(view, _)| view)
-    }
-
-    /// Runs of frames, by their places in the run, in which a view dissents: the first and the last of each.
-    pub(super) fn runs(&self, view: usize) -> Vec<[usize; 2]> {
-        runs_of((0..self.rows.len()).filter(|at| self.rows[*at].get(view) == Some(&true)))
-    }
 }
 
 /// Has all pixels of a view count neither for nor against anybody.
@@ -125,7 +84,7 @@ fn is_drawn(terms: &[f32; 2]) -> bool {
     terms[1] > 0.0
 }
 
-/// The stretches in which a view of these shares does not agree with the others.
+/// The stretches in which a view of these shares does not agree with the others; many are the same, or overlap.
 fn of_view(shares: &[Option<f32>]) -> Vec<Stretch> {
     let mut known: Vec<f32> = shares.iter().flatten().copied().collect();
     known.sort_by(f32::total_cmp);
@@ -135,23 +94,17 @@ fn of_view(shares: &[Option<f32>]) -> Vec<Stretch> {
     let believed = &known[known.partition_point(|share| *share < least)..];
     let usual = believed.get(believed.len() / 2).copied().unwrap_or(1.0);
     let is_unbelieved = |at: &usize| shares[*at].is_none_or(|share| share < NEAR * usual);
-    let mut found: Vec<Stretch> = Vec::new();
-    for (at, window) in shares.windows(FRAMES).enumerate() {
+    let stretch = |(at, window): (usize, &[Option<f32>])| {
         let sum: Option<f32> = window.iter().copied().sum();
-        if sum.is_none_or(|sum| sum >= least * FRAMES as f32) {
-            continue;
-        }
+        sum.filter(|sum| *sum < least * FRAMES as f32)?;
         let mut within = (at..at + FRAMES).filter(is_unbelieved);
-        let Some(begin) = within.next() else { continue };
+        let begin = within.next()?;
         let end = within.next_back().unwrap_or(begin);
         let first = (0..begin).rev().take_while(is_unbelieved).last().unwrap_or(begin);
         let last = (end + 1..shares.len()).take_while(is_unbelieved).last().unwrap_or(end);
-        match found.last_mut() {
-            Some(before) if before.last + 1 >= first => before.last = before.last.max(last),
-            _ => found.push(Stretch { first, last }),
-        }
-    }
-    found
+        Some(Stretch { first, last })
+    };
+    shares.windows(FRAMES).enumerate().filter_map(stretch).collect()
 }
 
 #[cfg(test)]
@@ -224,28 +177,17 @@ mod tests {
         assert!(found(&run(60, knocked(5, 0.48))).is_empty(), "no better in a quarter of its frames");
     }
 
+    /// Neither against a frame nor for what is usual in the view.
     #[test]
-    fn a_wrong_view_is_known_in_its_frames() {
-        let dissent = Dissent::new(
-            4,
-            50,
-            [(2, Stretch { first: 10, last: 20 }), (0, Stretch { first: 15, last: 16 })].into_iter(),
-        );
-        assert_eq!((dissent.runs(2), dissent.runs(0), dissent.runs(1)), (vec![[10, 20]], vec![[15, 16]], vec![]));
-        assert_eq!(
-            [9, 10, 15, 21, 50].map(|at| dissent.views_at(at).collect::<Vec<_>>()),
-            [vec![], vec![2], vec![0, 2], vec![], vec![]]
-        );
-    }
-
-    #[test]
-    fn what_was_left_out_is_known_again() {
+    fn what_was_left_out_counts_for_nothing() {
         let mut results = run(12, |_| vec![0.8; 4]);
         results[3..9].iter_mut().for_each(|result| result.views[2] = FrameResult::LEFT_OUT);
-        let left_out = Dissent::left_out(&results);
-        assert_eq!((0..4).map(|view| left_out.runs(view)).collect::<Vec<_>>(), [vec![], vec![], vec![[3, 8]], vec![]]);
-        assert_eq!(left_out.views_at(5).collect::<Vec<_>>(), [2]);
-        // It counts for nothing: neither against the frame nor for what is usual in the view.
+        assert_eq!(
+            [2, 3, 8, 9].map(|at| results[at].left_out().collect::<Vec<_>>()),
+            [vec![], vec![2], vec![2], vec![]]
+        );
+        assert_eq!([0, 5].map(|at| results[at].counted_views().count()), [4, 3]);
+        assert!((results[5].mean_f1() - 0.8).abs() < 1e-6);
         let frames = Confidence::of_all(&Body::adult(1750.0).unwrap(), LossRule::default(), &results);
         assert!(frames.iter().all(|frame| frame.agreement == 1.0 && frame.confidence == 1.0 && !frame.is_lost));
     }

@@ -22,7 +22,7 @@ pub struct FrameResult {
     pub fitness: f32,
     /// Standard deviation of the candidates behind it, one a degree of freedom: mm, radians.
     pub spread: Vec<f32>,
-    /// f1 and f2 (METHOD A7) of each view, [`Self::LEFT_OUT`] of one that a second pass left out.
+    /// f1 and f2 (METHOD A7) of each view, [`Self::LEFT_OUT`] of one that does not fit the others.
     pub views: Vec<[f32; 2]>,
     /// What the frame says of each joint.
     pub joints: Vec<JointHints>,
@@ -43,7 +43,7 @@ impl Extent {
 }
 
 impl FrameResult {
-    /// The terms of a view that was left out since it dissents: no numbers.
+    /// The terms of a view that was left out since it does not fit the others: no numbers.
     pub const LEFT_OUT: [f32; 2] = [f32::NAN; 2];
 
     /// The views that were not left out, and their terms.
@@ -54,6 +54,12 @@ impl FrameResult {
     /// The views that were left out.
     pub fn left_out(&self) -> impl Iterator<Item = usize> + '_ {
         self.views.iter().enumerate().filter(|(_, terms)| !is_counted(terms)).map(|(view, _)| view)
+    }
+
+    /// Mean f1 of the views that were not left out; 0 without one.
+    pub fn mean_f1(&self) -> f64 {
+        let f1 = || self.counted_views().map(|(_, terms)| f64::from(terms[0]));
+        f1().sum::<f64>() / f1().count().max(1) as f64
     }
 
     /// A line of the journal: the frame, the bits of every number in hexadecimal, a checksum of all that. It is of first passes, which leave

@@ -122,13 +122,9 @@ fn fitness_curves(confidences: &[FrameConfidence], frames: &[FrameResult]) -> Ve
         values: values.into_iter().map(Some).collect(),
         is_band: false,
     };
-    let mean_f1 = |result: &FrameResult| {
-        let counted = || result.counted_views().map(|(_, terms)| f64::from(terms[0]));
-        counted().sum::<f64>() / counted().count().max(1) as f64
-    };
     vec![
         curve("fitness", BLUE, frames.iter().map(|result| f64::from(result.fitness)).collect()),
-        curve("silhouette (mean f1)", GREEN, frames.iter().map(mean_f1).collect()),
+        curve("silhouette (mean f1)", GREEN, frames.iter().map(FrameResult::mean_f1).collect()),
         curve("confidence", ORANGE, confidences.iter().map(|frame| frame.confidence).collect()),
         curve("probability that it is wrong", RED, confidences.iter().map(|frame| frame.wrong).collect()),
     ]

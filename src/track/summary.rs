@@ -4,7 +4,6 @@ use std::cmp::Reverse;
 
 use super::TimingSummary;
 use super::confidence::FrameConfidence;
-use super::dissent::Dissent;
 use super::held::{Held, runs_of};
 use super::journal::FrameResult;
 use super::realtime::RealtimeSummary;
@@ -96,11 +95,11 @@ pub(super) fn doubtful_sentence(names: &[String], held: &Held, confidences: &[Fr
     })
 }
 
-/// What the user should know about each camera that does not fit what the others show, in these frames by their places in the run.
-pub(super) fn dissent_sentences(cameras: &[Camera], dissent: &Dissent, frames: &[FrameResult]) -> Vec<String> {
+/// What the user should know about each camera that was left out, since it does not fit what the others show.
+pub(super) fn dissent_sentences(cameras: &[Camera], frames: &[FrameResult]) -> Vec<String> {
     let of_view = |(view, camera): (usize, &Camera)| {
-        let runs: Vec<[usize; 2]> =
-            dissent.runs(view).into_iter().map(|run| run.map(|place| frames[place].frame)).collect();
+        let left_out = frames.iter().filter(|result| result.left_out().any(|left_out| left_out == view));
+        let runs = runs_of(left_out.map(|result| result.frame));
         (!runs.is_empty()).then(|| {
             let shown = shown(&runs, 5);
             format!(
@@ -132,6 +131,34 @@ pub(super) fn mean(values: impl Iterator<Item = f64>) -> f64 {
 mod tests {
     use super::*;
     use crate::track::confidence::JointConfidence;
+    use crate::track::fit_tests::cameras_around;
+
+    /// A camera that was left out is named with its frames, wherever they lie and whatever others were.
+    #[test]
+    fn cameras_that_were_left_out_are_named_with_their_frames() {
+        let cameras = cameras_around();
+        let left_out = |view: usize, frame: usize| match view {
+            0 => (15..17).contains(&frame),
+            1 => (110..=120).contains(&frame) || frame == 130,
+            _ => false,
+        };
+        let result = |frame: usize| FrameResult {
+            frame,
+            pose: Vec::new(),
+            fitness: 1.0,
+            spread: Vec::new(),
+            views: (0..cameras.len())
+                .map(|view| if left_out(view, frame) { FrameResult::LEFT_OUT } else { [0.8; 2] })
+                .collect(),
+            joints: Vec::new(),
+        };
+        let told = dissent_sentences(&cameras, &(10..150).map(result).collect::<Vec<_>>());
+        let begins = [(0, "15 to 16"), (1, "110 to 120, 130")].map(|(view, frames): (usize, &str)| {
+            format!("camera {:?} does not fit what the others show in frames {frames}, ", cameras[view].name)
+        });
+        assert_eq!(told.len(), 2, "{told:?}");
+        assert!(told.iter().zip(&begins).all(|(told, begin)| told.starts_with(begin)), "{told:?}");
+    }
 
     /// The joints of most frames are named first, with the stretches in which they are doubtful; gaps are told of elsewhere.
     #[test]

@@ -137,9 +137,9 @@ impl Confidence {
         let fitness = f64::from(result.fitness).clamp(0.0, 1.0);
         self.best_fitness = self.best_fitness.max(fitness);
         let relative = if self.best_fitness > 0.0 { fitness / self.best_fitness } else { 0.0 };
-        let f1 = || result.counted_views().map(|(_, view)| f64::from(view[0]));
-        let mean = f1().sum::<f64>() / f1().count().max(1) as f64;
-        let balance = if mean > 0.0 { (f1().fold(f64::INFINITY, f64::min) / mean).clamp(0.0, 1.0).sqrt() } else { 0.0 };
+        let mean = result.mean_f1();
+        let worst = result.counted_views().map(|(_, terms)| f64::from(terms[0])).fold(f64::INFINITY, f64::min);
+        let balance = if mean > 0.0 { (worst / mean).clamp(0.0, 1.0).sqrt() } else { 0.0 };
         let position_spread = root_mean_square(&result.spread, &self.root);
         let agreement = self.agreement(&result.views);
         let spreads = self.spreads(result);

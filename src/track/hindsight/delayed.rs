@@ -81,7 +81,7 @@ impl Delayed {
                 let mut scorer = Scorer::new(&mut *evaluator, objective, space, &self.shape, &settings);
                 refining::refine_one(&mut scorer, observations, &spread, &poses, self.before.len(), self.reach)
             })?;
-            let result = super::result(evaluator, objective, probe, (observations, &[]), &again, result)?;
+            let result = super::result(evaluator, objective, probe, observations, &again, result)?;
             settled = Some((again, result));
         }
         Ok(self.take().map(|(prepared, first, found)| match settled {

@@ -35,7 +35,6 @@ use self::watch::{Stopped, Watch};
 use self::window::{Seen, Windows};
 use super::appearance::RunAppearance;
 use super::confidence::{JointProbe, terms_alone};
-use super::dissent::Dissent;
 use super::feed::Frames;
 use super::journal::FrameResult;
 use super::plan::Plan;
@@ -63,15 +62,15 @@ pub(super) struct Hindsight<'a> {
 pub(super) type Taker<'a> = dyn FnMut(FrameResult, Option<&[RgbImage]>) -> Result<()> + 'a;
 
 impl Hindsight<'_> {
-    /// Hands on the results of all frames of a run again, in order, from what is known of it: the person's colours, the results of its first
-    /// pass, and the views that dissent in it, which are left out. `feed` begins with the first frame. Ends early where `progress` says so.
+    /// Hands on the results of all frames of a run again, in order, from what is known of it: the person's colours, and the results of its first
+    /// pass; views that those leave out stay out. `feed` begins with the first frame. Ends early where `progress` says so.
     ///
     /// # Errors
     /// When a frame cannot be read, the evaluator fails, or `take` does.
     pub(super) fn look_back(
         self,
         feed: &mut dyn Frames,
-        (appearance, forward, dissent): (Option<&RunAppearance>, &[FrameResult], &Dissent),
+        (appearance, forward): (Option<&RunAppearance>, &[FrameResult]),
         progress: &mut dyn Progress,
         take: &mut Taker<'_>,
     ) -> Result<()> {
@@ -81,7 +80,7 @@ impl Hindsight<'_> {
         let Plan { body, mesh, objective, backend, space, .. } = self.plan;
         let shape = Shape::new(body);
         std::thread::scope(|scope| {
-            let mut windows = Windows::begin(scope, feed, (appearance, dissent), self.cameras, self.pictures_every)?;
+            let mut windows = Windows::begin(scope, feed, (appearance, forward), self.cameras, self.pictures_every)?;
             windows.fill()?;
             let run = backend.evaluator.as_mut();
             let pieces = pieces(windows.seen().len(), SECTION);
@@ -113,14 +112,7 @@ impl Hindsight<'_> {
                 };
                 let frames = seen.iter().zip(&settled).zip(ambiguities).zip(&forward[done..]).take(count);
                 let results = mending.team.share(frames, |scorer, (((seen, frame), ambiguities), first)| {
-                    let mut result = result(
-                        scorer.evaluator,
-                        objective,
-                        self.probe,
-                        (&seen.observations, &seen.left_out),
-                        frame,
-                        first,
-                    )?;
+                    let mut result = result(scorer.evaluator, objective, self.probe, &seen.observations, frame, first)?;
                     let joints = result.joints.iter_mut().zip(ambiguities);
                     joints.for_each(|(hints, ambiguity)| hints.ambiguity = Some(ambiguity));
                     Ok(result)
@@ -146,7 +138,7 @@ fn result(
     evaluator: &mut dyn Evaluator,
     objective: &Objective,
     probe: &JointProbe,
-    (observations, left_out): (&[Observation], &[usize]),
+    observations: &[Observation],
     settled: &Settled,
     first: &FrameResult,
 ) -> Result<FrameResult> {
@@ -154,7 +146,7 @@ fn result(
     let mut fitness = [0.0];
     evaluator.fitness(&settled.pose, objective, &mut fitness)?;
     let mut views = terms_alone(objective, &evaluator.view_counts(&settled.pose, objective)?);
-    left_out.iter().for_each(|view| views[*view] = FrameResult::LEFT_OUT);
+    first.left_out().for_each(|view| views[view] = FrameResult::LEFT_OUT);
     Ok(FrameResult {
         frame: settled.frame,
         fitness: fitness[0],

@@ -50,7 +50,7 @@ impl Moving {
         let cameras = cameras_around();
         let observed = truth.iter().enumerate().map(|(index, pose)| {
             let pose: Vec<f64> = pose.iter().map(|value| f64::from(*value)).collect();
-            Seen { index, observations: seen(&body, &cameras, &pose), pictures: None, left_out: Vec::new() }
+            Seen { index, observations: seen(&body, &cameras, &pose), pictures: None }
         });
         let seen = observed.collect();
         Self { body, space, truth, seen }

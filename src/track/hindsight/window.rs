@@ -10,8 +10,9 @@ use image::RgbImage;
 use crate::features::Observation;
 use crate::geometry::Camera;
 use crate::track::appearance::RunAppearance;
-use crate::track::dissent::{Dissent, leave_out};
+use crate::track::dissent::leave_out;
 use crate::track::feed::{Frames, Prepared, ended_well};
+use crate::track::journal::FrameResult;
 
 /// Bytes that the observations of a window may take, and as many those of frames that are made while it is worked on; frames that it has at least
 /// and at most.
@@ -29,8 +30,6 @@ pub(super) struct Seen {
     pub(super) observations: Vec<Observation>,
     /// Its pictures, where they are asked for.
     pub(super) pictures: Option<Vec<RgbImage>>,
-    /// The views that are left out: in them all pixels are ignored.
-    pub(super) left_out: Vec<usize>,
 }
 
 /// The frames of a run again, in windows that overlap. They are made by a thread of their own, so that those of the next window are there when
@@ -45,14 +44,14 @@ pub(super) struct Windows<'scope> {
 
 impl<'scope> Windows<'scope> {
     /// From the first frame of a run on, seen by cameras at working size; the evidence is what `appearance` knows, without that of views which
-    /// dissent. Every `pictures_every` frames keep their pictures.
+    /// the first pass, `forward`, leaves out. Every `pictures_every` frames keep their pictures.
     ///
     /// # Errors
     /// When the thread cannot be started.
     pub(super) fn begin<'env>(
         scope: &'scope Scope<'scope, 'env>,
         feed: &'env mut dyn Frames,
-        (appearance, dissent): (Option<&'env RunAppearance>, &'env Dissent),
+        (appearance, forward): (Option<&'env RunAppearance>, &'env [FrameResult]),
         cameras: &[Camera],
         pictures_every: usize,
     ) -> Result<Self> {
@@ -60,10 +59,9 @@ impl<'scope> Windows<'scope> {
         let ahead = BYTES / (BYTES_PER_PIXEL * pixels).max(1);
         let (sender, made) = sync_channel(ahead.clamp(1, FRAMES[1]));
         let send_all = move || {
-            let frames = (0..)
-                .map_while(|at| next(feed, appearance, pictures_every, dissent.views_at(at).collect()).transpose());
+            let mut forward = forward.iter();
             // Without a receiver nobody wants more.
-            for seen in frames {
+            while let Some(seen) = next(feed, appearance, pictures_every, forward.next()).transpose() {
                 let is_last = seen.is_err();
                 if sender.send(seen).is_err() || is_last {
                     return;
@@ -111,23 +109,24 @@ impl<'scope> Windows<'scope> {
     }
 }
 
-/// The next frame of a feed as it is seen again, without these views; none after the last.
+/// The next frame of a feed as it is seen again, without the views that its result in the first pass leaves out; none after
+/// the last.
 fn next(
     feed: &mut dyn Frames,
     appearance: Option<&RunAppearance>,
     pictures_every: usize,
-    left_out: Vec<usize>,
+    first: Option<&FrameResult>,
 ) -> Result<Option<Seen>> {
     let Some(mut prepared) = feed.next()? else { return Ok(None) };
     if let Some(appearance) = appearance {
         appearance.observe(&mut prepared)?;
     }
     let Prepared { index, mut observations, pictures, .. } = prepared;
-    for &view in &left_out {
+    for view in first.into_iter().flat_map(FrameResult::left_out) {
         leave_out(&mut observations[view])?;
     }
     let is_shown = pictures_every > 0 && index.is_multiple_of(pictures_every);
-    Ok(Some(Seen { index, observations, pictures: is_shown.then_some(pictures), left_out }))
+    Ok(Some(Seen { index, observations, pictures: is_shown.then_some(pictures) }))
 }
 
 /// What an observation takes in memory.
@@ -177,9 +176,8 @@ mod tests {
 
     /// The indices of the frames of each window of a run, and of those that keep their pictures, until none is left.
     fn windows(mut feed: Made) -> Result<Vec<[Vec<usize>; 2]>> {
-        let agreed = Dissent::default();
         std::thread::scope(|scope| {
-            let mut windows = Windows::begin(scope, &mut feed, (None, &agreed), &[], 10)?;
+            let mut windows = Windows::begin(scope, &mut feed, (None, &[]), &[], 10)?;
             let mut all = Vec::new();
             loop {
                 windows.fill()?;
@@ -221,9 +219,8 @@ mod tests {
     #[test]
     fn nobody_waits_for_frames_that_are_not_wanted() {
         let mut feed = Made { given: 0, until: usize::MAX, end: || Ok(None) };
-        let agreed = Dissent::default();
         std::thread::scope(|scope| {
-            let mut windows = Windows::begin(scope, &mut feed, (None, &agreed), &[], 0).unwrap();
+            let mut windows = Windows::begin(scope, &mut feed, (None, &[]), &[], 0).unwrap();
             windows.fill().unwrap();
         });
         assert!(feed.given < 1000, "{} were made", feed.given);

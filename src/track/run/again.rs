@@ -93,7 +93,7 @@ impl Run<'_> {
     }
 
     /// Frames that tell of the body: evenly spread over those that are not lost, without the quarter that fits worst; where enough are left,
-    /// without those in which a view dissents.
+    /// without those in which a view is left out.
     fn telling(&self) -> Vec<usize> {
         let first = &self.frames[..self.frames.len().min(AMONG)];
         let mut fitness: Vec<f32> = first.iter().map(|result| result.fitness).collect();
@@ -102,8 +102,7 @@ impl Run<'_> {
         let mut good: Vec<usize> = (0..first.len())
             .filter(|&at| first[at].fitness >= least && !self.lost.contains(&first[at].frame))
             .collect();
-        let agreed: Vec<usize> =
-            good.iter().copied().filter(|&at| self.dissent.views_at(at).next().is_none()).collect();
+        let agreed: Vec<usize> = good.iter().copied().filter(|&at| first[at].left_out().next().is_none()).collect();
         if agreed.len() >= FEWEST {
             good = agreed;
         }

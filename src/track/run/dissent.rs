@@ -4,15 +4,15 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 
-use super::Run;
+use super::{Run, found_in};
 use crate::features::{SeenFrame, SeenView};
-use crate::track::confidence::{Confidence, LossRule, terms_alone};
-use crate::track::dissent::{Dissent, leave_out, stretches};
+use crate::track::confidence::{Confidence, LossRule};
+use crate::track::dissent::{leave_out, stretches};
 use crate::track::feed::{Frames, Keeps, Prepared};
 use crate::track::journal::FrameResult;
 use crate::track::plan::Plan;
 use crate::track::progress::Progress;
-use crate::track::searcher::{Searched, Searcher, Start};
+use crate::track::searcher::{Searcher, Start};
 
 /// Frames of a stretch that are searched to tell.
 const ASKED: usize = 5;
@@ -28,7 +28,8 @@ struct Follower {
 }
 
 impl Run<'_> {
-    /// Finds out which view is wrong where those of the first pass do not agree, and searches those frames again without it.
+    /// Finds out which view is wrong where those of the first pass do not agree, and searches those frames again without it:
+    /// their results say which one is left out.
     ///
     /// # Errors
     /// When frames cannot be read, or the evaluator fails.
@@ -52,7 +53,6 @@ impl Run<'_> {
         let start = Instant::now();
         let mut feed = feed(self, self.plan.range.start + first.first)?;
         let mut followers = Vec::new();
-        let mut wrong = Vec::new();
         for at in first.first..=last.last {
             progress.preparing("asking which camera is wrong", at - first.first, last.last - first.first + 1);
             if progress.should_stop() {
@@ -67,27 +67,21 @@ impl Run<'_> {
             if followers.is_empty() {
                 continue;
             }
-            if let Some(appearance) = &self.appearance {
-                appearance.observe(&mut prepared)?;
-            }
+            self.observe(&mut prepared)?;
             let before = self.frames[stretch.first.saturating_sub(1)].pose.clone();
             for follower in &mut followers {
                 self.follow(follower, &before, &prepared).with_context(|| format!("frame {}", prepared.index))?;
             }
             if at == stretch.last.min(stretch.first + ASKED - 1) {
-                let asked = at + 1 - stretch.first;
-                let fitness: Vec<f32> = followers.iter().map(|follower| follower.fitness() / asked as f32).collect();
-                let told = wrong_view(&fitness);
+                let told = wrong_view(&followers.iter().map(Follower::fitness).collect::<Vec<f32>>());
                 followers.retain(|follower| told.is_some() && follower.without == told);
             }
             if at == stretch.last
-                && let Some(Follower { without: Some(view), results, .. }) = followers.pop()
+                && let Some(Follower { results, .. }) = followers.pop()
             {
-                wrong.push((view, *stretch));
                 self.frames.splice(stretch.first..=stretch.last, results);
             }
         }
-        self.dissent = Dissent::new(self.sequence.cameras.len(), self.frames.len(), wrong.into_iter());
         self.count_over_frames("dissent", start);
         Ok(())
     }
@@ -114,23 +108,21 @@ impl Run<'_> {
         let start = Start { frame: number, centre, spread: &spread, until: None };
         let Plan { objective, backend, .. } = &mut self.plan;
         let evaluator = backend.evaluator.as_mut();
-        let found = follower.search.search(evaluator, objective, SeenFrame::Whole(&observations), start)?;
-        let Searched { estimate, views, .. } = found;
-        let mut views = terms_alone(objective, &views);
+        let searched = follower.search.search(evaluator, objective, SeenFrame::Whole(&observations), start)?;
+        let views = SeenView::all(&observations);
+        let mut result = found_in(prepared.index, &searched, &views, (evaluator, objective, &self.probe))?;
         if let Some(view) = follower.without {
-            views[view] = FrameResult::LEFT_OUT;
+            result.views[view] = FrameResult::LEFT_OUT;
         }
-        let joints = self.probe.ask(evaluator, objective, &SeenView::all(&observations), &estimate.pose)?;
-        let (fitness, spread, pose) = (estimate.fitness, estimate.spread, estimate.pose);
-        follower.results.push(FrameResult { frame: prepared.index, fitness, spread, views, joints, pose });
+        follower.results.push(result);
         Ok(())
     }
 }
 
 impl Follower {
-    /// The sum over its frames.
+    /// The mean over its frames.
     fn fitness(&self) -> f32 {
-        self.results.iter().map(|result| result.fitness).sum()
+        self.results.iter().map(|result| result.fitness).sum::<f32>() / self.results.len() as f32
     }
 }
 

@@ -5,7 +5,6 @@ use serde_json::json;
 
 use super::Run;
 use crate::track::confidence::{Confidence, LossRule};
-use crate::track::dissent::Dissent;
 use crate::track::held::Held;
 use crate::track::journal::{Extent, Journal};
 use crate::track::labels;
@@ -68,11 +67,7 @@ impl Run<'_> {
             return Ok(summary);
         }
         summary.warnings.extend(lost_sentence(&held.runs(), summary.frames.len()));
-        summary.warnings.extend(dissent_sentences(
-            &sequence.cameras,
-            &Dissent::left_out(&summary.frames),
-            &summary.frames,
-        ));
+        summary.warnings.extend(dissent_sentences(&sequence.cameras, &summary.frames));
         summary.warnings.extend(doubtful_sentence(&body.joint_names(), &held, &confidences));
         if !summary.frames.is_empty() {
             let warning =

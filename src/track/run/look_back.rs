@@ -34,7 +34,6 @@ impl Run<'_> {
         progress: &mut dyn Progress,
     ) -> Result<()> {
         let start = Instant::now();
-        let dissent = self.dissent.clone();
         let body = self.plan.body.clone();
         let overlay = Overlay::new(&body, self.plan.mesh.as_ref(), &self.sequence.cameras)?;
         let hindsight = Hindsight {
@@ -45,7 +44,7 @@ impl Run<'_> {
             pictures_every: self.settings.overlay_every,
         };
         let mut results = Vec::with_capacity(self.frames.len());
-        let known = (self.appearance.as_ref(), &*self.frames, &dissent);
+        let known = (self.appearance.as_ref(), &*self.frames);
         hindsight.look_back(feed, known, progress, &mut |result, pictures| {
             if let Some(pictures) = pictures {
                 overlay.write(self.output, result.frame, pictures, &result.pose)?;

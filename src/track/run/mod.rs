@@ -14,7 +14,6 @@ use anyhow::{Context, Result, anyhow};
 
 use super::appearance::RunAppearance;
 use super::confidence::{Confidence, FrameConfidence, JointProbe, LossRule, terms_alone};
-use super::dissent::Dissent;
 use super::feed::{Frames, Prepared};
 use super::hindsight::{Delayed, LimbSearch, SearchedFrame, TimeLeft};
 use super::journal::{FrameResult, Journal};
@@ -28,9 +27,11 @@ use super::searcher::{Searched, Start};
 use super::timings::{Span, Thread, Timings};
 use super::truth::Truth;
 use super::{Passes, Prediction, TrackSettings, Width};
-use crate::evaluate::Evaluator;
+use crate::evaluate::{Evaluator, Objective};
+use crate::features::SeenView;
 use crate::files::{Occupied, OutputFolder};
 use crate::gpu::DeviceLost;
+use crate::search::Estimate;
 use crate::sequence::Sequence;
 
 /// A run in work.
@@ -66,8 +67,6 @@ pub(super) struct Run<'a> {
     motion: LearntMotion,
     /// The frames that wait for those after them, where there is a delay.
     delayed: Option<Delayed>,
-    /// The views that are wrong, once that is found out.
-    dissent: Dissent,
 }
 
 impl<'a> Run<'a> {
@@ -116,7 +115,6 @@ impl<'a> Run<'a> {
             pace,
             lost: Vec::new(),
             is_cut: false,
-            dissent: Dissent::default(),
         })
     }
 
@@ -413,16 +411,8 @@ impl<'a> Run<'a> {
             searched.evaluations.push(Span::since(begin_looking));
         }
         let probe = &self.probe;
-        let result = |evaluator: &mut dyn Evaluator, searched: &Searched| -> Result<FrameResult> {
-            let pose = searched.estimate.pose.clone();
-            Ok(FrameResult {
-                frame,
-                fitness: searched.estimate.fitness,
-                spread: searched.estimate.spread.clone(),
-                views: terms_alone(objective, &searched.views),
-                joints: probe.ask(evaluator, objective, &views, &pose)?,
-                pose,
-            })
+        let result = |evaluator: &mut dyn Evaluator, searched: &Searched| {
+            found_in(frame, searched, &views, (evaluator, objective, probe))
         };
         let mut found = result(evaluator, &searched).with_context(in_frame)?;
         searched.passes.extend(evaluator.device_passes());
@@ -455,4 +445,22 @@ impl<'a> Run<'a> {
         self.timings.count("search", whole.time.saturating_sub(evaluating));
         Ok(found)
     }
+}
+
+/// What a search found in a frame, of which the views show this.
+fn found_in(
+    frame: usize,
+    searched: &Searched,
+    views: &[SeenView<'_>],
+    (evaluator, objective, probe): (&mut dyn Evaluator, &Objective, &JointProbe),
+) -> Result<FrameResult> {
+    let Estimate { pose, fitness, spread, .. } = &searched.estimate;
+    Ok(FrameResult {
+        frame,
+        fitness: *fitness,
+        spread: spread.clone(),
+        views: terms_alone(objective, &searched.views),
+        joints: probe.ask(evaluator, objective, views, pose)?,
+        pose: pose.clone(),
+    })
 }
