@@ -39,6 +39,14 @@ impl TerminalBar {
         bar.set_position(done as u64);
         true
     }
+
+    /// Writes a line above it.
+    pub(super) fn tell(&self, line: &str) {
+        match &self.0 {
+            Some(bar) => bar.suspend(|| tell!("{line}")),
+            None => tell!("{line}"),
+        }
+    }
 }
 
 impl Drop for TerminalBar {

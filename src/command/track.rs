@@ -381,6 +381,10 @@ impl Progress for TrackProgress {
         }
     }
 
+    fn tell(&mut self, news: &str) {
+        self.bar.tell(news);
+    }
+
     fn should_stop(&self) -> bool {
         self.stop.is_asked()
     }

@@ -8,6 +8,7 @@ mod ignored;
 mod in_step;
 mod likely_delays;
 mod live;
+mod live_capture;
 mod live_options;
 mod manifest;
 mod manifest_file;

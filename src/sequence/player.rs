@@ -19,6 +19,8 @@ pub struct Captured {
     pub set: FrameSet,
     /// The moment of capture: a recorded frame's turn; of live pictures, the first one's arrival.
     pub at: Instant,
+    /// The views that delivered nothing (live ones alone): their pictures are black, and all of their pixels ignored.
+    pub silent: Vec<usize>,
 }
 
 /// How a recorded sequence is played.
@@ -116,6 +118,6 @@ impl Player {
             due
         };
         self.due = Some(at + interval);
-        Ok(Some(Captured { set, at }))
+        Ok(Some(Captured { set, at, silent: Vec::new() }))
     }
 }

@@ -63,4 +63,14 @@ impl LiveSource {
         let address = if file.exists() { file.display().to_string() } else { text.into_owned() };
         Some(Self { address, input })
     }
+
+    /// Whether it goes on where it is, once it is opened again: not so a file, or pictures that ffmpeg makes up, which begin anew.
+    pub(super) fn may_return(&self) -> bool {
+        !Path::new(&self.address).is_file() && !self.input.iter().any(|word| word == "lavfi")
+    }
+
+    /// Whether it comes over a network, where the other end may be gone for long before that is noticed.
+    pub(super) fn is_connection(&self) -> bool {
+        self.address.contains("://")
+    }
 }

@@ -54,6 +54,7 @@ fn prepared(index: usize, pictures: Vec<RgbImage>) -> Prepared {
         held: None,
         likelihoods: Vec::new(),
         features_kept: Vec::new(),
+        silent: Vec::new(),
         read: span(),
         features: span(),
         captured: None,

@@ -144,6 +144,7 @@ impl Worker {
                 held: None,
                 likelihoods,
                 features_kept,
+                silent: Vec::new(),
                 pictures: frame.pictures,
                 read,
                 features: made,

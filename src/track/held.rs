@@ -48,19 +48,24 @@ impl Held {
         (0..self.table.frames.len()).filter(|row| self.gaps.binary_search(row).is_err()).collect()
     }
 
-    /// Runs of frames that are gaps: the first and the last of each.
+    /// Runs of rows that are gaps.
     pub(super) fn runs(&self) -> Vec<[usize; 2]> {
-        runs_of(self.gaps.iter().map(|&row| self.table.frames[row]))
+        runs_of(self.gaps.iter().copied())
+    }
+
+    /// The frames of the first and the last row of each run.
+    pub(super) fn frames_of(&self, runs: &[[usize; 2]]) -> Vec<[usize; 2]> {
+        runs.iter().map(|run| run.map(|row| self.table.frames[row])).collect()
     }
 }
 
-/// Runs of rising frames: the first and the last of each.
-pub(super) fn runs_of(frames: impl Iterator<Item = usize>) -> Vec<[usize; 2]> {
+/// Runs of rising rows: the first and the last of each. A run in real time passes frames over, so rows follow each other where frames do not.
+pub(super) fn runs_of(rows: impl Iterator<Item = usize>) -> Vec<[usize; 2]> {
     let mut runs: Vec<[usize; 2]> = Vec::new();
-    for frame in frames {
+    for row in rows {
         match runs.last_mut() {
-            Some([_, last]) if *last + 1 == frame => *last = frame,
-            _ => runs.push([frame, frame]),
+            Some([_, last]) if *last + 1 == row => *last = row,
+            _ => runs.push([row, row]),
         }
     }
     runs

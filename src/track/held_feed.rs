@@ -76,6 +76,7 @@ impl HeldWorker {
             held: Some(held),
             likelihoods: Vec::new(),
             features_kept: Vec::new(),
+            silent: Vec::new(),
             read,
             features: Span::since(start),
             captured: None,

@@ -80,6 +80,11 @@ pub(super) trait Pace {
         Vec::new()
     }
 
+    /// What happened to the sources since this was asked before, sentences for the user.
+    fn take_news(&mut self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Takes note of how good a pose is.
     fn judge(&mut self, _fitness: f32, _confidence: f64) {}
 

@@ -21,6 +21,8 @@ pub(super) struct Prepared {
     pub(super) likelihoods: Vec<Likelihood>,
     /// All features of every view but the likelihoods, where several people are told apart by them; else none.
     pub(super) features_kept: Vec<ViewFeatures>,
+    /// Views that delivered nothing.
+    pub(super) silent: Vec<usize>,
     /// Waiting for the pictures.
     pub(super) read: Span,
     /// Making the features.

@@ -14,6 +14,9 @@ pub trait Progress: Send {
     /// The second pass has done the work of so many frames too.
     fn looked_back(&mut self, _done: usize) {}
 
+    /// Something happened that the user should know at once.
+    fn tell(&mut self, _news: &str) {}
+
     /// Whether to stop after the frame in work.
     fn should_stop(&self) -> bool {
         false

@@ -58,10 +58,10 @@ pub struct TrackSummary {
 }
 
 /// What the user should know about the gaps of a track.
-pub(super) fn lost_sentence(runs: &[[usize; 2]], frames: usize) -> Option<String> {
-    let lost: usize = runs.iter().map(|[first, last]| last + 1 - first).sum();
+pub(super) fn lost_sentence(held: &Held) -> Option<String> {
+    let (lost, frames) = (held.gap_count(), held.table.frames.len());
     (lost > 0).then(|| {
-        let shown = shown(runs, 5);
+        let shown = shown(held, &held.runs(), 5);
         format!("the person is lost in {lost} of {frames} frames, which are gaps in the results: {shown}")
     })
 }
@@ -72,14 +72,14 @@ pub(super) fn doubtful_sentence(names: &[String], held: &Held, confidences: &[Fr
     let sure = held.sure();
     let doubtful = |joint: usize| -> Vec<usize> {
         let is_doubtful = |row: &usize| confidences[*row].joints.get(joint).is_some_and(|it| it.sigma > DOUBTFUL);
-        sure.iter().copied().filter(is_doubtful).map(|row| held.table.frames[row]).collect()
+        sure.iter().copied().filter(is_doubtful).collect()
     };
     let mut joints: Vec<(&String, Vec<usize>)> =
         names.iter().enumerate().map(|(joint, name)| (name, doubtful(joint))).collect();
-    joints.retain(|(_, frames)| !frames.is_empty());
-    joints.sort_by_key(|(_, frames)| Reverse(frames.len()));
+    joints.retain(|(_, rows)| !rows.is_empty());
+    joints.sort_by_key(|(_, rows)| Reverse(rows.len()));
     let told: Vec<String> = (joints.iter().take(NAMED))
-        .map(|(name, frames)| format!("{name} in {}", shown(&runs_of(frames.iter().copied()), 3)))
+        .map(|(name, rows)| format!("{name} in {}", shown(held, &runs_of(rows.iter().copied()), 3)))
         .collect();
     let more = match joints.len() - told.len() {
         0 => String::new(),
@@ -95,13 +95,25 @@ pub(super) fn doubtful_sentence(names: &[String], held: &Held, confidences: &[Fr
     })
 }
 
-/// What the user should know about each camera that was left out, since it does not fit what the others show.
-pub(super) fn dissent_sentences(cameras: &[Camera], frames: &[FrameResult]) -> Vec<String> {
+/// What the user should know about each camera that was left out: in real time since nothing came of it, else since it does not fit what the
+/// others show.
+pub(super) fn left_out_sentences(
+    cameras: &[Camera],
+    held: &Held,
+    frames: &[FrameResult],
+    in_real_time: bool,
+) -> Vec<String> {
     let of_view = |(view, camera): (usize, &Camera)| {
-        let left_out = frames.iter().filter(|result| result.left_out().any(|left_out| left_out == view));
-        let runs = runs_of(left_out.map(|result| result.frame));
+        let is_without = |row: &usize| frames[*row].left_out().any(|left_out| left_out == view);
+        let runs = runs_of((0..frames.len()).filter(is_without));
         (!runs.is_empty()).then(|| {
-            let shown = shown(&runs, 5);
+            let shown = shown(held, &runs, 5);
+            if in_real_time {
+                return format!(
+                    "camera {:?} delivered nothing in frames {shown}, which are tracked without it",
+                    camera.name
+                );
+            }
             format!(
                 "camera {:?} does not fit what the others show in frames {shown}, which are tracked without it: see whether it stopped, was moved, lost frames, has \
                  something before it, or sees the person before her own colours",
@@ -112,11 +124,10 @@ pub(super) fn dissent_sentences(cameras: &[Camera], frames: &[FrameResult]) -> V
     cameras.iter().enumerate().filter_map(of_view).collect()
 }
 
-/// The first so many of runs of frames.
-fn shown(runs: &[[usize; 2]], most: usize) -> String {
-    let run =
-        |[first, last]: &[usize; 2]| if first == last { format!("{first}") } else { format!("{first} to {last}") };
-    let shown: Vec<String> = runs.iter().take(most).map(run).collect();
+/// The frames of the first so many of runs of rows.
+fn shown(held: &Held, runs: &[[usize; 2]], most: usize) -> String {
+    let run = |[first, last]: [usize; 2]| if first == last { format!("{first}") } else { format!("{first} to {last}") };
+    let shown: Vec<String> = held.frames_of(&runs[..most.min(runs.len())]).into_iter().map(run).collect();
     let more = if runs.len() > most { ", …" } else { "" };
     format!("{}{more}", shown.join(", "))
 }
@@ -152,12 +163,20 @@ mod tests {
                 .collect(),
             joints: Vec::new(),
         };
-        let told = dissent_sentences(&cameras, &(10..150).map(result).collect::<Vec<_>>());
+        let frames: Vec<FrameResult> = (10..150).map(result).collect();
+        let told = |frames: &[FrameResult], in_real_time: bool| {
+            left_out_sentences(&cameras, &Held::new(frames, &[], false), frames, in_real_time)
+        };
+        let in_real_time: Vec<FrameResult> = frames.iter().filter(|result| result.frame % 5 == 0).cloned().collect();
+        let (passed_over, told) = (told(&in_real_time, true), told(&frames, false));
         let begins = [(0, "15 to 16"), (1, "110 to 120, 130")].map(|(view, frames): (usize, &str)| {
             format!("camera {:?} does not fit what the others show in frames {frames}, ", cameras[view].name)
         });
         assert_eq!(told.len(), 2, "{told:?}");
         assert!(told.iter().zip(&begins).all(|(told, begin)| told.starts_with(begin)), "{told:?}");
+        // Frames that were passed over do not part a run.
+        let silent = format!("camera {:?} delivered nothing in frames 110 to 120, 130, which", cameras[1].name);
+        assert!(passed_over.len() == 2 && passed_over[1].starts_with(&silent), "{passed_over:?}");
     }
 
     /// The joints of most frames are named first, with the stretches in which they are doubtful; gaps are told of elsewhere.

@@ -167,6 +167,7 @@ mod tests {
                 held: None,
                 likelihoods: Vec::new(),
                 features_kept: Vec::new(),
+                silent: Vec::new(),
                 read: span,
                 features: span,
                 captured: None,

@@ -63,6 +63,7 @@ impl Acquisition {
                 let captured = reader.next_set();
                 counts.unmatched.store(reader.unmatched(), Ordering::Relaxed);
                 counts.complaints.store(reader.complaints(), Ordering::Relaxed);
+                counts.add_news(reader.take_news());
                 if let Some(how) = reader.ended() {
                     counts.end(how);
                 }

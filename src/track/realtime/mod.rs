@@ -233,6 +233,10 @@ impl Pace for Realtime {
         self.outlets.as_ref().map(|outlets| outlets.addresses().to_vec()).unwrap_or_default()
     }
 
+    fn take_news(&mut self) -> Vec<String> {
+        self.counts.take_news()
+    }
+
     fn close(&mut self, run: &Finished<'_>, summary: &mut TrackSummary) -> Result<()> {
         let count = self.tally.poses().max(1) as f64;
         (summary.mean_fitness, summary.mean_confidence) = (self.tally.fitness / count, self.tally.confidence / count);

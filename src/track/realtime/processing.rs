@@ -63,7 +63,7 @@ impl Processing {
     ///
     /// # Errors
     /// When a picture does not fit its view.
-    pub(super) fn process(&self, Captured { set, at }: Captured) -> Result<Prepared> {
+    pub(super) fn process(&self, Captured { set, at, silent }: Captured) -> Result<Prepared> {
         let read = Span::since(at);
         let begin = Instant::now();
         let FrameSet { index, pictures, masks, ignored } = set;
@@ -92,6 +92,7 @@ impl Processing {
             held: None,
             likelihoods,
             features_kept,
+            silent,
             read,
             features,
             captured: Some(at),

@@ -27,6 +27,7 @@ pub(super) struct Counts {
     pub(super) not_tracked: AtomicU64,
     first_and_last: Mutex<Option<[Instant; 2]>>,
     ended: Mutex<Option<String>>,
+    news: Mutex<Vec<String>>,
 }
 
 impl Counts {
@@ -39,6 +40,16 @@ impl Counts {
     /// A source ended the run.
     pub(super) fn end(&self, how: &str) {
         lock(&self.ended).get_or_insert_with(|| how.to_string());
+    }
+
+    /// Something happened to the sources that the user should know.
+    pub(super) fn add_news(&self, news: Vec<String>) {
+        lock(&self.news).extend(news);
+    }
+
+    /// What happened since this was asked before.
+    pub(super) fn take_news(&self) -> Vec<String> {
+        std::mem::take(&mut *lock(&self.news))
     }
 
     /// How a source ended the run.

@@ -13,7 +13,7 @@ use crate::track::progress::Progress;
 use crate::track::results;
 use crate::track::run_record::RunRecord;
 use crate::track::smoothed;
-use crate::track::summary::{TrackSummary, dissent_sentences, doubtful_sentence, lost_sentence, mean};
+use crate::track::summary::{TrackSummary, doubtful_sentence, left_out_sentences, lost_sentence, mean};
 
 impl Run<'_> {
     /// Writes the results, unless the run was stopped.
@@ -66,8 +66,13 @@ impl Run<'_> {
         if stopped_before.is_some() {
             return Ok(summary);
         }
-        summary.warnings.extend(lost_sentence(&held.runs(), summary.frames.len()));
-        summary.warnings.extend(dissent_sentences(&sequence.cameras, &summary.frames));
+        summary.warnings.extend(lost_sentence(&held));
+        summary.warnings.extend(left_out_sentences(
+            &sequence.cameras,
+            &held,
+            &summary.frames,
+            self.settings.realtime.is_some(),
+        ));
         summary.warnings.extend(doubtful_sentence(&body.joint_names(), &held, &confidences));
         if !summary.frames.is_empty() {
             let warning =

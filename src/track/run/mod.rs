@@ -229,6 +229,7 @@ impl<'a> Run<'a> {
             } else {
                 self.finish_frame(&prepared, result)?
             };
+            self.pace.take_news().iter().for_each(|news| progress.tell(news));
             progress.frame(&done);
             if progress.should_stop() {
                 self.is_cut = frame + 1 < self.plan.range.end;
@@ -411,8 +412,10 @@ impl<'a> Run<'a> {
             searched.evaluations.push(Span::since(begin_looking));
         }
         let probe = &self.probe;
-        let result = |evaluator: &mut dyn Evaluator, searched: &Searched| {
-            found_in(frame, searched, &views, (evaluator, objective, probe))
+        let result = |evaluator: &mut dyn Evaluator, searched: &Searched| -> Result<FrameResult> {
+            let mut found = found_in(frame, searched, &views, (evaluator, objective, probe))?;
+            prepared.silent.iter().for_each(|&view| found.views[view] = FrameResult::LEFT_OUT);
+            Ok(found)
         };
         let mut found = result(evaluator, &searched).with_context(in_frame)?;
         searched.passes.extend(evaluator.device_passes());

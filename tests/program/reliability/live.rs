@@ -123,7 +123,43 @@ fn shell(script: &str) -> Child {
     Command::new("sh").args(["-c", script]).stdin(Stdio::null()).spawn().unwrap()
 }
 
-/// A named pipe whose writer stops in the middle: the frames before are kept, the view is named.
+/// Writes six seconds of pictures into the pipe, and then nothing while it holds it open.
+#[cfg(unix)]
+fn stopping_writer(folder: &Path, pipe: &Path) -> Child {
+    shell(&format!(
+        "exec 3>'{}'; ffmpeg -v error -nostdin -re -stream_loop 24 -i '{}' -c:v rawvideo -f nut -flush_packets 1 pipe:1 >&3; exec sleep 60",
+        pipe.display(),
+        folder.join("cam1.mkv").display()
+    ))
+}
+
+/// A camera that falls silent in the middle: the others go on without it, and where that was is told.
+#[cfg(unix)]
+#[test]
+fn a_view_that_falls_silent_is_left_out_and_named() {
+    if !has_ffmpeg("a_view_that_falls_silent_is_left_out_and_named") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = piped(folder.path(), 49);
+    let mut writer = stopping_writer(folder.path(), &pipe);
+    let output = folder.path().join("track");
+    let done = track(&folder.path().join("live.toml"), &output, &FEW);
+    writer.kill().unwrap();
+    writer.wait().unwrap();
+    succeeded(&done);
+    let said = stderr(&done);
+    for part in ["delivers nothing; frames from", "camera \"cam1\" delivered nothing in frames", "ended after"] {
+        assert!(said.contains(part), "no {part:?} in {said}");
+    }
+    let mut rows = csv::Reader::from_path(output.join("confidence.csv")).unwrap();
+    let column = rows.headers().unwrap().iter().position(|name| name == "cam1.f1").unwrap();
+    let seen: Vec<bool> = rows.records().map(|row| !row.unwrap()[column].is_empty()).collect();
+    let (with, without) = (seen.iter().filter(|seen| **seen).count(), seen.iter().filter(|seen| !**seen).count());
+    assert!(with >= 3 && without >= 3 && seen.is_sorted_by(|a, b| a >= b), "{seen:?}");
+}
+
+/// Of two views one stops in the middle: the frames before are kept, the view is named.
 #[cfg(unix)]
 #[test]
 fn a_pipe_that_stalls_is_named_and_the_poses_stay() {
@@ -132,16 +168,14 @@ fn a_pipe_that_stalls_is_named_and_the_poses_stay() {
     }
     let folder = tempfile::tempdir().unwrap();
     let pipe = piped(folder.path(), 400);
-    // Six seconds of pictures, then silence with the pipe held open.
-    let writer = format!(
-        "exec 3>'{}'; ffmpeg -v error -nostdin -re -stream_loop 24 -i '{}' -c:v rawvideo -f nut -flush_packets 1 pipe:1 >&3; exec sleep 60",
-        pipe.display(),
-        folder.path().join("cam1.mkv").display()
-    );
-    let mut writer = shell(&writer);
+    let manifest = folder.path().join("live.toml");
+    let text = fs::read_to_string(&manifest).unwrap();
+    let two: Vec<&str> = text.split("[[view]]").take(3).collect();
+    fs::write(&manifest, two.join("[[view]]")).unwrap();
+    let mut writer = stopping_writer(folder.path(), &pipe);
     let output = folder.path().join("track");
     let stalled = track(
-        &folder.path().join("live.toml"),
+        &manifest,
         &output,
         &["--realtime", "--backend", "cpu", "--particles", "60", "--iterations", "5", "--stall-timeout", "5"],
     );
