@@ -41,28 +41,54 @@ HAS_LAYER = { [ -n "$$VK_LAYER_PATH" ] || ls /usr/share/vulkan/explicit_layer.d 
 # With both, a test that finds no device fails instead of being skipped.
 NEEDS_VULKAN = $$(if $(HAS_DRIVER) && $(HAS_LAYER); then echo PANTIN_NEEDS_VULKAN=1; fi)
 
+# The tests in parts, of which two run side by side, with half of the processors each: a test that waits, for the device that another has or for
+# a clock, leaves the other part at work. Those that take longest come first.
+TEST_PARTS := test-program-first test-devices test-program-second test-library test-agreement test-others test-documents python-tests
+.PHONY: $(TEST_PARTS)
+# What the device's part has of the library's tests, and the first one of the program's; all others are in those beside them.
+OF_DEVICES := evaluate::device texture::device
+OF_PROGRAM_FIRST := check:: reliability:: first_try:: losses:: batch:: beam:: calibrate:: demo:: features::
+OTHERS := $(filter-out program agreement,$(patsubst tests/%.rs,%,$(wildcard tests/*.rs)) $(patsubst tests/%/main.rs,%,$(wildcard tests/*/main.rs)))
+
 # One seed for the property tests: whoever runs them twice gets one answer. A plain `cargo test` draws new cases each time.
-test: export PROPTEST_RNG_SEED = 1
+test $(TEST_PARTS): export PROPTEST_RNG_SEED = 1
 # What an incremental build keeps for the next one takes a third longer to make.
-test: export CARGO_INCREMENTAL = 0
+test $(TEST_PARTS): export CARGO_INCREMENTAL = 0
 # A failing test says its file and line without them; line tables are for profilers.
-test: export CARGO_PROFILE_DEV_DEBUG = 0
+test $(TEST_PARTS): export CARGO_PROFILE_DEV_DEBUG = 0
 # Everything is built at once, and once: all that is tested has the feature rerun (185 crates more), the Python package too, so that one
 # library serves them all.
 TESTED := --locked --workspace --features rerun
 # The lints are made on the way: clippy's driver is the compiler with more to say. By itself (`cargo clippy`) it reads the sources of all
 # crates once more, three minutes of two cores.
-test: export RUSTC_WORKSPACE_WRAPPER = clippy-driver
-test: export CLIPPY_ARGS = -Dwarnings
-# The library's tests that have a device take turns, and one that waits for its turn leaves a processor to the others.
+test $(TEST_PARTS): export RUSTC_WORKSPACE_WRAPPER = clippy-driver
+test $(TEST_PARTS): export CLIPPY_ARGS = -Dwarnings
 test: toolchain shaderc ffmpeg vulkan
 	$(CARGO) fmt --all --check
 	env $(FOR_PYTHON) $(CARGO) build $(TESTED) --lib --bins --tests --benches
-	env $(NEEDS_VULKAN) $(FOR_PYTHON) RUST_TEST_THREADS=$$(($$(nproc) + 1)) $(CARGO) test $(TESTED) --exclude pantin-python --lib
-	env $(NEEDS_VULKAN) $(FOR_PYTHON) $(CARGO) test $(TESTED) --exclude pantin-python --test '*' --bench '*'
-	env $(FOR_PYTHON) $(CARGO) test $(TESTED) --exclude pantin-python --doc
-	$(MAKE) --no-print-directory python-tests
+	$(MAKE) --no-print-directory -j2 $(TEST_PARTS)
 	@[ -d ../shared/data ] || echo "SKIPPED: the tests on real recordings; ../shared/data is absent"
+
+# A part fails with its tests, and its lines come whole between those of another.
+$(filter test-%,$(TEST_PARTS)): SHELL := bash
+$(filter test-%,$(TEST_PARTS)): .SHELLFLAGS := -o pipefail -c
+TEST = env $(NEEDS_VULKAN) $(FOR_PYTHON) RUST_TEST_THREADS=$$((($$(nproc) + 1) / 2)) $(CARGO) test $(TESTED) --exclude pantin-python
+WHOLE_LINES := 2>&1 | sed -u ''
+
+test-devices:
+	$(TEST) --lib -- $(OF_DEVICES) $(WHOLE_LINES)
+test-library:
+	$(TEST) --lib -- $(addprefix --skip ,$(OF_DEVICES)) $(WHOLE_LINES)
+test-program-first:
+	$(TEST) --test program -- $(OF_PROGRAM_FIRST) $(WHOLE_LINES)
+test-program-second:
+	$(TEST) --test program -- $(addprefix --skip ,$(OF_PROGRAM_FIRST)) $(WHOLE_LINES)
+test-agreement:
+	$(TEST) --test agreement $(WHOLE_LINES)
+test-others:
+	$(TEST) $(addprefix --test ,$(OTHERS)) --bench '*' $(WHOLE_LINES)
+test-documents:
+	$(TEST) --doc $(WHOLE_LINES)
 
 bench: toolchain shaderc
 	$(CARGO) bench --locked
