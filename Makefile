@@ -71,8 +71,7 @@ test: toolchain shaderc ffmpeg vulkan
 
 # A part fails with its tests, and its lines come whole between those of another.
 $(filter test-%,$(TEST_PARTS)): SHELL := bash
-$(filter test-%,$(TEST_PARTS)): .SHELLFLAGS := -o pipefail -c
-TEST = env $(NEEDS_VULKAN) $(FOR_PYTHON) RUST_TEST_THREADS=$$((($$(nproc) + 1) / 2)) $(CARGO) test $(TESTED) --exclude pantin-python
+TEST = set -o pipefail; env $(NEEDS_VULKAN) $(FOR_PYTHON) RUST_TEST_THREADS=$$((($$(nproc) + 1) / 2)) $(CARGO) test $(TESTED) --exclude pantin-python
 WHOLE_LINES := 2>&1 | sed -u ''
 
 test-devices:
