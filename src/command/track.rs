@@ -287,6 +287,9 @@ fn print_realtime(realtime: &RealtimeSummary, evaluator: &str) {
     if realtime.complaints > 0 {
         say!("the decoders complained {} times: pictures were damaged", realtime.complaints);
     }
+    if let Some(apart) = realtime.apart_ms {
+        say!("the pictures of a set came within {apart:.1} ms of each other, on average");
+    }
     for SentSummary { to, receivers, sent, dropped } in &realtime.sent {
         let receivers = receivers.map(|count| format!(" to {count} receivers")).unwrap_or_default();
         say!("{to}: {sent} poses were sent{receivers}, {dropped} were dropped");

@@ -10,6 +10,7 @@ use image::{GrayImage, Luma, RgbImage};
 
 use super::frames::FrameSet;
 use super::live_capture::{Arrival, Capture, End};
+use super::live_matching::Matching;
 use super::manifest::Sequence;
 use super::player::Captured;
 use super::source::{LiveSource, Source};
@@ -29,7 +30,7 @@ const OPENED_AFTER: Duration = Duration::from_secs(2);
 /// and a connection that delivers nothing for so long is given up for that.
 const GIVEN_UP_AFTER: Duration = Duration::from_secs(10);
 
-/// Reads live views. A set is a picture of every view whose arrivals lie within half a frame; of each view the newest
+/// Reads live views. A set is a picture of every view that arrived as close together as the cameras offer; of each view the newest
 /// picture counts, one that was not matched by then is passed over. A view that falls silent after the first set is left out of the sets
 /// until it delivers again. Dropping the reader ends threads and decoders.
 #[derive(Debug)]
@@ -40,6 +41,7 @@ pub struct LiveReader {
     sender: SyncSender<Arrival>,
     scale: f64,
     fps: f64,
+    matching: Matching,
     stall_timeout: Duration,
     /// The first set's capture and its index.
     zero: Option<Instant>,
@@ -68,7 +70,8 @@ struct LiveView {
     heard: Instant,
     /// Between its pictures, s.
     interval: f64,
-    waiting: Option<(Instant, RgbImage)>,
+    /// Its newest picture, while no set was made of it.
+    waiting: Option<RgbImage>,
     /// Whether the newest set is without it.
     is_left_out: bool,
     /// How its source ended, while it is not open.
@@ -97,6 +100,7 @@ impl Sequence {
             sender,
             scale: self.scale,
             fps: self.fps,
+            matching: Matching::new(self.fps),
             stall_timeout,
             zero: None,
             next: first,
@@ -138,6 +142,11 @@ impl LiveReader {
         self.unmatched
     }
 
+    /// What the pictures of a set lay apart on average, s; of no set nothing.
+    pub fn apart(&self) -> Option<f64> {
+        self.matching.apart()
+    }
+
     /// Lines with which the decoders complained: damaged pictures, most of all.
     pub fn complaints(&self) -> u64 {
         self.views.iter().map(|view| view.complained + view.capture.complaints()).sum()
@@ -157,7 +166,7 @@ impl LiveReader {
     ///
     /// # Errors
     /// Before the first set, when a view delivers nothing, or nothing in time; afterwards when fewer than two do (one, where there is no other);
-    /// when pictures come but never within half a frame of each other.
+    /// when pictures come but never within a frame of each other.
     pub fn next_set(&mut self) -> Result<Option<Captured>> {
         loop {
             self.open_again()?;
@@ -192,7 +201,7 @@ impl LiveReader {
             let delivering = self.views.iter().filter(|view| view.heard.elapsed() < self.stall_timeout / 2).count();
             ensure!(
                 self.last_set.elapsed() < self.stall_timeout || delivering < self.needed(),
-                "pictures of all cameras came, but for {:.1} s never within half a frame of each other (fps is {})",
+                "pictures of all cameras came, but for {:.1} s never within a frame of each other (fps is {})",
                 self.stall_timeout.as_secs_f64(),
                 self.fps
             );
@@ -210,7 +219,7 @@ impl LiveReader {
                     view.interval += INTERVAL_GAIN * (interval - view.interval);
                 }
                 view.heard = at;
-                self.unmatched += u64::from(view.waiting.replace((at, picture)).is_some());
+                self.unmatched += u64::from(view.waiting.replace(picture).is_some());
                 return Ok(());
             }
             Err(End::Ended(_)) if view.capture.is_given_up => format!("{} fell silent", view.name),
@@ -243,11 +252,7 @@ impl LiveReader {
                     view.capture = Capture::begin(index, view.size, name, source, self.scale, &self.sender)?;
                     view.end = None;
                 }
-                None if self.zero.is_some()
-                    && !view.capture.is_given_up
-                    && view.source.is_connection()
-                    && view.heard.max(view.capture.begin) + GIVEN_UP_AFTER <= now =>
-                {
+                None if self.zero.is_some() && view.given_up_at().is_some_and(|moment| moment <= now) => {
                     view.capture.give_up();
                 }
                 _ => {}
@@ -260,7 +265,7 @@ impl LiveReader {
     fn patience(&self) -> Duration {
         let to_open = |view: &LiveView| match &view.end {
             Some(end) => end.again,
-            None => view.source.is_connection().then(|| view.heard.max(view.capture.begin) + GIVEN_UP_AFTER),
+            None => view.given_up_at(),
         };
         let now = Instant::now();
         let opened = self.views.iter().filter_map(to_open).filter(|moment| *moment > now).min();
@@ -299,12 +304,14 @@ impl LiveReader {
             return None;
         }
         let delivering = || self.views.iter().enumerate().filter(|(index, _)| !silent.contains(index));
-        let arrivals: Option<Vec<Instant>> = delivering().map(|(_, view)| Some(view.waiting.as_ref()?.0)).collect();
-        let arrivals = arrivals?;
-        let (first, last) = (*arrivals.iter().min()?, *arrivals.iter().max()?);
-        if (last - first).as_secs_f64() > 0.5 / self.fps {
+        let all_wait = delivering().all(|(_, view)| view.waiting.is_some());
+        if self.zero.is_none() && !all_wait {
             return None;
         }
+        let newest: Vec<Instant> = delivering().map(|(_, view)| view.heard).collect();
+        let times = self.matching.of_one_frame(&newest).filter(|_| all_wait)?;
+        self.matching.took(times);
+        let [first, last] = times;
         let zero = *self.zero.get_or_insert(first);
         let elapsed = (first.saturating_duration_since(zero).as_secs_f64() * self.fps).round() as usize;
         let index = (self.first + elapsed).max(self.next);
@@ -314,7 +321,7 @@ impl LiveReader {
         for (at, view) in self.views.iter_mut().enumerate() {
             let is_silent = silent.contains(&at);
             self.news.extend(view.leave_out(is_silent, index));
-            let waiting = view.waiting.take().map(|(_, picture)| picture);
+            let waiting = view.waiting.take();
             self.unmatched += u64::from(is_silent && waiting.is_some());
             let [width, height] = view.size;
             let picture = waiting.filter(|_| !is_silent).unwrap_or_else(|| RgbImage::new(width, height));
@@ -327,6 +334,12 @@ impl LiveReader {
 }
 
 impl LiveView {
+    /// When a connection is given up, unless it delivers before.
+    fn given_up_at(&self) -> Option<Instant> {
+        let may_be = self.source.is_connection() && !self.capture.is_given_up;
+        may_be.then(|| self.heard.max(self.capture.begin) + GIVEN_UP_AFTER)
+    }
+
     /// Has sets from this one on be without it, or with it; a sentence where that is news.
     fn leave_out(&mut self, is_left_out: bool, frame: usize) -> Option<String> {
         if is_left_out == std::mem::replace(&mut self.is_left_out, is_left_out) {

@@ -183,6 +183,23 @@ fn pictures_are_matched_by_arrival() {
     assert!(reader.ended().is_some_and(|how| how.contains("camera \"cam1\"") && how.contains("ended after")));
 }
 
+/// Each begins when its ffmpeg does.
+#[test]
+fn four_cameras_without_a_trigger_make_sets() {
+    if !ffmpeg_is_here("four_cameras_without_a_trigger_make_sets") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let made_up = made_up("64x48", "");
+    let sequence = Sequence::open_live(&sequence_of(folder.path(), 25.0, &[made_up.as_str(); 3])).unwrap();
+    let mut reader = sequence.read_live(0, Duration::from_secs(30)).unwrap();
+    assert_eq!(reader.apart(), None);
+    let sets = sets_until(&mut reader, |set| set.set.index >= 50);
+    assert!(sets.len() >= 25, "{} sets in 50 frames", sets.len());
+    let apart = reader.apart().unwrap();
+    assert!((0.0..0.04).contains(&apart), "{apart}");
+}
+
 #[test]
 fn what_is_wrong_with_a_source_is_a_sentence() {
     if !ffmpeg_is_here("what_is_wrong_with_a_source_is_a_sentence") {

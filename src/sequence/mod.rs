@@ -9,6 +9,7 @@ mod in_step;
 mod likely_delays;
 mod live;
 mod live_capture;
+mod live_matching;
 mod live_options;
 mod manifest;
 mod manifest_file;

@@ -62,6 +62,7 @@ impl Acquisition {
             Self::Live(reader) => {
                 let captured = reader.next_set();
                 counts.unmatched.store(reader.unmatched(), Ordering::Relaxed);
+                counts.set_apart(reader.apart());
                 counts.complaints.store(reader.complaints(), Ordering::Relaxed);
                 counts.add_news(reader.take_news());
                 if let Some(how) = reader.ended() {

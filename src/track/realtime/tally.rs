@@ -25,6 +25,8 @@ pub(super) struct Counts {
     pub(super) not_processed: AtomicU64,
     /// Processed sets passed over before tracking.
     pub(super) not_tracked: AtomicU64,
+    /// What the pictures of a live set lay apart, s.
+    apart: Mutex<Option<f64>>,
     first_and_last: Mutex<Option<[Instant; 2]>>,
     ended: Mutex<Option<String>>,
     news: Mutex<Vec<String>>,
@@ -35,6 +37,11 @@ impl Counts {
     pub(super) fn capture(&self, at: Instant) {
         self.captured.fetch_add(1, Ordering::Relaxed);
         lock(&self.first_and_last).get_or_insert([at; 2])[1] = at;
+    }
+
+    /// What the pictures of a live set lay apart on average by now, s.
+    pub(super) fn set_apart(&self, apart: Option<f64>) {
+        *lock(&self.apart) = apart;
     }
 
     /// A source ended the run.
@@ -127,6 +134,7 @@ impl Tally {
             },
             late: get(&counts.late),
             complaints: get(&counts.complaints),
+            apart_ms: lock(&counts.apart).map(|apart| 1e3 * apart),
             ended: counts.ended(),
             error_mm: error,
             sent: Vec::new(),
@@ -161,6 +169,8 @@ pub struct RealtimeSummary {
     pub late: u64,
     /// Lines in which the decoders of live sources complained: damaged pictures, most of all.
     pub complaints: u64,
+    /// What the pictures of a live set lay apart by when they came, on average.
+    pub apart_ms: Option<f64>,
     /// Which live source ended the run, and how.
     pub ended: Option<String>,
     /// Mean error over frames against the truth, mm.
