@@ -16,6 +16,8 @@ const TRACKED: usize = 12;
 const ANEW: usize = 20;
 /// By how much a limb found anywhere must be worth more than the one that was tracked.
 const CONVINCING: f64 = 8.0;
+/// By how much a pose with a straight trunk must be worth more for all of it to be searched round.
+const PROMISES: f64 = 3.0;
 /// By how much less than the best frame of a window one is worth in which all limbs are looked for.
 const POOR: f64 = 12.0;
 /// What tells the random numbers of a track that is traced again from the others'.
@@ -108,9 +110,9 @@ impl<'a> Track<'a> {
         for &t in order {
             let Found { best: mut chosen, other } =
                 self.searched(scorer, seen[t], t, &last, &poses(&candidates[t]), (0, 1.0))?;
-            // Where the track the other way ended in this pose, having looked for its limbs, another look finds no more.
+            // Where the track the other way ended nearly in this pose, having looked for its limbs, another look finds no more.
             let is = |what: fn(&Candidate) -> bool| {
-                candidates[t].iter().any(|known| what(known) && !is_different(known, &chosen))
+                candidates[t].iter().any(|known| what(known) && !apart(&known.points, &chosen.points))
             };
             let [is_looked_at, is_looked_into] = [is(|known| known.is_looked_at), is(|known| known.is_looked_into)];
             chosen.is_looked_at = is_looked_at;
@@ -368,21 +370,24 @@ impl<'a> Track<'a> {
         seen: &Seen,
         chosen: &mut Candidate,
     ) -> Result<Option<Candidate>> {
-        let Some((mut pose, limbs)) = self.limbs.straightened(&chosen.pose, scorer.space) else { return Ok(None) };
+        let Some((pose, limbs)) = self.limbs.straightened(&chosen.pose, scorer.space) else { return Ok(None) };
         let views = SeenView::all(&seen.observations);
+        let mut other = scorer.candidate(pose)?;
         for &limb in limbs {
             let turn = self.turn(STRAIGHTENED + 1 + limb as u64);
-            pose = self.limbs.ends_inward(scorer, &views, seen.index, limb, &pose, turn)?.pose;
+            other = self.limbs.ends_inward(scorer, &views, seen.index, limb, &other.pose, turn)?;
         }
-        let mut other = self.settled(scorer, seen.index, &pose, STRAIGHTENED)?;
+        if other.worth > chosen.worth + PROMISES {
+            other = self.settled(scorer, seen.index, &other.pose, STRAIGHTENED)?;
+        }
         if other.worth > chosen.worth + CONVINCING {
             std::mem::swap(chosen, &mut other);
         }
         Ok(Some(other))
     }
 
-    /// Looks for `limbs`, again and again as long as one is found. The most promising of them are tried with all else moving along, whatever
-    /// they are worth by themselves: an arm that is found explains little while the trunk still stands as it did without it.
+    /// Looks for `limbs`, again and again as long as one is found. The most promising of them are tried with all else moving along, whatever they
+    /// are worth by themselves, unless they are where they were: an arm that is found explains little while the trunk still stands as it did without it.
     fn rescued(
         &self,
         scorer: &mut Scorer<'_>,
@@ -401,7 +406,9 @@ impl<'a> Track<'a> {
                 .map(|&limb| self.limbs.ends_inward(scorer, &views, index, limb, &chosen.pose, turn(limb)))
                 .collect::<Result<Vec<_>>>()?;
             found.sort_by(|a, b| b.worth.total_cmp(&a.worth));
-            for (rank, promising) in found.iter().take(PROMISING).enumerate() {
+            // Round what was found where it was before all was searched just now.
+            let promising = found.iter().take(PROMISING).enumerate().filter(|(_, found)| is_different(found, chosen));
+            for (rank, promising) in promising {
                 others.push(self.settled(scorer, index, &promising.pose, 100 * attempt + 1 + rank as u64)?);
             }
             others.extend(found);
