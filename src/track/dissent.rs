@@ -29,6 +29,13 @@ pub(super) struct Stretch {
     pub(super) last: usize,
 }
 
+impl Stretch {
+    /// Whether the frame at this place in the run is one of it.
+    pub(super) fn contains(self, at: usize) -> bool {
+        (self.first..=self.last).contains(&at)
+    }
+}
+
 /// Where the views of a run do not agree; none of fewer than three views, of which nobody could tell which one is wrong. It need not be the one of
 /// the lowest f1: a camera that stands still may hold the pose where the one across sees nobody.
 pub(super) fn stretches(results: &[FrameResult], confidences: &[FrameConfidence]) -> Vec<Stretch> {

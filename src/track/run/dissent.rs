@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use super::{Run, found_in};
 use crate::features::{SeenFrame, SeenView};
 use crate::track::confidence::{Confidence, LossRule};
-use crate::track::dissent::{Stretch, leave_out, stretches};
+use crate::track::dissent::{leave_out, stretches};
 use crate::track::feed::{Frames, Keeps, Prepared};
 use crate::track::journal::FrameResult;
 use crate::track::plan::Plan;
@@ -38,10 +38,10 @@ impl Run<'_> {
         self.find_dissent_in(feed, progress)
     }
 
-    /// [`Self::find_dissent`], where `feed` opens the frames that are left to her, from the one of a number on.
+    /// [`Self::find_dissent`], where `feed` opens the frames that are left to her, from the one of this number on.
     pub(in crate::track) fn find_dissent_in<'f>(
         &mut self,
-        feed: impl Fn(&Self, usize) -> Result<Box<dyn Frames + 'f>>,
+        feed: impl FnOnce(&Self, usize) -> Result<Box<dyn Frames + 'f>>,
         progress: &mut dyn Progress,
     ) -> Result<()> {
         if !self.looks_back() {
@@ -49,48 +49,41 @@ impl Run<'_> {
         }
         let confidences = Confidence::of_all(&self.plan.body, LossRule::default(), &self.frames);
         let stretches = stretches(&self.frames, &confidences);
-        if stretches.is_empty() {
-            return Ok(());
-        }
+        let ([first, .., last] | [first @ last]) = stretches.as_slice() else { return Ok(()) };
         let start = Instant::now();
-        for stretch in stretches {
-            let mut feed = feed(self, self.plan.range.start + stretch.first)?;
-            if let Some(results) = self.found_without(feed.as_mut(), stretch, progress)? {
+        let mut feed = feed(self, self.plan.range.start + first.first)?;
+        let mut followers = Vec::new();
+        for at in first.first..=last.last {
+            progress.preparing("asking which camera is wrong", at - first.first, last.last - first.first + 1);
+            if progress.should_stop() {
+                // Nor will the second pass begin.
+                break;
+            }
+            let Some(mut prepared) = feed.next()? else { break };
+            let Some(stretch) = stretches.iter().find(|stretch| stretch.contains(at)) else { continue };
+            if at == stretch.first {
+                followers = self.followers()?;
+            }
+            if followers.is_empty() {
+                continue;
+            }
+            self.observe(&mut prepared)?;
+            let before = self.frames[stretch.first.saturating_sub(1)].pose.clone();
+            for follower in &mut followers {
+                self.follow(follower, &before, &prepared).with_context(|| format!("frame {}", prepared.index))?;
+            }
+            if at == stretch.last.min(stretch.first + ASKED - 1) {
+                let told = wrong_view(&followers.iter().map(Follower::fitness).collect::<Vec<f32>>());
+                followers.retain(|follower| told.is_some() && follower.without == told);
+            }
+            if at == stretch.last
+                && let Some(Follower { results, .. }) = followers.pop()
+            {
                 self.frames.splice(stretch.first..=stretch.last, results);
             }
         }
         self.count_over_frames("dissent", start);
         Ok(())
-    }
-
-    /// What a search of a stretch finds without the view that is wrong, where one is; `feed` begins with it, and of its frames no more are read than
-    /// it takes to tell. Nothing where the run is to end, nor will its second pass begin then.
-    fn found_without(
-        &mut self,
-        feed: &mut dyn Frames,
-        stretch: Stretch,
-        progress: &mut dyn Progress,
-    ) -> Result<Option<Vec<FrameResult>>> {
-        let before = self.frames[stretch.first.saturating_sub(1)].pose.clone();
-        let mut followers = self.followers()?;
-        for at in stretch.first..=stretch.last {
-            progress.preparing("asking which camera is wrong", at, self.frames.len());
-            if progress.should_stop() {
-                return Ok(None);
-            }
-            let Some(mut prepared) = feed.next()? else { return Ok(None) };
-            self.observe(&mut prepared)?;
-            for follower in &mut followers {
-                self.follow(follower, &before, &prepared).with_context(|| format!("frame {}", prepared.index))?;
-            }
-            if at == stretch.last.min(stretch.first + ASKED - 1) {
-                let Some(told) = wrong_view(&followers.iter().map(Follower::fitness).collect::<Vec<f32>>()) else {
-                    return Ok(None);
-                };
-                followers.retain(|follower| follower.without == Some(told));
-            }
-        }
-        Ok(followers.pop().map(|follower| follower.results))
     }
 
     /// One without each view and, last, one with all.
